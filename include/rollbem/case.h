@@ -80,6 +80,8 @@ typedef struct {
     unsigned excludes;     /* of options that share a bit only one may be given */
     int frozen; /* numbers: 1: of the mesh, the steps or the solver, with respect to which
                    nothing is differentiated */
+    const char *alone; /* texts: the value of the option without one: where the next
+                          argument is an option, a file or has a dot or slash; or NULL */
     const char *unset; /* help: what stands for the default; NULL: the value itself */
     const char *help;
 } rb_option;
@@ -337,7 +339,7 @@ typedef struct {
 } rb_case_number;
 
 enum { RB_CASE_NUMBERS_MAX = 64 };
-/* All numbers of a resolved case that can be varied; at most RB_CASE_NUMBERS_MAX.  number:
+/* All numbers of a resolved case that can be varied; at most RB_CASE_NUMBERS_MAX. number:
  * each refers to its own place, so that the array must not move. RB_ENOMEM. */
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
                           rb_message *why);
@@ -354,6 +356,29 @@ typedef struct {
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why);
+/* A result that has derivatives; NULL: there is none of that name. *is_column: 1: it has
+ * an entry per element. */
+const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);
+
+/* Uncertain inputs, as in "mu=0.02,radius=1%": a standard deviation each, the inputs
+ * independent. */
+enum { RB_CASE_TOLERANCES_MAX = 32 };
+typedef struct {
+    int n;
+    char name[RB_CASE_TOLERANCES_MAX][40];
+    double deviation[RB_CASE_TOLERANCES_MAX]; /* in mm, N, MPa */
+} rb_case_tolerances;
+
+/* RB_EINVAL: what is no number of the case, or no deviation >= 0 (the line says which).
+ */
+rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
+                                  rb_case_tolerances *t, rb_message *why);
+/* To first order: the standard deviations of all results, in their places (NAN: none).
+ * all: in mm, N, MPa, with those inputs among them.  RB_EINVAL: an input has no
+ * derivatives. */
+rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
+                            rb_rolling_solution *deviation, rb_message *why);
+
 /* From mm, N, MPa to other units, once. */
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units);
 void rb_case_derivatives_free(rb_case_derivatives *all);

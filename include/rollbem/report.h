@@ -380,6 +380,37 @@ rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why);
 
+/* ---- Derivatives (case.h) ---------------------------------------------------------- */
+
+enum { RB_REPORT_RESULTS_MAX = 64 };
+/* What is shown of the derivatives of a case. */
+typedef struct {
+    int n; /* results by name; 0: all numbers */
+    const rb_rolling_result *result[RB_REPORT_RESULTS_MAX];
+    int is_column[RB_REPORT_RESULTS_MAX];
+    const rb_case_derivatives *all; /* borrowed; in the units that are shown */
+    rb_rolling_solution deviation;  /* of a tolerance */
+} rb_report_derivatives;
+
+/* The results of a list of names, or "all".  RB_EINVAL: no result, or one without
+ * derivatives. */
+rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
+                                   rb_message *why);
+/* derivatives: {result: {input: number, or [left, right]}}; of columns a list of numbers
+ * stands in the place of a number. */
+void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
+/* tolerances: {result: standard deviation}. */
+void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives *d);
+/* A row per result and input, for each result by what one per cent of the input does. */
+rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
+                                     const rb_report_derivatives *d, const char *command,
+                                     const rb_report_style *style);
+/* The same for people: the first rows of each result. */
+rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
+                                      const rb_report_derivatives *d);
+void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
+                          const rb_report_derivatives *d);
+
 RB_PUBLIC_END
 
 #endif

@@ -187,3 +187,110 @@ void rb_case_derivatives_free(rb_case_derivatives *all)
     free(all->of);
     *all = (rb_case_derivatives){0};
 }
+
+/* ---- Names, and uncertain inputs ----------------------------------------------------
+ */
+
+const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column)
+{
+    const rb_rolling_results *const lists[] = {&rb_rolling_solution_scalars,
+                                               &rb_rolling_solution_columns};
+
+    for (int list = 0; list < 2; list++)
+        for (int k = 0; k < lists[list]->n; k++) {
+            const rb_rolling_result *r = &lists[list]->row[k];
+            *is_column = list;
+            if (rb_sensitivity_has(r) && strcmp(r->name, name) == 0)
+                return r;
+        }
+    return NULL;
+}
+
+/* "0.02", "1%", "0.5mm" of the number; RB_EINVAL. */
+static rb_status read_deviation(const rb_case_number *number, const char *text,
+                                double *deviation, rb_message *why)
+{
+    char digits[64];
+    const size_t n = strlen(text);
+    int plain;
+
+    if (n > 1 && n < sizeof digits && text[n - 1] == '%') {
+        snprintf(digits, sizeof digits, "%.*s", (int)n - 1, text);
+        if (!rb_option_number(digits, deviation))
+            return RB_EINVAL;
+        *deviation *= 0.01 * fabs(number->input.value);
+        return RB_OK;
+    }
+    const rb_status s = rb_unit_read(text, number->option->unit, deviation, &plain, why);
+    if (s == RB_OK && plain)
+        *deviation = rb_unit_stored(rb_case_units(number->c, RB_GIVEN_ARGUMENT),
+                                    number->option->unit, *deviation);
+    return s;
+}
+
+rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
+                                  rb_case_tolerances *t, rb_message *why)
+{
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    rb_status s =
+        number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for tolerances");
+    int numbers = 0;
+
+    t->n = 0;
+    if (s == RB_OK)
+        s = rb_case_numbers(c, number, &numbers, why);
+    for (size_t n; s == RB_OK && *text; text += n + (text[n] == ',')) {
+        char word[100];
+        n = strcspn(text, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(n < 99 ? n : 99), text);
+        char *value = strchr(word, '=');
+        int k = 0;
+        if (value)
+            *value++ = '\0';
+        while (k < numbers && strcmp(number[k].name, word) != 0)
+            k++;
+        if (k == numbers || t->n == RB_CASE_TOLERANCES_MAX)
+            s = rb_fail(why, RB_EINVAL, "'%s' is no number of this case", word);
+        else if (!value ||
+                 read_deviation(&number[k], value, &t->deviation[t->n], why) != RB_OK ||
+                 !(t->deviation[t->n] >= 0.0))
+            s = rb_fail(why, RB_EINVAL,
+                        "%s: expected a standard deviation >= 0 or per cent, got '%s'",
+                        word, value ? value : "nothing");
+        else
+            memcpy(t->name[t->n++], number[k].name, sizeof number[k].name);
+    }
+    free(number);
+    return s;
+}
+
+rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
+                            rb_rolling_solution *deviation, rb_message *why)
+{
+    *deviation = (rb_rolling_solution){.units = all->units};
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        double sum = 0.0;
+        for (int i = 0; i < t->n; i++) {
+            const rb_case_derivative *of = all->of;
+            while (of < all->of + all->n && strcmp(of->name, t->name[i]) != 0)
+                of++;
+            if (of == all->of + all->n || of->status != RB_OK)
+                return rb_fail(why, RB_EINVAL, "tolerance: %s: %s", t->name[i],
+                               of == all->of + all->n ? "no derivatives" : of->why.text);
+            const double left =
+                             of->d.has[0] ? rb_rolling_number(r, &of->d.value[0]) : NAN,
+                         right = of->d.sides == 1 ? left
+                                 : of->d.has[1]   ? rb_rolling_number(r, &of->d.value[1])
+                                                  : NAN;
+            const double slope = isnan(left)    ? right
+                                 : isnan(right) ? left
+                                                : 0.5 * (fabs(left) + fabs(right));
+            sum += slope * slope * t->deviation[i] * t->deviation[i];
+        }
+        if (r->kind != RB_RESULT_WHOLE)
+            *(double *)(void *)((char *)deviation + r->offset) =
+                rb_sensitivity_has(r) ? sqrt(sum) : NAN;
+    }
+    return RB_OK;
+}

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- Command line ---------------------------------------------------------------- */
 
@@ -71,6 +72,9 @@ static const char *value_of(const rb_option *o, const char *equals, int *i, int 
         return equals + 1;
     if (o->kind == RB_OPTION_FLAG)
         return "yes";
+    if (o->alone && (*i + 1 >= argc || argv[*i + 1][0] == '-' ||
+                     strpbrk(argv[*i + 1], "./") || access(argv[*i + 1], R_OK) == 0))
+        return o->alone;
     if (*i + 1 >= argc)
         return NULL;
     /* a text value that looks like an option is a forgotten value */

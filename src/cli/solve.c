@@ -12,11 +12,15 @@ typedef struct {
     /* options */
     int trace, all_solutions, states;
     const char *dump, *fclib, *history_table, *history_plot;
+    const char *derivatives, *tolerance;
     cli_steps steps;
     /* results */
     rb_case_result r;
     rb_rolling_solutions all; /* n = 0: not asked for */
     rb_rolling_states kept;   /* of every step; n = 0: likewise */
+    rb_report_derivatives shown;
+    rb_case_derivatives slopes;
+    rb_case_tolerances tolerances;
 } solved;
 
 #define PLACE(member) offsetof(solved, member)
@@ -37,6 +41,17 @@ static const rb_option options[] = {
         "steady, friction that depends on the slip or the temperature: solutions "
         "that differ, each with its residual, on standard error and as solutions "
         "in JSON"),
+
+    RB_TEXT_LINE(
+        "derivatives", PLACE(derivatives), "RESULT,...",
+        "derivatives of these results (without names: of all) with respect to "
+        "all numbers of the case, on the elements of the solution: the table, or "
+        "derivatives in JSON; p, q: of the tractions",
+        .unset = "none", .alone = "all"),
+    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
+                 "standard deviations of inputs, as mu=0.02,radius=1%: those of all "
+                 "results to first order, on standard error and as tolerances in JSON",
+                 .unset = "none"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
@@ -93,16 +108,27 @@ static void add_json(const cli_case_run *run, json_t **root)
     rb_report_json_result(root, &it->r, &it->kept);
     if (it->all.n > 0)
         rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
+    if (it->derivatives)
+        rb_report_json_derivatives(root, &it->shown);
+    if (it->tolerance)
+        rb_report_json_tolerances(root, &it->shown);
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
+    const solved *it = run->own;
+    if (it->derivatives)
+        return rb_report_derivative_table(out, run->solution, &it->shown,
+                                          cli_command_line(), &run->o.style);
     return rb_report_table(out, &run->c->rc, run->solution, cli_command_line(),
                            &run->o.style);
 }
 
 static rb_status write_brief_table(FILE *out, const cli_case_run *run)
 {
+    const solved *it = run->own;
+    if (it->derivatives)
+        return rb_report_brief_derivatives(out, run->solution, &it->shown);
     return rb_report_brief_table(out, run->solution, cli_terminal_width());
 }
 
@@ -152,6 +178,8 @@ static cli_exit show_behind(const cli_case_run *run)
 static void summarise(const cli_case_run *run)
 {
     const solved *it = run->own;
+    if (it->tolerance)
+        rb_report_tolerances(stderr, &it->r.solution, &it->shown);
     rb_report_summary(stderr, &it->r.solution, cli_terminal_width());
     if (it->r.has_errors)
         rb_report_errors(stderr, &it->r.solution, &it->r.errors);
@@ -163,6 +191,21 @@ static void summarise(const cli_case_run *run)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
+/* Of what is asked for, in the units that are shown. */
+static rb_status differentiate(const cli_case_run *run, solved *it, rb_message *why)
+{
+    rb_status s =
+        rb_case_differentiate(run->words, &it->r.model, 0, NULL, &it->slopes, why);
+    if (s == RB_OK && it->tolerance)
+        s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation, why);
+    if (s != RB_OK) /* the case has its solution, and nothing beside it */
+        it->derivatives = it->tolerance = NULL;
+    rb_rolling_solution_convert(&it->shown.deviation, run->c->units);
+    rb_case_derivatives_convert(&it->slopes, run->c->units);
+    it->shown.all = &it->slopes;
+    return s;
+}
+
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     solved *it = run->own;
@@ -173,6 +216,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
+    if (s == RB_OK && (it->derivatives || it->tolerance))
+        s = differentiate(run, it, why);
     rb_case_result_convert(&it->r, units);
     for (int k = 0; k < it->all.n; k++)
         rb_rolling_solution_convert(&it->all.solution[k], units);
@@ -218,6 +263,13 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
         (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
         return cli_fail(CLI_USAGE,
                         "--all-solutions: at a given creepage, not under a given force");
+    if ((it->derivatives || it->tolerance) && !model_kept)
+        return cli_fail(CLI_USAGE,
+                        "--derivatives and --tolerance: not together with error bars");
+    if ((it->derivatives || it->tolerance) && rb_case_has_steps(c))
+        return cli_fail(CLI_USAGE,
+                        "--derivatives and --tolerance: of one step; this case "
+                        "is a sequence of steps");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
@@ -231,6 +283,19 @@ static cli_exit check_states(const cli_case_run *run)
     if (it->states &&
         (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
+    return CLI_CONTINUE;
+}
+
+/* Names of results and of numbers. */
+static cli_exit check_derivatives(const cli_case_run *run, solved *it)
+{
+    rb_message why = {""};
+    if (it->derivatives &&
+        rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    if (it->tolerance && rb_case_read_tolerances(run->words, it->tolerance,
+                                                 &it->tolerances, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
     return CLI_CONTINUE;
 }
 
@@ -254,6 +319,8 @@ static cli_exit check(cli_case_run *run)
         code = check_behind(it, run->c);
     if (code == CLI_CONTINUE && it->trace)
         code = choose_pivots(run->words);
+    if (code == CLI_CONTINUE)
+        code = check_derivatives(run, run->own);
     return code == CLI_CONTINUE ? check_states(run) : code;
 }
 
@@ -287,6 +354,7 @@ int cli_solve(int argc, char **argv)
     const cli_exit code = cli_case_run_command(&command, &it, argc, argv);
     rb_rolling_states_free(&it.kept);
     rb_rolling_solutions_free(&it.all);
+    rb_case_derivatives_free(&it.slopes);
     rb_case_result_free(&it.r);
     return code;
 }

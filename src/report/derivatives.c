@@ -1,0 +1,260 @@
+/* Derivatives of the results of a case, and what uncertain inputs make of them. */
+#include "report/internal.h"
+#include "rollbem/case.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_result(const rb_rolling_result *r, int is_column,
+                       rb_report_derivatives *d)
+{
+    if (d->n < RB_REPORT_RESULTS_MAX) {
+        d->is_column[d->n] = is_column;
+        d->result[d->n++] = r;
+    }
+}
+
+rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
+                                   rb_message *why)
+{
+    const rb_rolling_results *all = &rb_rolling_solution_scalars;
+
+    d->n = 0;
+    for (int k = 0; k < all->n && strcmp(names, "all") == 0; k++)
+        if (rb_sensitivity_has(&all->row[k]))
+            add_result(&all->row[k], 0, d);
+    if (d->n > 0)
+        return RB_OK;
+    for (size_t n; *names; names += n + (names[n] == ',')) {
+        char name[40];
+        int is_column;
+        n = strcspn(names, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), names);
+        const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
+        if (!r) {
+            rb_guess guess = {.word = name};
+            for (int k = 0; k < all->n; k++)
+                if (rb_sensitivity_has(&all->row[k]))
+                    rb_guess_try(&guess, all->row[k].name);
+            return rb_fail(why, RB_EINVAL,
+                           "expected a result that has derivatives, got '%s'%s", name,
+                           rb_guess_text(&guess, ""));
+        }
+        add_result(r, is_column, d);
+    }
+    return RB_OK;
+}
+
+/* ---- JSON -------------------------------------------------------------------------- */
+
+static json_t *one_side(const rb_rolling_result *r, int is_column,
+                        const rb_case_derivative *of, int side)
+{
+    const rb_rolling_solution *value = &of->d.value[side];
+
+    if (!of->d.has[side])
+        return json_null();
+    if (!is_column)
+        return rb_report_json_number(rb_rolling_number(r, value));
+    json_t *list = json_array();
+    for (int i = 0; i < value->n; i++)
+        rb_report_json_append(&list,
+                              rb_report_json_number(rb_rolling_entry(r, value, i)));
+    return list;
+}
+
+static json_t *by_inputs(const rb_report_derivatives *d, int k)
+{
+    json_t *object = json_object();
+
+    for (int i = 0; i < d->all->n; i++) {
+        const rb_case_derivative *of = &d->all->of[i];
+        if (of->status != RB_OK)
+            continue;
+        json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
+        if (of->d.sides == 2) {
+            json_t *both = json_array();
+            rb_report_json_append(&both, value);
+            rb_report_json_append(&both, one_side(d->result[k], d->is_column[k], of, 1));
+            value = both;
+        }
+        rb_report_json_set(&object, of->name, value);
+    }
+    return object;
+}
+
+/* 1: the case has the result, so that it has a derivative. */
+static int has_result(const rb_report_derivatives *d, int k)
+{
+    for (int i = 0; i < d->all->n; i++)
+        for (int side = 0; side < 2 && d->all->of[i].status == RB_OK; side++) {
+            const rb_sensitivity_derivative *of = &d->all->of[i].d;
+            if (of->has[side] &&
+                (d->is_column[k]
+                     ? rb_rolling_has_column(d->result[k], &of->value[side])
+                     : !isnan(rb_rolling_number(d->result[k], &of->value[side]))))
+                return 1;
+        }
+    return 0;
+}
+
+void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
+{
+    json_t *results = json_object(), *without = json_object();
+
+    for (int k = 0; k < d->n; k++)
+        if (has_result(d, k))
+            rb_report_json_set(&results, d->result[k]->name, by_inputs(d, k));
+    rb_report_json_set(root, "derivatives", results);
+    for (int i = 0; i < d->all->n; i++)
+        if (d->all->of[i].status != RB_OK)
+            rb_report_json_set(&without, d->all->of[i].name,
+                               json_string(d->all->of[i].why.text));
+    rb_report_json_set(root, "without_derivatives", without);
+    rb_report_json_set(
+        root, "derivatives_are",
+        json_string("on the elements of the solution, which stay where they "
+                    "are; [left, right] where the two sides differ"));
+}
+
+void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
+{
+    json_t *results = json_object();
+
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (rb_sensitivity_has(r) && !isnan(rb_rolling_number(r, &d->deviation)))
+            rb_report_json_set(
+                &results, r->name,
+                rb_report_json_number(rb_rolling_number(r, &d->deviation)));
+    }
+    rb_report_json_set(root, "tolerances", results);
+}
+
+/* ---- Tables ------------------------------------------------------------------------ */
+
+/* A derivative in its row; one: what one per cent of the input changes. */
+typedef struct {
+    const rb_rolling_result *result;
+    const rb_case_derivative *of;
+    int entry; /* of a column, from 0; -1: a number */
+    double side[2], one;
+} derivative;
+
+static int by_size(const void *a, const void *b)
+{
+    const derivative *x = a, *y = b;
+    return fabs(x->one) > fabs(y->one)   ? -1
+           : fabs(x->one) < fabs(y->one) ? 1
+                                         : (x->of > y->of) - (x->of < y->of);
+}
+
+/* Those of result k (entry of a column) with respect to all inputs, the largest first. */
+static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative *row)
+{
+    int n = 0;
+
+    for (int i = 0; i < d->all->n; i++) {
+        const rb_case_derivative *of = &d->all->of[i];
+        derivative r = {d->result[k], of, entry, {NAN, NAN}, NAN};
+        for (int side = 0; side < 2 && of->status == RB_OK; side++)
+            if (of->d.has[side])
+                r.side[side] =
+                    entry < 0 ? rb_rolling_number(r.result, &of->d.value[side])
+                              : rb_rolling_entry(r.result, &of->d.value[side], entry);
+        if (of->d.sides == 1)
+            r.side[1] = r.side[0];
+        if (isnan(r.side[0]) && isnan(r.side[1]))
+            continue;
+        r.one = 0.0 + 0.01 * of->value * (isnan(r.side[1]) ? r.side[0] : r.side[1]);
+        row[n++] = r;
+    }
+    qsort(row, (size_t)n, sizeof *row, by_size);
+    return n;
+}
+
+static int entries_of(const rb_report_derivatives *d, int k, const rb_rolling_solution *s)
+{
+    return d->is_column[k] ? s->n : 1;
+}
+
+static const char *unit_of(const rb_report_derivatives *d, const char *unit)
+{
+    return unit && strcmp(unit, "-") != 0 ? rb_unit_name(d->all->units, unit) : "1";
+}
+
+rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
+                                     const rb_report_derivatives *d, const char *command,
+                                     const rb_report_style *style)
+{
+    rb_report_cells c =
+        rb_report_cells_begin(out, style,
+                              "result input unit_of_result unit_of_input value_of_result "
+                              "value_of_input left right change_by_1_percent");
+    derivative row[RB_CASE_NUMBERS_MAX];
+    char name[64];
+
+    rb_report_comment_origin(&c, command);
+    rb_report_comment(&c, "derivatives on the elements of the solution, which stay where "
+                          "they are; left, right: for a falling and a growing input");
+    for (int i = 0; i < d->all->n; i++)
+        if (d->all->of[i].status != RB_OK)
+            rb_report_comment(&c, "none by %s: %s", d->all->of[i].name,
+                              d->all->of[i].why.text);
+    for (int k = 0; k < d->n; k++)
+        for (int e = 0; has_result(d, k) && e < entries_of(d, k, s); e++) {
+            const int entry = d->is_column[k] ? e : -1;
+            const int n = rows_of(d, k, entry, row);
+            snprintf(name, sizeof name, entry < 0 ? "%s" : "%s[%d]", d->result[k]->name,
+                     e);
+            for (int i = 0; i < n; i++) {
+                rb_report_cell_text(&c, name);
+                rb_report_cell_text(&c, row[i].of->name);
+                rb_report_cell_text(&c, unit_of(d, d->result[k]->unit));
+                rb_report_cell_text(&c, unit_of(d, row[i].of->unit));
+                rb_report_cell_number(&c, entry < 0
+                                              ? rb_rolling_number(d->result[k], s)
+                                              : rb_rolling_entry(d->result[k], s, e));
+                rb_report_cell_number(&c, row[i].of->value);
+                rb_report_cell_number(&c, row[i].side[0]);
+                rb_report_cell_number(&c, row[i].side[1]);
+                rb_report_cell_number(&c, row[i].one);
+                rb_report_cells_end_row(&c);
+            }
+        }
+    return rb_report_flush(out);
+}
+
+rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
+                                      const rb_report_derivatives *d)
+{
+    enum { MOST = 5 };
+    derivative row[RB_CASE_NUMBERS_MAX];
+
+    for (int k = 0; k < d->n; k++) {
+        if (d->is_column[k] || !has_result(d, k))
+            continue;
+        fprintf(out, "%s = %.5g %s\n", d->result[k]->name,
+                rb_rolling_number(d->result[k], s), unit_of(d, d->result[k]->unit));
+        const int n = rows_of(d, k, -1, row);
+        for (int i = 0; i < n && i < MOST && row[i].one != 0.0; i++)
+            fprintf(out, "  %-24s %12.5g  1 %% of it changes that by %.3g\n",
+                    row[i].of->name,
+                    isnan(row[i].side[1]) ? row[i].side[0] : row[i].side[1], row[i].one);
+    }
+    return rb_report_flush(out);
+}
+
+void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
+                          const rb_report_derivatives *d)
+{
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        const double deviation = rb_rolling_number(r, &d->deviation);
+        if (rb_sensitivity_has(r) && deviation > 0.0)
+            fprintf(out, "  %-20s %.6g +- %.2g %s\n", r->name, rb_rolling_number(r, s),
+                    deviation, unit_of(d, r->unit));
+    }
+}
