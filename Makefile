@@ -217,7 +217,7 @@ $(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(filter %.o,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(foreach folder,base lcp bem contact rolling results history study case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
+CORE := $(foreach folder,base lcp bem contact crack rolling results history study case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@

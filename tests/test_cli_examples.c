@@ -163,6 +163,16 @@ static void commands_of_the_rolls_run(void **state)
     assert_int_equal(run("test -s %s/resistance.png", folder), 0);
 }
 
+static void commands_of_the_cracks_run(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    assert_true(run_page("docs/crack.md", folder, &wrong) >= 2);
+    assert_int_equal(wrong, 0);
+    assert_int_equal(run("test -s %s/crack.png", folder), 0);
+    assert_int_equal(run("test -s %s/orbit.png", folder), 0);
+}
+
 static int make_folder(void **state)
 {
     (void)state;
@@ -183,6 +193,7 @@ int main(void)
         cmocka_unit_test(blocks_of_the_readme_print_what_it_shows),
         cmocka_unit_test(commands_of_the_cookbook_run),
         cmocka_unit_test(commands_of_the_rolls_run),
+        cmocka_unit_test(commands_of_the_cracks_run),
         cmocka_unit_test(by_hand_is_computed_again_by_octave),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

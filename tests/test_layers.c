@@ -25,10 +25,10 @@ static const struct {
     {"history", " base blas bem lcp contact rolling closed_forms "},
     {"study", " base blas bem lcp contact rolling closed_forms "},
     {"sensitivity", " base blas contact rolling sensitivity "},
-    {"case", " base io contact rolling sensitivity case "},
+    {"case", " base io contact crack rolling sensitivity case "},
     {"api", " base blas sparse io lcp contact friction rolling closed_forms sensitivity case api "},
     {"verify", " base bem rolling closed_forms verify "},
-    {"report", " base blas sparse units bem lcp contact io friction fem rolling "
+    {"report", " base blas sparse units bem lcp contact crack io friction fem rolling "
                "closed_forms sensitivity case report "
                "report_fem "},
 };

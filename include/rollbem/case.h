@@ -17,6 +17,7 @@
 
 #include "rollbem/base.h"
 #include "rollbem/io_contact.h"
+#include "rollbem/crack.h"
 #include "rollbem/rolling.h"
 #include "rollbem/sensitivity.h"
 #include "rollbem/units.h"
@@ -196,6 +197,7 @@ typedef enum {
     RB_CASE_SPEEDS, /* a curve over the speed: the same */
     RB_CASE_STRESS, /* the stress below the surface */
     RB_CASE_WEAR,   /* what sliding, fretting or rolling takes off */
+    RB_CASE_CRACK,  /* the load of a crack */
     RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
 
@@ -382,6 +384,56 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
 /* From mm, N, MPa to other units, once. */
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units);
 void rb_case_derivatives_free(rb_case_derivatives *all);
+
+/* ---- Cracks ------------------------------------------------------------------------ */
+
+/* A crack in body B under the contact of a case, as it is typed: lengths in half-widths
+ * of the contact, Hertz's of its load, as distances of histories; angle in degrees. */
+typedef struct {
+    double length, angle, mouth, depth, friction;
+    int elements;
+    double from, to; /* positions of the contact; NAN: not given */
+    int passes;
+    int fluid;            /* rb_crack_fluid */
+    double remote_stress; /* [stress] */
+    int unloaded, coupled;
+} rb_case_crack;
+
+rb_case_crack rb_case_crack_defaults(void);
+/* The options of such a crack, section [crack]; their values stand in an rb_case_crack.
+ */
+extern const rb_option rb_case_crack_options[];
+extern const int rb_case_crack_options_n;
+
+enum { RB_CASE_CRACK_NOTES = 4 };
+typedef struct {
+    rb_case_result contact; /* solution n = 0: unloaded */
+    double half_width;      /* [length] */
+    int passes;
+    rb_crack_shape shape;
+    rb_crack_history history;
+    rb_crack_summary summary;
+    int has_errors;
+    rb_crack_summary errors; /* of each number of the summary */
+    int notes;
+    char note[RB_CASE_CRACK_NOTES][200]; /* how the result is to be read */
+    rb_units units;                      /* of all values but shape and contact.model */
+} rb_case_crack_result;
+
+/* What is wrong with the crack and its positions, or with the case as its load. */
+rb_status rb_case_crack_check(const rb_resolved_case *resolved,
+                              const rb_case_crack *crack, rb_message *why);
+/* Solves the contact, passes it over the crack, and where the case asks for error bars
+ * does so with twice as many elements too.  In transient rolling the contact stands at
+ * `from` plus the rolled distance; in a static history it stays at `from`. Free the
+ * result in any case. */
+rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
+                              const rb_case_crack *crack, rb_case_crack_result *result,
+                              rb_message *why);
+void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
+void rb_case_crack_free(rb_case_crack_result *result);
+/* Numbers of rb_crack_summary and columns of rb_crack_history. */
+extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns;
 
 /* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 

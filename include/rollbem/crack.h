@@ -114,7 +114,8 @@ typedef struct {
 /* One entry per step of all passes; owned. */
 typedef struct {
     int n, nodes;
-    double *x, *K_I, *K_II, *K_I_upper, *K_II_upper;
+    double *x, *K_I, *K_II;
+    double *K_I_upper, *K_II_upper; /* NULL where the upper end is a mouth */
     double *open_length, *stick_length, *fluid_pressure;
     double *residual;
     double *D; /* n x 2 nodes, step by step */

@@ -92,6 +92,9 @@ struct json_t *rb_report_json_text(const char *text);
 struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
+/* The value of an option in the struct of its table. */
+struct json_t *rb_report_json_option(const rb_option *option, const void *values,
+                                     rb_units units);
 /* Every value that the resolved case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name: whether two
@@ -231,6 +234,24 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,
                                  const rb_report_wear *w, rb_message *why);
 void rb_report_wear_free(rb_report_wear *w);
+
+/* ---- Cracks ------------------------------------------------------------------------ */
+
+/* One row per position of the contact, all passes.  RB_EWRITE: see errno. */
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
+                                const char *command, const rb_report_style *style);
+/* Sets "crack", "contact", "summary", "table", and adds to "notes". */
+void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
+void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r);
+/* Of the last pass: K over the position with the zones of the faces below; K_II over K_I;
+ * the crack at the position nearest to `at` [half-widths], its faces moved apart by what
+ * they are, magnified. */
+rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas,
+                                  const rb_case_crack_result *r, rb_message *why);
+rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
+                                const rb_case_crack_result *r, rb_message *why);
+rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas,
+                               const rb_case_crack_result *r, double at, rb_message *why);
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 

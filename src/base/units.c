@@ -9,6 +9,9 @@
 /* Exact by definition: the inch is 25.4 mm, the pound-force 4.4482216152605 N. */
 #define INCH 25.4
 #define POUND 4.4482216152605
+/* Of a millimetre per metre and per inch, in stress intensities. */
+#define ROOT_OF_1000 31.622776601683793
+#define ROOT_OF_INCH 5.0398412673416611
 
 /* One of it is factor 10^power of the unit that it is a kind of. */
 typedef struct {
@@ -71,6 +74,12 @@ static const unit_row table[] = {
     {"1/MPa", "1/MPa", 0, 1.0},
     {"1/Pa", "1/MPa", 6, 1.0},
     {"1/psi", "1/MPa", 0, INCH *INCH / POUND},
+    {"MPa.mm^0.5", "MPa.mm^0.5", 0, 1.0},
+    {"N/mm^1.5", "MPa.mm^0.5", 0, 1.0},
+    {"MPa.m^0.5", "MPa.mm^0.5", 0, ROOT_OF_1000},
+    {"Pa.m^0.5", "MPa.mm^0.5", -6, ROOT_OF_1000},
+    {"psi.in^0.5", "MPa.mm^0.5", 0, POUND / (INCH * INCH) * ROOT_OF_INCH},
+    {"ksi.in^0.5", "MPa.mm^0.5", 3, POUND / (INCH * INCH) * ROOT_OF_INCH},
     {"s", "s", 0, 1.0},
     {"ms", "s", -3, 1.0},
     {"us", "s", -6, 1.0},
@@ -95,7 +104,8 @@ static const struct {
                {"mm/s", {"mm/s", "m/s", "in/s"}},
                {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}},
                {"MPa/mm", {"MPa/mm", "Pa/m", "psi/in"}},
-               {"1/MPa", {"1/MPa", "1/Pa", "1/psi"}}};
+               {"1/MPa", {"1/MPa", "1/Pa", "1/psi"}},
+               {"MPa.mm^0.5", {"MPa.mm^0.5", "Pa.m^0.5", "psi.in^0.5"}}};
 
 enum { KINDS = sizeof systems / sizeof systems[0] };
 

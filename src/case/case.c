@@ -515,7 +515,8 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     } rules[] = {
         {!transient, "distance", "of transient rolling only"},
         {transient && history, "distance", "the history says how far"},
-        {!transient, "steps", "of transient rolling only"},
+        /* of a crack: positions of the contact */
+        {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
         {!transient, "irregularity",
          "it rides through the contact; of transient rolling only"},
         {steady, "history", "steady rolling has no history"},
@@ -561,6 +562,7 @@ static const struct {
     {RB_CASE_WEAR, "history", "the cycles have their own"},
     {RB_CASE_WEAR, "increments", "the cycles have their own, --quarter"},
     {RB_CASE_WEAR, "conductivity", "wear has no temperatures"},
+    {RB_CASE_CRACK, "accuracy", "a crack has error bars, but does not refine"},
     {RB_CASE_STUDY, "accuracy", "a study has --error, but does not refine"},
     {RB_CASE_STUDY, "history", "a study has none"},
 };

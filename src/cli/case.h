@@ -77,7 +77,7 @@ typedef struct {
     cli_draw *draw;
 } cli_case_file;
 
-enum { CLI_COMMAND_OPTIONS_MAX = 20 };
+enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
 /* What is the command's own.  Functions may be NULL, but for check, solve, table, json.
  */

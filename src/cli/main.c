@@ -17,6 +17,7 @@ static const cli_command commands[] = {
      "parameter studies over all processors and, under mpirun, machines"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"wear", cli_wear, "what sliding, fretting or rolling takes off"},
+    {"crack", cli_crack, "stress intensities of a crack below the passing contact"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
     {"check", cli_check, "checks results without solving: valid, or what is wrong"},

@@ -248,10 +248,10 @@ static rb_status history_alloc(const rb_crack *c, size_t n, rb_crack_history *h)
         rb_crack_history_free(h);
         return RB_ENOMEM;
     }
-    double **const column[] = {
-        &h->K_I,         &h->K_II,         &h->K_I_upper,      &h->K_II_upper,
-        &h->open_length, &h->stick_length, &h->fluid_pressure, &h->residual};
-    for (size_t k = 0; k < sizeof column / sizeof *column; k++)
+    double **const column[] = {&h->K_I,          &h->K_II,           &h->open_length,
+                               &h->stick_length, &h->fluid_pressure, &h->residual,
+                               &h->K_I_upper,    &h->K_II_upper};
+    for (size_t k = 0; k < (c->first ? 8 : 6); k++)
         *column[k] = h->x + (k + 1) * n;
     return RB_OK;
 }
@@ -262,8 +262,10 @@ static void record(const rb_crack_state *state, double x, rb_crack_history *h)
     h->x[k] = x;
     h->K_I[k] = state->K_I;
     h->K_II[k] = state->K_II;
-    h->K_I_upper[k] = state->K_I_upper;
-    h->K_II_upper[k] = state->K_II_upper;
+    if (h->K_I_upper) {
+        h->K_I_upper[k] = state->K_I_upper;
+        h->K_II_upper[k] = state->K_II_upper;
+    }
     h->open_length[k] = state->open_length;
     h->stick_length[k] = state->stick_length;
     h->fluid_pressure[k] = state->fluid_pressure;
@@ -344,8 +346,7 @@ rb_crack_summary rb_crack_summarise(const rb_crack_history *h, int passes)
 
     s.K_I_max = s.K_II_max = s.open_max = s.fluid_pressure_max = -INFINITY;
     s.K_I_min = s.K_II_min = INFINITY;
-    s.K_I_max_upper = s.K_II_max_upper = -INFINITY;
-    s.K_I_min_upper = s.K_II_min_upper = INFINITY;
+    s.K_I_max_upper = s.K_II_max_upper = s.K_I_min_upper = s.K_II_min_upper = NAN;
     for (int k = s.from; k < h->n; k++) {
         if (h->K_I[k] > s.K_I_max) {
             s.K_I_max = h->K_I[k];
@@ -361,17 +362,17 @@ rb_crack_summary rb_crack_summarise(const rb_crack_history *h, int passes)
             s.K_II_min_at = h->x[k];
         }
         s.K_I_min = fmin(s.K_I_min, h->K_I[k]);
-        s.K_I_max_upper = fmax(s.K_I_max_upper, h->K_I_upper[k]);
-        s.K_I_min_upper = fmin(s.K_I_min_upper, h->K_I_upper[k]);
-        s.K_II_max_upper = fmax(s.K_II_max_upper, h->K_II_upper[k]);
-        s.K_II_min_upper = fmin(s.K_II_min_upper, h->K_II_upper[k]);
         s.open_max = fmax(s.open_max, h->open_length[k]);
         s.fluid_pressure_max = fmax(s.fluid_pressure_max, h->fluid_pressure[k]);
     }
     for (int k = 0; k < h->n; k++)
         s.residual = fmax(s.residual, h->residual[k]);
-    if (h->n > 0 && isnan(h->K_I_upper[0]))
-        s.K_I_max_upper = s.K_I_min_upper = s.K_II_max_upper = s.K_II_min_upper = NAN;
+    for (int k = s.from; k < h->n && h->K_I_upper; k++) {
+        s.K_I_max_upper = fmax(s.K_I_max_upper, h->K_I_upper[k]);
+        s.K_I_min_upper = fmin(s.K_I_min_upper, h->K_I_upper[k]);
+        s.K_II_max_upper = fmax(s.K_II_max_upper, h->K_II_upper[k]);
+        s.K_II_min_upper = fmin(s.K_II_min_upper, h->K_II_upper[k]);
+    }
     s.delta_K_I = s.K_I_max - s.K_I_min;
     s.delta_K_II = s.K_II_max - s.K_II_min;
     for (int k = 0; k < steps && passes > 1; k++) {

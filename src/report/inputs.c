@@ -8,7 +8,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 
-static json_t *input(const rb_option *o, const void *values, rb_units units)
+json_t *rb_report_json_option(const rb_option *o, const void *values, rb_units units)
 {
     char room[64];
     const char *place = (const char *)values + o->offset;
@@ -43,10 +43,11 @@ json_t *rb_report_json_inputs(const rb_case *c)
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
-            rb_report_json_set(&inputs, o[i].name,
-                               rb_case_is_replaced(c, &o[i])
-                                   ? json_null()
-                                   : input(&o[i], resolved, resolved->units));
+            rb_report_json_set(
+                &inputs, o[i].name,
+                rb_case_is_replaced(c, &o[i])
+                    ? json_null()
+                    : rb_report_json_option(&o[i], resolved, resolved->units));
     return inputs;
 }
 

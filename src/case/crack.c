@@ -1,0 +1,425 @@
+/* A crack under the contact of a case: its options, the contact as its load, its results
+ * by name. */
+#include "case/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Positions farther apart, in half-widths, miss the crack; above NARROW extremes lie
+ * between them.  The first one stands at least FAR from the mouth. */
+static const double WIDE = 0.5, NARROW = 0.1, FAR = 6.0;
+/* Of a B that is a cylinder: the deepest place of a crack in a half-plane, in radii. */
+static const double DEEPEST = 0.1;
+enum { INTERVALS = 120 };
+
+/* ---- Options ----------------------------------------------------------------------- */
+
+#define PLACE(member) offsetof(rb_case_crack, member)
+
+static const rb_choice fluids[] = {{"none", RB_CRACK_DRY},
+                                   {"trapped", RB_CRACK_TRAPPED},
+                                   {"pressure", RB_CRACK_PRESSURE},
+                                   {NULL, 0}};
+
+const rb_option rb_case_crack_options[] = {
+    RB_GROUP_LINE("crack", "Crack in B; lengths in Hertz half-widths of the load"),
+    RB_NUMBER_LINE("crack-length", PLACE(length), "a", RB_ABOVE(0), "along the crack"),
+    RB_NUMBER_LINE("crack-angle", PLACE(angle), "degrees", RB_ANY,
+                   "to the surface; below 90 the tip points to +x, where A rolls"),
+    RB_NUMBER_LINE("crack-mouth", PLACE(mouth), "a", RB_ANY,
+                   "x of its mouth, or of its upper end"),
+    RB_NUMBER_LINE("crack-depth", PLACE(depth), "a", RB_FROM(0),
+                   "of its upper end below the surface; 0: it has a mouth"),
+    RB_NUMBER_LINE("crack-friction", PLACE(friction), "-", RB_FROM(0),
+                   "coefficient of friction between its faces"),
+    RB_INTEGER_LINE("crack-elements", PLACE(elements), RB_FROM_TO(4, 2000),
+                    "along the crack, graded towards both ends"),
+    RB_NUMBER_LINE("from", PLACE(from), "a", RB_ANY,
+                   "first position of the contact; of a static history the only one",
+                   .unset = "-6; of a static history 0"),
+    RB_NUMBER_LINE(
+        "to", PLACE(to), "a", RB_ANY,
+        "last position; --steps says in how many equal steps, 120 unless given",
+        .unset = "6; of a transient as far as it rolls"),
+    RB_INTEGER_LINE("passes", PLACE(passes), RB_FROM_TO(1, 1000),
+                    "the same load passes again; results are those of the last pass"),
+    RB_CHOICE_LINE("fluid", PLACE(fluid), fluids,
+                   "in the crack: none, trapped where its mouth closes "
+                   "(incompressible), or the pressure of the contact at its mouth"),
+    RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
+                   "uniform stress in B along the surface, tension > 0"),
+    RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
+};
+const int rb_case_crack_options_n =
+    sizeof rb_case_crack_options / sizeof rb_case_crack_options[0];
+
+rb_case_crack rb_case_crack_defaults(void)
+{
+    return (rb_case_crack){.length = 1.0,
+                           .angle = 30.0,
+                           .friction = 0.1,
+                           .elements = 40,
+                           .from = NAN,
+                           .to = NAN,
+                           .passes = 1};
+}
+
+/* ---- Results ----------------------------------------------------------------------- */
+
+#define OF(type, name_, member, ...)                                                     \
+    {                                                                                    \
+        .name = name_, .offset = offsetof(type, member), __VA_ARGS__                     \
+    }
+#define NUMBER(name, ...) OF(rb_crack_summary, #name, name, __VA_ARGS__)
+#define COLUMN(name, ...) OF(rb_crack_history, #name, name, __VA_ARGS__)
+#define IS_K .unit = "MPa.mm^0.5"
+
+static const rb_rolling_result scalars[] = {
+    NUMBER(K_I_max, IS_K, .meaning = "largest K_I at the tip in the last pass"),
+    NUMBER(K_I_min, IS_K, .meaning = "smallest K_I"),
+    NUMBER(K_II_max, IS_K, .meaning = "largest K_II; > 0: the upper face slides down"),
+    NUMBER(K_II_min, IS_K, .meaning = "smallest K_II"),
+    NUMBER(delta_K_I, IS_K, .meaning = "K_I_max - K_I_min"),
+    NUMBER(delta_K_II, IS_K, .meaning = "K_II_max - K_II_min"),
+    NUMBER(K_I_max_at, .unit = "mm", .meaning = "position of the contact"),
+    NUMBER(K_II_max_at, .unit = "mm", .meaning = "position of the contact"),
+    NUMBER(K_II_min_at, .unit = "mm", .meaning = "position of the contact"),
+    NUMBER(K_II_at_K_I_max, IS_K, .meaning = "K_II where K_I is largest: the phase"),
+    NUMBER(K_I_max_upper, IS_K,
+           .meaning = "at the upper end of a crack below the "
+                      "surface; also the next three"),
+    NUMBER(K_I_min_upper, IS_K, .meaning = ""),
+    NUMBER(K_II_max_upper, IS_K, .meaning = ""),
+    NUMBER(K_II_min_upper, IS_K, .meaning = ""),
+    NUMBER(open_max, .unit = "mm", .meaning = "largest open length"),
+    NUMBER(fluid_pressure_max, .unit = "MPa", .meaning = "of the fluid in the crack"),
+    NUMBER(pass_change, IS_K,
+           .meaning = "largest change of K_I or K_II since the pass before: shakedown"),
+    NUMBER(residual, .meaning = "natural residual of the scaled problem of a step"),
+};
+
+static const rb_rolling_result columns[] = {
+    COLUMN(x, .unit = "mm", .meaning = "position of the contact"),
+    COLUMN(K_I, IS_K, .meaning = "opening, at the tip"),
+    COLUMN(K_II, IS_K, .meaning = "sliding, at the tip"),
+    COLUMN(K_I_upper, IS_K, .meaning = "at the upper end below the surface"),
+    COLUMN(K_II_upper, IS_K, .meaning = "at the upper end below the surface"),
+    COLUMN(open_length, .unit = "mm", .meaning = "of the faces that are apart"),
+    COLUMN(stick_length, .unit = "mm", .meaning = "of the faces that do not slide"),
+    COLUMN(fluid_pressure, .unit = "MPa", .meaning = "in the crack"),
+};
+
+#define TABLE(rows)                                                                      \
+    {                                                                                    \
+        sizeof(rows) / sizeof *(rows), rows                                              \
+    }
+const rb_rolling_results rb_case_crack_scalars = TABLE(scalars);
+const rb_rolling_results rb_case_crack_columns = TABLE(columns);
+
+static double *number_of(rb_crack_summary *s, int k)
+{
+    return (double *)(void *)((char *)s + scalars[k].offset);
+}
+
+void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
+{
+    rb_case_result_convert(&r->contact, units);
+    r->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    r->half_width = rb_unit_shown(units, "mm", r->half_width);
+    for (int k = 0; k < rb_case_crack_scalars.n; k++)
+        for (int errors = 0; errors < 2 && scalars[k].unit; errors++) {
+            double *x = number_of(errors ? &r->errors : &r->summary, k);
+            *x = rb_unit_shown(units, scalars[k].unit, *x);
+        }
+    for (int k = 0; k < rb_case_crack_columns.n; k++) {
+        double *const *column = (void *)((char *)&r->history + columns[k].offset);
+        for (int i = 0; *column && i < r->history.n; i++)
+            (*column)[i] = rb_unit_shown(units, columns[k].unit, (*column)[i]);
+    }
+    for (int i = 0; i < 2 * r->history.n * r->history.nodes; i++)
+        r->history.D[i] = rb_unit_shown(units, "mm", r->history.D[i]);
+}
+
+void rb_case_crack_free(rb_case_crack_result *r)
+{
+    rb_case_result_free(&r->contact);
+    rb_crack_history_free(&r->history);
+}
+
+/* ---- Positions --------------------------------------------------------------------- */
+
+static int intervals(const rb_resolved_case *c)
+{
+    return c->rc.steps > 0 ? c->rc.steps : INTERVALS;
+}
+
+static double from_of(const rb_resolved_case *c, const rb_case_crack *k)
+{
+    return !isnan(k->from)                                          ? k->from
+           : rb_case_has_steps(c) && c->rc.formulation == RB_STATIC ? 0.0
+                                                                    : -FAR;
+}
+
+static double to_of(const rb_case_crack *k)
+{
+    return isnan(k->to) ? FAR : k->to;
+}
+
+static rb_status check_positions(const rb_resolved_case *c, const rb_case_crack *k,
+                                 rb_message *why)
+{
+    const double from = from_of(c, k), to = to_of(k);
+    const int n = intervals(c), steps = rb_case_has_steps(c);
+
+    if (steps && !isnan(k->to))
+        return rb_fail(why, RB_EINVAL, "--to: the history says how far the contact goes");
+    if (steps || k->unloaded)
+        return RB_OK;
+    if (!(from < to))
+        return rb_fail(why, RB_EINVAL,
+                       "--from and --to: A rolls towards +x; expected --from below --to, "
+                       "got %g and %g",
+                       from, to);
+    if ((to - from) / n > WIDE * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL,
+                       "--steps: %d steps of %g half-widths would jump over the crack, "
+                       "expected at least %d",
+                       n, (to - from) / n, (int)ceil((to - from) / WIDE * (1.0 - 1e-12)));
+    return RB_OK;
+}
+
+rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
+                              rb_message *why)
+{
+    const rb_rolling_case *rc = &c->rc;
+    const double a = c->derived.half_width;
+    const double deepest =
+        a * (k->depth + k->length * fabs(sin(k->angle * M_PI / 180.0)));
+
+    if (!(k->angle >= 0.0 && k->angle < 180.0) || (k->depth == 0.0 && k->angle == 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "--crack-angle: expected more than 0 and less than 180 degrees%s, "
+                       "got %g: the crack would lie outside body B",
+                       k->depth > 0.0 ? " (0 below the surface)" : "", k->angle);
+    if (k->fluid != RB_CRACK_DRY && k->depth > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "--fluid: comes in by the mouth, which a crack with --crack-depth "
+                       "does not have");
+    if (k->unloaded && k->coupled)
+        return rb_fail(why, RB_EINVAL, "--unloaded and --coupled exclude each other");
+    if (k->unloaded && k->remote_stress == 0.0)
+        return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
+    if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
+        return rb_fail(why, RB_EINVAL,
+                       "--fluid pressure: is that of the contact, --unloaded has none");
+    if (!k->unloaded && rc->elastic_b && !rb_rolling_body_can(&rc->b, RB_BODY_STRESS))
+        return rb_fail(why, RB_EINVAL,
+                       "crack: the stress in body B is known where it is homogeneous and "
+                       "elastic only, without a layer, a cover or memory");
+    if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * rc->b.radius)
+        return rb_fail(why, RB_EINVAL,
+                       "crack: body B counts as a half-plane; a crack as deep as %g of "
+                       "its radius needs its shape, expected at most %g",
+                       deepest / rc->b.radius, DEEPEST);
+    return check_positions(c, k, why);
+}
+
+/* ---- Load -------------------------------------------------------------------------- */
+
+/* Tractions of every step, and where each stands: arrays that the loads borrow. */
+typedef struct {
+    int n;
+    double *x;              /* n positions [length]; owned, as all */
+    rb_bem_edge_load *load; /* `loads` of them */
+    int loads;
+    double *ends;
+    rb_rolling_states states; /* of a sequence of steps */
+} load_track;
+
+static void track_free(load_track *t)
+{
+    free(t->x);
+    free(t->load);
+    free(t->ends);
+    rb_rolling_states_free(&t->states);
+}
+
+/* A run that begins anew on a wider zone comes with step 0 again. */
+static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
+                     int step, int steps, void *context)
+{
+    load_track *t = context;
+    (void)history;
+    if (step == 0) {
+        rb_rolling_states_free(&t->states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, &t->states) != RB_OK)
+            return 1;
+    }
+    rb_rolling_states_set(model, step, &t->states);
+    return 0;
+}
+
+static rb_status set_ends(int n, const double *x, const double *h, load_track *t)
+{
+    t->ends = rb_alloc((size_t)n + 1, 1);
+    if (!t->ends)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++)
+        t->ends[i] = x[i] - 0.5 * h[i];
+    t->ends[n] = x[n - 1] + 0.5 * h[n - 1];
+    return RB_OK;
+}
+
+/* The contact of the case once, or step by step, and where it stands. */
+static rb_status solve_load(const rb_resolved_case *c, const rb_case_crack *k,
+                            rb_case_crack_result *r, load_track *t, rb_message *why)
+{
+    rb_resolved_case plain = *c;
+    const int has_steps = rb_case_has_steps(c) && !k->unloaded,
+              rolls = c->rc.formulation == RB_TRANSIENT;
+    const double from = from_of(c, k);
+    rb_status s = RB_OK;
+
+    plain.error = 0;
+    if (!k->unloaded)
+        s = rb_case_solve(&plain, keep_step, t, &r->contact, why);
+    if (s == RB_INTERRUPTED) /* by keep_step alone */
+        s = RB_ENOMEM;
+    if (s != RB_OK)
+        return s;
+    r->half_width =
+        has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
+    t->n = k->unloaded ? 1 : has_steps ? t->states.steps : intervals(c) + 1;
+    t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;
+    t->x = rb_alloc((size_t)t->n, 1);
+    t->load = calloc((size_t)t->n, sizeof *t->load);
+    if (!t->x || !t->load)
+        return RB_ENOMEM;
+    for (int i = 0; i < t->n; i++)
+        t->x[i] =
+            r->half_width * (k->unloaded  ? from
+                             : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
+                             : rolls      ? from + r->contact.history.distance[i]
+                                          : from);
+    for (int i = 1; i < t->n && has_steps; i++)
+        if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
+            return rb_fail(why, RB_EINVAL,
+                           "--steps: step %d rolls %g half-widths and jumps over the "
+                           "crack, expected at most %g",
+                           i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
+    if (has_steps) {
+        const rb_rolling_states *of = &t->states;
+        s = set_ends(of->n, of->x, of->h, t);
+        for (int i = 0; i < t->n; i++)
+            t->load[i] = (rb_bem_edge_load){of->n, t->ends, of->p + (size_t)i * of->n,
+                                            of->q + (size_t)i * of->n};
+    } else if (!k->unloaded) {
+        const rb_rolling_solution *of = &r->contact.solution;
+        s = set_ends(of->n, of->x, of->h, t);
+        t->load[0] = (rb_bem_edge_load){of->n, t->ends, of->p, of->q};
+    }
+    return s;
+}
+
+/* ---- Solve ------------------------------------------------------------------------- */
+
+static void note(rb_case_crack_result *r, const char *text, double value)
+{
+    if (r->notes < RB_CASE_CRACK_NOTES)
+        snprintf(r->note[r->notes++], sizeof r->note[0], text, value);
+}
+
+static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
+                       const load_track *t, rb_case_crack_result *r)
+{
+    const double a = r->half_width, first = fabs(t->x[0] / a - k->mouth);
+    double step = 0.0;
+
+    for (int i = 1; i < t->n; i++)
+        step = fmax(step, (t->x[i] - t->x[i - 1]) / a);
+    if (k->unloaded)
+        return;
+    if (first < FAR * (1.0 - 1e-12) && t->x[t->n - 1] > t->x[0])
+        note(r,
+             "The first position is %.3g half-widths from the mouth, where the load is "
+             "felt already; begin at least 6 away (--from).",
+             first);
+    if (step > NARROW * (1.0 + 1e-9))
+        note(r,
+             "Positions are %.3g half-widths apart; the extremes of K lie between them "
+             "(take at most 0.1, --steps).",
+             step);
+    if (!c->rc.elastic_b)
+        note(r,
+             "Body B is rigid for the contact: K are the limits of a body that is much "
+             "stiffer than A.",
+             0.0);
+    else if (isfinite(c->rc.b.radius))
+        note(r, "Body B is a cylinder, in which the crack lies as in a half-plane.", 0.0);
+}
+
+/* One mesh: as many elements as times `finer` says, of crack and contact. */
+static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
+                            rb_case_crack_result *r, rb_message *why)
+{
+    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
+    rb_resolved_case refined = *c;
+    load_track t = {0};
+    rb_crack *crack = NULL;
+
+    memset(r, 0, sizeof *r);
+    if (!rb_case_has_steps(c))
+        refined.rc.contact_elements *= finer;
+    rb_status s = solve_load(&refined, k, r, &t, why);
+    r->passes = k->passes;
+    r->shape = (rb_crack_shape){
+        .path = rb_crack_straight(k->mouth * r->half_width, k->depth * r->half_width,
+                                  k->length * r->half_width, k->angle),
+        .elements = finer * k->elements,
+        .friction = k->friction,
+        .shear = 0.5 * b->young / (1.0 + b->poisson),
+        .poisson = b->poisson};
+    if (s == RB_OK)
+        s = rb_crack_create(&r->shape, &crack, why);
+    if (s == RB_OK) {
+        const rb_crack_passage passage = {.steps = t.n,
+                                          .x = t.x,
+                                          .loads = t.loads,
+                                          .load = t.load,
+                                          .passes = k->unloaded ? 1 : k->passes,
+                                          .fluid = (rb_crack_fluid)k->fluid,
+                                          .tension = k->remote_stress};
+        r->passes = passage.passes;
+        s = rb_crack_pass(crack, &passage, &r->history, why);
+        find_notes(c, k, &t, r);
+        if (r->history.n > 0)
+            r->summary = rb_crack_summarise(&r->history, r->passes);
+    }
+    rb_crack_free(crack);
+    track_free(&t);
+    return s;
+}
+
+rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
+                              rb_case_crack_result *r, rb_message *why)
+{
+    memset(r, 0, sizeof *r);
+    rb_status s = rb_case_crack_check(c, k, why);
+    if (s == RB_OK)
+        s = solve_once(c, k, 1, r, why);
+    if (s == RB_OK && c->error) {
+        /* of second order: a third of the difference is left in the finer one */
+        rb_case_crack_result fine;
+        s = solve_once(c, k, 2, &fine, why);
+        r->has_errors = s == RB_OK;
+        for (int i = 0; i < rb_case_crack_scalars.n && s == RB_OK; i++)
+            *number_of(&r->errors, i) =
+                2.0 * fabs(*number_of(&fine.summary, i) - *number_of(&r->summary, i));
+        rb_case_crack_free(&fine);
+    }
+    return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
+}

@@ -1,0 +1,157 @@
+/* rollbem crack: stress intensities of a crack in body B under the passing contact. */
+#include "cli/case.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <string.h>
+
+typedef struct {
+    rb_case_crack crack; /* options; first, because the rows of case.h point into it */
+    double at;
+    const char *open, *orbit;
+    rb_case_crack_result result;
+} crack_run;
+
+_Static_assert(offsetof(crack_run, crack) == 0, "the rows of the library point into it");
+
+#define PLACE(member) offsetof(crack_run, member)
+
+/* Behind those of the library. */
+static const rb_option pictures[] = {
+    RB_TEXT_LINE("plot-crack", PLACE(open), "FILE",
+                 "picture of the crack with its faces moved apart, magnified: .png, .svg "
+                 "or .pdf",
+                 .unset = "none", .file = RB_FILE_PICTURE),
+    RB_NUMBER_LINE("at", PLACE(at), "a", RB_ANY,
+                   "position of the contact in that picture"),
+    RB_TEXT_LINE("orbit", PLACE(orbit), "FILE",
+                 "picture of K_II over K_I in the last pass: .png, .svg or .pdf",
+                 .unset = "none", .file = RB_FILE_PICTURE),
+};
+enum { PICTURES = sizeof pictures / sizeof pictures[0] };
+
+static const char about[] =
+    "Solves a case and passes its contact over a crack in body B, position by position:\n"
+    "the faces of the crack open, stick and slip with friction. Prints K_I and K_II at "
+    "its\n"
+    "tip, the lengths that are open and that stick, and the pressure of a fluid, a row "
+    "per\n"
+    "position. Lengths of the crack and positions count in half-widths of the contact\n"
+    "(Hertz's of its load). The body of the crack is a half-plane; the contact does not\n"
+    "feel the crack. A static or steady case passes as it is, "
+    "a\n"
+    "transient stands at --from plus what it has rolled, a static history stays where "
+    "it\n"
+    "is.\n"
+    "\n" CLI_CASE_SIGNS;
+
+static const char notes[] = CLI_CASE_NOTES
+    "Example: rollbem crack --similar --support halfplane --half-width 1 --mu 0 \\\n"
+    "           --crack-angle 30 --plot crack.png\n";
+
+static cli_exit check(cli_case_run *run)
+{
+    const crack_run *own = run->own;
+    rb_message why = {""};
+    const rb_status s = rb_case_crack_check(run->c, &own->crack, &why);
+    if (s != RB_OK)
+        return cli_case_refused(run->words, s, &why);
+    return own->crack.unloaded && (run->o.plot || own->orbit)
+               ? cli_fail(CLI_USAGE, "%s: --unloaded has no positions to draw over",
+                          run->o.plot ? "--plot" : "--orbit")
+               : CLI_CONTINUE;
+}
+
+static rb_status solve(cli_case_run *run, rb_message *why)
+{
+    crack_run *own = run->own;
+    rb_case_crack_result *r = &own->result;
+    const rb_status s = rb_case_crack_solve(run->c, &own->crack, r, why);
+    rb_case_crack_convert(r, run->c->units);
+    run->solution = r->contact.solution.n > 0 ? &r->contact.solution : NULL;
+    run->printable = s == RB_OK;
+    return s;
+}
+
+/* ---- Print ------------------------------------------------------------------------- */
+
+static void add_inputs(const cli_case_run *run, json_t **inputs)
+{
+    const crack_run *own = run->own;
+    for (int k = 0; k < rb_case_crack_options_n; k++) {
+        const rb_option *o = &rb_case_crack_options[k];
+        if (o->kind != RB_OPTION_GROUP)
+            rb_report_json_set(inputs, o->name,
+                               rb_report_json_option(o, &own->crack, run->c->units));
+    }
+}
+
+static void add_json(const cli_case_run *run, json_t **root)
+{
+    rb_report_json_crack(root, &((const crack_run *)run->own)->result);
+}
+
+static rb_status write_table(FILE *out, const cli_case_run *run)
+{
+    return rb_report_crack_table(out, &((const crack_run *)run->own)->result,
+                                 cli_command_line(), &run->o.style);
+}
+
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
+                      rb_message *why)
+{
+    const crack_run *own = ((const cli_case_run *)context)->own;
+    return rb_report_crack_picture(out, canvas, &own->result, why);
+}
+
+static rb_status draw_orbit(FILE *out, rb_report_canvas canvas, const void *context,
+                            rb_message *why)
+{
+    const crack_run *own = ((const cli_case_run *)context)->own;
+    return rb_report_crack_orbit(out, canvas, &own->result, why);
+}
+
+static rb_status draw_open(FILE *out, rb_report_canvas canvas, const void *context,
+                           rb_message *why)
+{
+    const crack_run *own = ((const cli_case_run *)context)->own;
+    return rb_report_crack_open(out, canvas, &own->result, own->at, why);
+}
+
+static const cli_case_file files[] = {{"plot", .draw = draw},
+                                      {"plot-crack", .draw = draw_open},
+                                      {"orbit", .draw = draw_orbit},
+                                      {NULL, NULL, NULL}};
+
+static void summarise(const cli_case_run *run)
+{
+    rb_report_crack_summary(stderr, &((const crack_run *)run->own)->result);
+}
+
+int cli_crack(int argc, char **argv)
+{
+    static rb_option options[CLI_COMMAND_OPTIONS_MAX];
+    static const cli_case_command command = {
+        .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
+        .about = about,
+        .notes = notes,
+        .purpose = RB_CASE_CRACK,
+        .options = options,
+        .files = files,
+        .check = check,
+        .solve = solve,
+        .table = write_table,
+        .inputs = add_inputs,
+        .json = add_json,
+        .summarise = summarise,
+    };
+    const int n = rb_case_crack_options_n;
+    cli_case_command whole = command;
+    crack_run own = {.crack = rb_case_crack_defaults()};
+    memcpy(options, rb_case_crack_options, (size_t)n * sizeof *options);
+    memcpy(options + n, pictures, sizeof pictures);
+    whole.option_n = n + PICTURES;
+    const cli_exit code = cli_case_run_command(&whole, &own, argc, argv);
+    rb_case_crack_free(&own.result);
+    return code;
+}

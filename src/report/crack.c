@@ -1,0 +1,419 @@
+/* Cracks: table over the positions, JSON, lines for people, pictures. */
+#include "report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static rb_report_columns columns_of(const rb_case_crack_result *r)
+{
+    return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units};
+}
+
+static const char sign_of_K[] =
+    "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides towards the tip; "
+    "x: where the contact stands";
+
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
+                                const char *command, const rb_report_style *style)
+{
+    const rb_report_columns columns = columns_of(r);
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+    rb_report_comment(&c, "%s", sign_of_K);
+    for (int k = 0; k < r->notes; k++)
+        rb_report_comment(&c, "note: %s", r->note[k]);
+    return rb_report_end_columns(&c, r->history.n, 1, &columns);
+}
+
+static json_t *numbers(const rb_crack_summary *s)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < rb_case_crack_scalars.n; k++)
+        rb_report_json_set(
+            &object, rb_case_crack_scalars.row[k].name,
+            rb_report_json_number(rb_rolling_number(&rb_case_crack_scalars.row[k], s)));
+    return object;
+}
+
+void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
+{
+    const rb_report_columns columns = columns_of(r);
+    json_t *summary = numbers(&r->summary), *table = json_object();
+    json_t *notes = json_array(), *known = json_object_get(*root, "notes");
+
+    rb_report_json_set(&summary, "status", json_string("solved"));
+    rb_report_json_set(&summary, "half_width", rb_report_json_number(r->half_width));
+    rb_report_json_set(&summary, "passes", json_integer(r->passes));
+    rb_report_json_set(&summary, "last_pass_from", json_integer(r->summary.from));
+    if (r->has_errors)
+        rb_report_json_set(&summary, "errors", numbers(&r->errors));
+    rb_report_json_columns(&table, r->history.n, &columns, 0);
+    for (size_t k = 0; known && k < json_array_size(known); k++)
+        rb_report_json_append(&notes, json_incref(json_array_get(known, k)));
+    for (int k = 0; k < r->notes; k++)
+        rb_report_json_append(&notes, json_string(r->note[k]));
+    rb_report_json_set(root, "notes", notes);
+    rb_report_json_set(root, "crack", json_string(sign_of_K));
+    if (r->contact.solution.n > 0)
+        rb_report_json_set(root, "contact", rb_report_json_summary(&r->contact.solution));
+    rb_report_json_set(root, "summary", summary);
+    rb_report_json_set(root, "table", table);
+}
+
+/* ---- For people -------------------------------------------------------------------- */
+
+static void print_bar(FILE *out, const rb_case_crack_result *r, double error)
+{
+    if (r->has_errors)
+        fprintf(out, " (+- %.2g)", error);
+}
+
+void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
+{
+    const rb_crack_summary *s = &r->summary, *e = &r->errors;
+    const char *K = rb_unit_name(r->units, "MPa.mm^0.5"),
+               *mm = rb_unit_name(r->units, "mm");
+
+    for (int k = 0; k < r->notes; k++)
+        fprintf(out, "note: %s\n", r->note[k]);
+    fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n",
+            r->history.n / r->passes, r->passes, r->passes > 1 ? "es" : "", r->half_width,
+            mm);
+    fprintf(out, "  K_I       %.5g ... %.5g", s->K_I_min, s->K_I_max);
+    print_bar(out, r, e->K_I_max);
+    fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,
+            s->K_I_max_at, mm, s->K_II_at_K_I_max);
+    fprintf(out, "  K_II      %.5g ... %.5g, range %.5g", s->K_II_min, s->K_II_max,
+            s->delta_K_II);
+    print_bar(out, r, e->delta_K_II);
+    fprintf(out, " %s, at x = %.4g and %.4g %s\n", K, s->K_II_min_at, s->K_II_max_at, mm);
+    if (!isnan(s->K_I_max_upper))
+        fprintf(out, "  upper end K_I %.5g ... %.5g, K_II %.5g ... %.5g %s\n",
+                s->K_I_min_upper, s->K_I_max_upper, s->K_II_min_upper, s->K_II_max_upper,
+                K);
+    if (s->fluid_pressure_max > 0.0)
+        fprintf(out, "  fluid     at most %.5g %s\n", s->fluid_pressure_max,
+                rb_unit_name(r->units, "MPa"));
+    if (!isnan(s->pass_change))
+        fprintf(out, "  passes    the last one changed K by at most %.2g %s\n",
+                s->pass_change, K);
+    fprintf(out, "  residual  %.2g\n", s->residual);
+}
+
+/* The unit of K with its exponent raised. */
+static const char *raised(rb_units units, char text[32])
+{
+    const char *name = rb_unit_name(units, "MPa.mm^0.5"), *power = strchr(name, '^');
+    snprintf(text, 32, "%.*s^{%s}", (int)(power - name), name, power + 1);
+    return text;
+}
+
+/* ---- Picture: K over the position, zones below ---------------------------------------
+ */
+
+/* Colours of zones in pictures: apart, stick, slip of either direction. */
+static const char *colour_of(int zone)
+{
+    return zone == RB_ZONE_SEPARATED       ? "#9ecae1"
+           : zone == RB_ZONE_STICK         ? "#1f4e79"
+           : zone == RB_ZONE_SLIP_NEGATIVE ? "#e67e22"
+                                           : "#f5b971";
+}
+
+/* Steps of the last pass. */
+static int first_of(const rb_case_crack_result *r)
+{
+    return r->summary.from;
+}
+
+static void write_steps(FILE *out, const rb_case_crack_result *r, double length)
+{
+    const rb_crack_history *h = &r->history;
+    fputs("$K << EOD\n", out);
+    for (int k = first_of(r); k < h->n; k++)
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", h->x[k] / length, h->K_I[k], h->K_II[k],
+                h->fluid_pressure[k]);
+    fputs("EOD\n", out);
+}
+
+/* A box for each run of nodes in one zone at one position: x, s, half-sizes, colour. */
+static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat,
+                        double length)
+{
+    const rb_crack_history *h = &r->history;
+    const double unit = rb_unit_shown(r->units, "mm", 1.0) / length;
+    fputs("$zones << EOD\n", out);
+    for (int k = first_of(r); k < h->n; k++) {
+        const int *zone = h->zone + (size_t)k * h->nodes;
+        const double left = k > first_of(r) ? h->x[k] - h->x[k - 1] : 0.0;
+        const double right = k + 1 < h->n ? h->x[k + 1] - h->x[k] : 0.0;
+        double from = 0.0, to = 0.0;
+        for (int j = 0; j < h->nodes; j++) {
+            to += hat[j] * unit;
+            if (j + 1 < h->nodes && zone[j + 1] == zone[j])
+                continue;
+            fprintf(out, "%.9g %.9g %.9g %.9g %d\n",
+                    (h->x[k] + 0.25 * (right - left)) / length, 0.5 * (from + to),
+                    0.26 * (left + right) / length, 0.5 * (to - from),
+                    (int)strtol(colour_of(zone[j]) + 1, NULL, 16));
+            from = to;
+        }
+    }
+    fputs("EOD\n", out);
+}
+
+typedef struct {
+    const rb_case_crack_result *r;
+    double *hat, *x, *y, *t_x, *t_y; /* of the nodes; hat owns them all */
+    double at;                       /* where the contact shall stand, half-widths */
+} view;
+
+static rb_status see(const rb_case_crack_result *r, view *v, rb_message *why)
+{
+    rb_crack *crack = NULL;
+    const size_t n = (size_t)r->history.nodes;
+    if (r->history.n < 1)
+        return rb_fail(why, RB_EINVAL, "no positions to draw");
+    rb_status s = rb_crack_create(&r->shape, &crack, why);
+    v->r = r;
+    v->hat = rb_alloc(n, 5);
+    if (s == RB_OK && !v->hat)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        v->x = v->hat + n;
+        v->y = v->x + n;
+        v->t_x = v->y + n;
+        v->t_y = v->t_x + n;
+        rb_crack_places(crack, v->x, v->y, v->hat, v->t_x, v->t_y);
+    }
+    rb_crack_free(crack);
+    return s;
+}
+
+static void write_title(FILE *out, const view *v, rb_report_place place)
+{
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_path *path = &r->shape.path;
+    const double dx = path->x[path->pieces] - path->x[0],
+                 dy = path->y[0] - path->y[path->pieces];
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Crack}   length %.4g a, %.4g° to the surface, "
+                "friction %.3g,  a = %.4g %s' at screen 0.54, 0.972 center\n",
+                hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
+                atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
+                r->half_width, rb_unit_name(r->units, "mm"));
+}
+
+static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_history *h = &r->history;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double a = r->half_width;
+    char unit[32];
+    const int wet = r->summary.fluid_pressure_max > 0.0;
+
+    write_steps(out, r, a);
+    write_zones(out, r, v->hat, a);
+    write_title(out, v, place);
+    fprintf(out,
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
+            "set tmargin at screen %g\nset bmargin at screen %g\n" RB_REPORT_GRID
+            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
+            "0.08\nset zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
+            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
+            "',%.3g'\nset label 2 'stress intensity  [%s]' at screen 0.03, %g center "
+            "rotate\n",
+            0.14 + place.right, wet ? 0.89 : 0.965, 0.88 + place.up, 0.48,
+            h->x[first_of(r)] / a, h->x[h->n - 1] / a, 0.925 + 1.4 * place.up,
+            rb_report_key_font(canvas), raised(r->units, unit), 0.68);
+    if (wet)
+        fprintf(out,
+                "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics "
+                "nomirror\nset y2range [0:%.9g]\n",
+                rb_unit_name(r->units, "MPa"), 1.15 * r->summary.fluid_pressure_max);
+    fputs("plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title "
+          "'K_{I}', $K using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) "
+          "linewidth 2.4 title 'K_{II}'",
+          out);
+    if (wet)
+        fputs(
+            ", $K using 1:4 axes x1y2 with lines linecolor rgb '#27ae60' dashtype (3,3) "
+            "linewidth 1.6 title 'fluid'",
+            out);
+    fprintf(out,
+            "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nset ytics "
+            "mirror\n"
+            "set tmargin at screen 0.44\nset bmargin at screen 0.14\nset format x '%%g'\n"
+            "set xlabel 'position of the contact / a' offset 0,0.3\nset offsets "
+            "0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\nset key at screen "
+            "0.965, 0.035 samplen 1\n"
+            "set label 2 'along the crack / a' at screen 0.03, 0.29 center rotate\n"
+            "plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
+            "linecolor rgb variable notitle");
+    static const struct {
+        int zone;
+        const char *name;
+    } zones[] = {{RB_ZONE_SEPARATED, "open"},
+                 {RB_ZONE_STICK, "stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, "slip to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, "slip back"}};
+    for (size_t k = 0; k < sizeof zones / sizeof *zones; k++)
+        fprintf(out,
+                ", NaN with points pointtype 5 pointsize 1.2 linecolor rgb '%s' title "
+                "'%s'",
+                colour_of(zones[k].zone), zones[k].name);
+    fputs("\nunset multiplot\n", out);
+}
+
+rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas,
+                                  const rb_case_crack_result *r, rb_message *why)
+{
+    view v = {0};
+    rb_status s = see(r, &v, why);
+    if (s == RB_OK && r->history.n - first_of(r) < 2)
+        s = rb_fail(why, RB_EINVAL, "one position alone is no picture over positions");
+    if (s == RB_OK)
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_K, &v, why);
+    free(v.hat);
+    return s;
+}
+
+/* ---- Picture: K_II over K_I ----------------------------------------------------------
+ */
+
+static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_report_place place = rb_report_place_of(canvas);
+    char unit[32];
+    const char *K = raised(v->r->units, unit);
+
+    write_steps(out, v->r, v->r->half_width);
+    write_title(out, v, place);
+    fprintf(out,
+            "set lmargin at screen %g\nset rmargin at screen 0.86\nset bmargin at screen "
+            "%g\nset tmargin at screen %g\n" RB_REPORT_GRID
+            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis "
+            "linecolor rgb '#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel "
+            "'K_{II}  [%s]'\nset cblabel 'position of the contact / a' offset 1,0\nunset "
+            "key\n" RB_REPORT_PALETTE
+            "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with "
+            "points palette pointtype 7 pointsize 0.6\n",
+            0.14 + place.right, 0.14 + place.up, 0.92 + place.up, K, K);
+}
+
+rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
+                                const rb_case_crack_result *r, rb_message *why)
+{
+    view v = {.r = r};
+    if (r->history.n - first_of(r) < 2)
+        return rb_fail(why, RB_EINVAL, "one position alone is no orbit");
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_orbit, &v, why);
+}
+
+/* ---- Picture: the crack open and torn ------------------------------------------------
+ */
+
+static int nearest(const rb_case_crack_result *r, double at)
+{
+    int best = first_of(r);
+    for (int k = best; k < r->history.n; k++)
+        if (fabs(r->history.x[k] - at) < fabs(r->history.x[best] - at))
+            best = k;
+    return best;
+}
+
+/* Both faces, displaced by half of D each, times a round magnification. */
+static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_history *h = &r->history;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const rb_crack_path *path = &r->shape.path;
+    const int n = h->nodes, k = nearest(r, v->at * r->half_width);
+    const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
+    char name[32];
+    const double *D = h->D + (size_t)k * 2 * (size_t)n;
+    double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
+
+    for (int i = 0; i <= path->pieces; i++) {
+        from = fmin(from, path->x[i] / unit);
+        to = fmax(to, path->x[i] / unit);
+        deepest = fmax(deepest, -path->y[i] / unit);
+    }
+    for (int j = 0; j < n; j++)
+        largest = fmax(largest, hypot(D[j], D[n + j]) / r->half_width);
+    const double size = fmax(to - from, deepest);
+    const double times =
+        largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
+    for (int side = -1; side <= 1; side += 2) {
+        const double factor = 0.5 * side * times / r->half_width;
+        fprintf(out, "$face%d << EOD\n", (side + 1) / 2);
+        if (path->y[0] < 0.0)
+            fprintf(out, "%.9g %.9g 0\n", path->x[0] / unit, path->y[0] / unit);
+        for (int j = 0; j < n; j++) {
+            const double dx = -v->t_y[j] * D[j] + v->t_x[j] * D[n + j],
+                         dy = v->t_x[j] * D[j] + v->t_y[j] * D[n + j];
+            fprintf(out, "%.9g %.9g %ld\n", v->x[j] / unit + factor * dx,
+                    v->y[j] / unit + factor * dy,
+                    strtol(colour_of(h->zone[(size_t)k * (size_t)n + (size_t)j]) + 1,
+                           NULL, 16));
+        }
+        fprintf(out, "%.9g %.9g 0\nEOD\n", path->x[path->pieces] / unit,
+                path->y[path->pieces] / unit);
+    }
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Crack}   contact at x = %.4g a,  displacement of "
+                "the faces "
+                "x %.3g' at screen 0.54, 0.972 center\n"
+                "set label 2 'K_{I} = %.4g,  K_{II} = %.4g %s' at screen 0.54, 0.935 "
+                "center\n",
+                h->x[k] / r->half_width, times, h->K_I[k], h->K_II[k],
+                raised(r->units, name));
+    const double margin = 0.25 * size;
+    fprintf(out,
+            "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
+            "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\n"
+            "set key at screen 0.965, 0.045 right horizontal maxrows 1 samplen 2 font "
+            "',%.3g'\n"
+            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
+            "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
+            0.12 + place.right, 0.17 + place.up, 0.89 + place.up, from - margin,
+            to + margin, -deepest - margin, 0.6 * margin, rb_report_key_font(canvas),
+            -deepest - margin);
+    /* the contact above, where it is within the picture */
+    fprintf(out,
+            "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "
+            "fillstyle solid noborder\n"
+            "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 "
+            "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 "
+            "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle",
+            fmax(h->x[k] / r->half_width - 1.0, from - margin),
+            fmin(fmax(h->x[k] / r->half_width + 1.0, from - margin), to + margin),
+            0.15 * margin);
+    for (int side = 0; side < 2; side++)
+        fprintf(out,
+                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s "
+                "face', $face%d using 1:2:3 with points pointtype 7 pointsize 1 "
+                "linecolor rgb variable notitle",
+                side, side ? "#c0392b" : "#1f4e79", side ? "+" : "−", side);
+    fputc('\n', out);
+}
+
+rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas,
+                               const rb_case_crack_result *r, double at, rb_message *why)
+{
+    view v = {.at = at};
+    rb_status s = see(r, &v, why);
+    if (s == RB_OK)
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_open, &v, why);
+    free(v.hat);
+    return s;
+}

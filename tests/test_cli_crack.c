@@ -1,0 +1,269 @@
+/* rollbem crack: the tables of an independent program through the command line, in every
+ * unit, from case files; loads of every kind go through or are refused in one line. */
+#include "cli_run.h"
+
+#include <gsl/gsl_math.h>
+
+#define HERTZ "crack --similar --support halfplane --half-width 1 --radius 1000 "
+#define BRAKED "--formulation steady --creep-ratio 3 "
+#define DRIVEN "--formulation steady --creep-ratio -3 "
+
+static double in_summary(const json_t *root, const char *name)
+{
+    return number_in(json_object_get(root, "summary"), name);
+}
+
+/* p0 sqrt(pi a), a = 1 mm, of the computed contact. */
+static double scale_of(const json_t *root)
+{
+    return sqrt(M_PI) * number_in(json_object_get(root, "contact"), "max_pressure");
+}
+
+static void edge_cracks(void **state)
+{
+    static const double want[][3] = {{90, 1.12152226, 0.0},
+                                     {75, 1.068546, 0.173807},
+                                     {60, 0.920100, 0.305800},
+                                     {45, 0.704910, 0.364491},
+                                     {30, 0.462431, 0.336140}};
+    char line[200];
+    (void)state;
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+        snprintf(line, sizeof line, HERTZ "--unloaded --remote-stress 3 --crack-angle %g",
+                 want[k][0]);
+        json_t *root = run_json(line);
+        CHECK_ABS(in_summary(root, "K_I_max") / (3.0 * sqrt(M_PI)), want[k][1], 2.5e-4,
+                  "K_I at %g degrees", want[k][0]);
+        CHECK_ABS(in_summary(root, "K_II_max") / (3.0 * sqrt(M_PI)), want[k][2], 2e-4,
+                  "K_II at %g degrees", want[k][0]);
+        json_decref(root);
+    }
+}
+
+static void passes(void **state)
+{
+    static const struct {
+        const char *load;
+        double K_II_min, K_II_max, K_I_max, K_II[6];
+    } want[] = {{"--mu 0 --crack-friction 0.1",
+                 -.09154,
+                 .15226,
+                 .0002,
+                 {-.02567, .03211, .15226, -.00518, -.09116, -.00617}},
+                {"--mu 0 --crack-friction 0.3",
+                 -.05491,
+                 .06401,
+                 0,
+                 {-.02366, -.00368, .06401, .06401, -.04651, -.00695}},
+                {"--mu 0.1 " BRAKED "--crack-friction 0.3",
+                 -.05736,
+                 .05546,
+                 .00485,
+                 {-.03968, -.01912, .05546, .05546, -.02563, .00152}}};
+    static const size_t step[] = {45, 55, 65, 75, 80, 120};
+    char line[300];
+    (void)state;
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+        snprintf(line, sizeof line, HERTZ "--formulation steady %s", want[k].load);
+        json_t *root = run_json(line);
+        const json_t *table = json_object_get(root, "table");
+        const double unit = scale_of(root);
+        CHECK_ABS(in_summary(root, "K_II_min") / unit, want[k].K_II_min, 1e-4, "min");
+        CHECK_ABS(in_summary(root, "K_II_max") / unit, want[k].K_II_max, 1e-4, "max");
+        CHECK_ABS(in_summary(root, "delta_K_II") / unit,
+                  want[k].K_II_max - want[k].K_II_min, 2e-4, "range");
+        CHECK_ABS(in_summary(root, "K_I_max") / unit, want[k].K_I_max, 1e-4, "K_I");
+        CHECK_ABS(in_summary(root, "K_I_min"), 0.0, 1e-12, "K_I");
+        for (int i = 0; i < 6; i++)
+            CHECK_ABS(entry(table, "K_II", step[i]) / unit, want[k].K_II[i], 1e-4,
+                      "%s, step %zu", want[k].load, step[i]);
+        assert_int_equal(json_array_size(json_object_get(table, "x")), 121);
+        CHECK_ABS(entry(table, "x", 120), 6.0, 1e-12, "x");
+        for (size_t i = 0; i < 121; i++) {
+            const double apart = entry(table, "open_length", i),
+                         stuck = entry(table, "stick_length", i);
+            CHECK_MAX(-apart, 0.0, "open");
+            CHECK_MAX(apart + stuck, 1.0, "of a length of 1");
+        }
+        json_decref(root);
+    }
+}
+
+static void trapped(void **state)
+{
+    (void)state;
+    json_t *root =
+        run_json(HERTZ DRIVEN "--mu 0.3 --crack-elements 20 --steps 120 --fluid "
+                              "trapped");
+    CHECK_ABS(in_summary(root, "K_I_max") / scale_of(root), 0.336, 1e-3, "K_I");
+    CHECK_ABS(in_summary(root, "fluid_pressure_max") * sqrt(M_PI) / scale_of(root), 1.104,
+              2e-3, "fluid");
+    json_decref(root);
+}
+
+/* The same physics in other units, and through a case file. */
+static void units_and_case_files(void **state)
+{
+    (void)state;
+    json_t *mm = run_json(HERTZ "--mu 0 --remote-stress 20 --crack-mouth 0.2"),
+           *si =
+               run_json("crack --units si --similar --support halfplane --half-width 1mm "
+                        "--radius 1 --young 94500e6 --mu 0 --remote-stress 20MPa "
+                        "--crack-mouth 0.2");
+    write_file("case.ini",
+               "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
+               "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
+               "remote-stress = 20MPa\ncrack-mouth = 0.2\nfluid = none\n");
+    json_t *file = run_json("crack case.ini");
+    static const char *const names[] = {"K_I_max", "K_II_max", "K_II_min", "delta_K_II"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const double want = in_summary(mm, names[k]);
+        /* MPa sqrt(mm) in Pa sqrt(m) */
+        CHECK_REL(in_summary(si, names[k]), want * 1e6 / sqrt(1000.0), 1e-9, "%s",
+                  names[k]);
+        CHECK_REL(in_summary(file, names[k]), want, 0.0, "%s", names[k]);
+    }
+    CHECK_REL(entry(json_object_get(si, "table"), "x", 0), -6e-3, 1e-12, "x");
+    CHECK_ABS(number_in(json_object_get(file, "inputs"), "remote-stress"), 20.0, 0.0,
+              "inputs");
+    json_decref(mm);
+    json_decref(si);
+    json_decref(file);
+}
+
+/* A wheel rolls without friction: transient and steady are the same load. */
+static void histories(void **state)
+{
+    (void)state;
+    json_t *steady =
+               run_json(HERTZ "--mu 0 --mesh uniform --contact-elements 80 --zone 1.3 "
+                              "--steps 60"),
+           *transient =
+               run_json(HERTZ "--mu 0 --formulation transient --distance 12 --steps 60 "
+                              "--contact-elements 80 --zone 1.3"),
+           *still =
+               run_json(HERTZ "--mu 0.3 --increments 4 --shift 2e-4 --crack-mouth 0.9");
+    const json_t *a = json_object_get(steady, "table"),
+                 *b = json_object_get(transient, "table"),
+                 *c = json_object_get(still, "table");
+    const size_t n = json_array_size(json_object_get(b, "x"));
+    const size_t pressed = n - 60; /* steps at rest, at --from */
+    for (size_t k = 1; k <= 60; k++) {
+        CHECK_ABS(entry(b, "x", pressed + k - 1), entry(a, "x", k), 1e-9, "x");
+        CHECK_ABS(entry(b, "K_II", pressed + k - 1), entry(a, "K_II", k), 1e-6,
+                  "step %zu", k);
+    }
+    for (size_t k = 0; k < json_array_size(json_object_get(c, "x")); k++)
+        CHECK_ABS(entry(c, "x", k), 0.0, 0.0, "it stays");
+    CHECK_MAX(1e-3, fabs(entry(c, "K_II", 3)), "pressing tears the crack");
+    json_decref(steady);
+    json_decref(transient);
+    json_decref(still);
+}
+
+static void error_bars(void **state)
+{
+    (void)state;
+    json_t *root =
+        run_json(HERTZ "--mu 0 --formulation steady --crack-elements 20 --error");
+    const json_t *errors = json_object_get(json_object_get(root, "summary"), "errors");
+    const double unit = scale_of(root);
+    CHECK_MAX(fabs(in_summary(root, "delta_K_II") / unit - 0.2438),
+              number_in(errors, "delta_K_II") / unit, "the bar holds the error");
+    CHECK_MAX(number_in(errors, "delta_K_II") / unit, 3e-3, "and is not wide");
+    json_decref(root);
+}
+
+static void below_the_surface(void **state)
+{
+    (void)state;
+    json_t *root =
+        run_json(HERTZ "--mu 0 --crack-depth 0.4 --crack-angle 0 --crack-mouth "
+                       "-0.5 --crack-friction 0.1 --from -7 --to 7 --steps 140");
+    /* a horizontal crack under a symmetric load: the ends change places */
+    CHECK_REL(in_summary(root, "K_II_max_upper"), -in_summary(root, "K_II_min"), 0.1,
+              "ends");
+    CHECK_MAX(in_summary(root, "K_I_max"), 0.03 * in_summary(root, "delta_K_II"),
+              "pressed together, but for what sliding near the surface opens");
+    json_decref(root);
+}
+
+static void pictures(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem(HERTZ
+                             "--mu 0 --plot a.svg --plot-crack b.svg --at 0.5 --orbit "
+                             "c.svg --quiet"),
+                     0);
+    assert_int_equal(shell("for f in a b c; do grep -q '</svg>' $f.svg || exit 1; done"),
+                     0);
+}
+
+static void loads_of_every_kind(void **state)
+{
+    static const char *const through[] = {
+        "crack --example rail",
+        "crack --example roll --radius-b 100",
+        "crack",
+        HERTZ "--mu 0.3 --formulation steady --force-ratio 0.5",
+        HERTZ
+        "--mu 0.3 --mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed "
+        "1000 --formulation steady --creep-ratio 0.5",
+        HERTZ "--fluid pressure --passes 2",
+        HERTZ "--support hub",
+        HERTZ
+        "--relaxation-time 0.1 --relaxation-ratio 1 --formulation steady --speed 100 "
+        "--young-b 1e5"};
+    (void)state;
+    for (size_t k = 0; k + 1 < sizeof through / sizeof *through; k++) {
+        json_t *root = run_json(through[k]);
+        CHECK_MAX(in_summary(root, "residual"), 1e-8, "%s", through[k]);
+        json_decref(root);
+    }
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    check_refused(HERTZ "--crack-angle 0", 64, "outside body B");
+    check_refused(HERTZ "--crack-angle 180", 64, "outside body B");
+    check_refused(HERTZ "--crack-angle -30", 64, "outside body B");
+    check_refused(HERTZ "--crack-depth -1", 64, "--crack-depth: expected a number >= 0");
+    check_refused(HERTZ "--crack-angle 12 --crack-elements 20", 64,
+                  "at least 40 elements");
+    check_refused(HERTZ "--crack-angle 170 --crack-elements 20", 64,
+                  "at least 40 elements");
+    check_refused(HERTZ "--crack-length 0", 64, "--crack-length");
+    check_refused(HERTZ "--crack-elements 3", 64, "--crack-elements");
+    check_refused(HERTZ "--steps 10", 64, "jump over the crack");
+    check_refused(HERTZ "--from 2 --to 2", 64, "rolls towards +x");
+    check_refused(HERTZ "--fluid trapped --crack-depth 1", 64, "mouth");
+    check_refused(HERTZ "--unloaded", 64, "--remote-stress");
+    check_refused(HERTZ "--unloaded --remote-stress 1 --fluid pressure", 64,
+                  "--unloaded");
+    check_refused(HERTZ "--unloaded --remote-stress 1 --plot a.png", 64, "--plot");
+    check_refused(HERTZ "--layer-thickness-b 3", 64, "body B");
+    check_refused(HERTZ "--radius-b 2", 64, "half-plane");
+    check_refused(HERTZ "--formulation transient --distance 12 --creep 0 --to 3", 64,
+                  "--to");
+    check_refused(HERTZ "--formulation transient --distance 12 --creep 0 --steps 8", 64,
+                  "jumps over the crack");
+    check_refused(HERTZ "--accuracy 0.01", 64, "does not refine");
+    write_file("bad.ini", "[crack]\ncrack-angle = 0\n");
+    check_refused("crack bad.ini", 65, "bad.ini");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(edge_cracks),
+                                       cmocka_unit_test(passes),
+                                       cmocka_unit_test(trapped),
+                                       cmocka_unit_test(units_and_case_files),
+                                       cmocka_unit_test(histories),
+                                       cmocka_unit_test(error_bars),
+                                       cmocka_unit_test(below_the_surface),
+                                       cmocka_unit_test(pictures),
+                                       cmocka_unit_test(loads_of_every_kind),
+                                       cmocka_unit_test(refusals)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
