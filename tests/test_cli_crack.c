@@ -222,6 +222,44 @@ static void loads_of_every_kind(void **state)
     }
 }
 
+/* Under a stiff wheel K_II falls by a sixth, between similar bodies by less; where the
+ * crack is far from the contact nothing changes. */
+static void coupled(void **state)
+{
+    static const struct {
+        const char *bodies;
+        double alone, coupled;
+    } want[] = {{"--young 1e13 --young-b 1e5", 0.1508, 0.1268},
+                {"--similar", 0.1508, 0.137}};
+    char line[300];
+    (void)state;
+    for (size_t k = 0; k < 2; k++)
+        for (int both = 0; both < 2; both++) {
+            snprintf(line, sizeof line,
+                     "crack %s --support halfplane --half-width 1 --radius 1000 --mu 0 "
+                     "--crack-elements 10 --contact-elements 32 --steps 60 %s",
+                     want[k].bodies, both ? "--coupled" : "");
+            json_t *root = run_json(line);
+            CHECK_ABS(in_summary(root, "K_II_max") / scale_of(root),
+                      both ? want[k].coupled : want[k].alone, 2e-3, "%s", line);
+            if (both)
+                CHECK_MAX(1.15 * scale_of(root) / sqrt(M_PI),
+                          in_summary(root, "max_pressure"), "corner at the mouth");
+            json_decref(root);
+        }
+    json_t *far =
+        run_json(HERTZ "--mu 0 --contact-elements 32 --crack-elements 10 --coupled "
+                       "--crack-mouth 9 --from -9 --to -8 --steps 4");
+    CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 1e-3,
+              "far away");
+    json_decref(far);
+    check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64,
+                  "rigid");
+    check_refused(HERTZ "--mu 0.1 --coupled", 64, "--mu 0");
+    check_refused(HERTZ "--mu 0 --coupled --fluid trapped", 64, "without fluid");
+    check_refused(HERTZ "--mu 0 --coupled --unloaded --remote-stress 1", 64, "exclude");
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -264,6 +302,7 @@ int main(void)
                                        cmocka_unit_test(below_the_surface),
                                        cmocka_unit_test(pictures),
                                        cmocka_unit_test(loads_of_every_kind),
+                                       cmocka_unit_test(coupled),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -101,6 +101,17 @@ rb_status rb_crack_step(rb_crack *crack, const double *T, rb_crack_fluid fluid,
 
 /* ---- A passing load ---------------------------------------------------------------- */
 
+/* The contact of a wheel without friction, for a crack that it feels (C9): n elements
+ * between n + 1 ends about x = 0, the normal flexibility F of both bodies at them (n x n,
+ * of tractions) [length/stress], the gap before the approach, which is found from the
+ * load and starts at `approach`.  Borrowed. */
+typedef struct {
+    int n;
+    const double *ends, *F, *gap;
+    int ldf;
+    double load, approach;
+} rb_crack_wheel;
+
 typedef struct {
     int steps;
     const double *x;              /* steps: where the load stands [length] */
@@ -109,6 +120,8 @@ typedef struct {
     int passes;                   /* >= 1: the same steps again */
     rb_crack_fluid fluid;
     double tension;
+    const rb_crack_wheel *wheel; /* NULL: the contact does not feel the crack; else its
+                                    tractions are found, and `load` gives the scale */
 } rb_crack_passage;
 
 /* One entry per step of all passes; owned. */
@@ -118,8 +131,9 @@ typedef struct {
     double *K_I_upper, *K_II_upper; /* NULL where the upper end is a mouth */
     double *open_length, *stick_length, *fluid_pressure;
     double *residual;
-    double *D; /* n x 2 nodes, step by step */
-    int *zone; /* n x nodes */
+    double *max_pressure; /* of the contact that feels the crack; NULL: it does not */
+    double *D;            /* n x 2 nodes, step by step */
+    int *zone;            /* n x nodes */
 } rb_crack_history;
 
 /* The history holds the finished steps also on a positive status; free it in any case.
@@ -137,7 +151,8 @@ typedef struct {
     double K_II_at_K_I_max;                      /* the phase of opening and sliding */
     double K_I_max_upper, K_I_min_upper, K_II_max_upper, K_II_min_upper; /* or NAN */
     double open_max, fluid_pressure_max;
-    double pass_change; /* largest change of K from the pass before; NAN with one pass */
+    double pass_change;  /* largest change of K from the pass before; NAN with one pass */
+    double max_pressure; /* of the contact, coupled; else NAN */
     double residual;
 } rb_crack_summary;
 

@@ -12,6 +12,8 @@
 static const double WIDE = 0.5, NARROW = 0.1, FAR = 6.0;
 /* Of a B that is a cylinder: the deepest place of a crack in a half-plane, in radii. */
 static const double DEEPEST = 0.1;
+/* Half-width of the potential contact of a coupled crack, in half-widths. */
+static const double ZONE = 1.6;
 enum { INTERVALS = 120 };
 
 /* ---- Options ----------------------------------------------------------------------- */
@@ -51,6 +53,8 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
                    "uniform stress in B along the surface, tension > 0"),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
+    RB_FLAG_LINE("coupled", PLACE(coupled),
+                 "the contact, without friction, feels the crack: one problem for both"),
 };
 const int rb_case_crack_options_n =
     sizeof rb_case_crack_options / sizeof rb_case_crack_options[0];
@@ -97,6 +101,9 @@ static const rb_rolling_result scalars[] = {
     NUMBER(fluid_pressure_max, .unit = "MPa", .meaning = "of the fluid in the crack"),
     NUMBER(pass_change, IS_K,
            .meaning = "largest change of K_I or K_II since the pass before: shakedown"),
+    NUMBER(max_pressure, .unit = "MPa",
+           .meaning = "of the contact where it feels the crack; it has a corner at the "
+                      "mouth, where it grows with the number of elements"),
     NUMBER(residual, .meaning = "natural residual of the scaled problem of a step"),
 };
 
@@ -109,6 +116,7 @@ static const rb_rolling_result columns[] = {
     COLUMN(open_length, .unit = "mm", .meaning = "of the faces that are apart"),
     COLUMN(stick_length, .unit = "mm", .meaning = "of the faces that do not slide"),
     COLUMN(fluid_pressure, .unit = "MPa", .meaning = "in the crack"),
+    COLUMN(max_pressure, .unit = "MPa", .meaning = "of a contact that feels the crack"),
 };
 
 #define TABLE(rows)                                                                      \
@@ -225,6 +233,18 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
                        "crack: body B counts as a half-plane; a crack as deep as %g of "
                        "its radius needs its shape, expected at most %g",
                        deepest / rc->b.radius, DEEPEST);
+    if (k->coupled && (rb_rolling_largest_mu(rc) > 0.0 || rb_case_has_steps(c)))
+        return rb_fail(
+            why, RB_EINVAL,
+            "--coupled: for a contact without friction and without steps of its "
+            "own, --mu 0");
+    if (k->coupled && !rc->elastic_b)
+        return rb_fail(
+            why, RB_EINVAL,
+            "--coupled: a rigid body B does not feel its crack; make it elastic "
+            "(--similar, --young-b)");
+    if (k->coupled && k->fluid != RB_CRACK_DRY)
+        return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
     return check_positions(c, k, why);
 }
 
@@ -285,6 +305,13 @@ static rb_status solve_load(const rb_resolved_case *c, const rb_case_crack *k,
     rb_status s = RB_OK;
 
     plain.error = 0;
+    if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges
+                       */
+        plain.rc.mesh = RB_MESH_UNIFORM;
+        plain.rc.slip_operator = RB_SLIP_UPSTREAM;
+        if (plain.rc.zone == 0.0)
+            plain.rc.zone = ZONE * c->derived.half_width;
+    }
     if (!k->unloaded)
         s = rb_case_solve(&plain, keep_step, t, &r->contact, why);
     if (s == RB_INTERRUPTED) /* by keep_step alone */
@@ -386,15 +413,28 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
     if (s == RB_OK)
         s = rb_crack_create(&r->shape, &crack, why);
     if (s == RB_OK) {
+        const rb_rolling_model *model = &r->contact.model;
+        const rb_crack_wheel wheel = {.n = model->mesh.n,
+                                      .ends = t.ends,
+                                      .F = model->bodies.F,
+                                      .ldf = 2 * (model->mesh.n + 1),
+                                      .gap = model->problem.d_N,
+                                      .load = r->contact.solution.normal_load,
+                                      .approach = r->contact.solution.approach};
         const rb_crack_passage passage = {.steps = t.n,
                                           .x = t.x,
                                           .loads = t.loads,
                                           .load = t.load,
                                           .passes = k->unloaded ? 1 : k->passes,
                                           .fluid = (rb_crack_fluid)k->fluid,
-                                          .tension = k->remote_stress};
+                                          .tension = k->remote_stress,
+                                          .wheel = k->coupled ? &wheel : NULL};
         r->passes = passage.passes;
-        s = rb_crack_pass(crack, &passage, &r->history, why);
+        if (k->coupled && !model->bodies.F)
+            s = rb_fail(why, RB_EINVAL, "--coupled: fewer than %d contact elements",
+                        RB_ROLLING_LARGE);
+        else
+            s = rb_crack_pass(crack, &passage, &r->history, why);
         find_notes(c, k, &t, r);
         if (r->history.n > 0)
             r->summary = rb_crack_summarise(&r->history, r->passes);

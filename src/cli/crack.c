@@ -38,7 +38,7 @@ static const char about[] =
     "per\n"
     "position. Lengths of the crack and positions count in half-widths of the contact\n"
     "(Hertz's of its load). The body of the crack is a half-plane; the contact does not\n"
-    "feel the crack. A static or steady case passes as it is, "
+    "feel the crack unless --coupled says so. A static or steady case passes as it is, "
     "a\n"
     "transient stands at --from plus what it has rolled, a static history stays where "
     "it\n"

@@ -415,6 +415,7 @@ void rb_crack_free(rb_crack *c)
         return;
     rb_contact_problem_free(&c->problem);
     rb_contact_state_free(&c->contact);
+    rb_contact_state_free(&c->wheel);
     free(c->element);
     free(c->t);
     free(c->hat);

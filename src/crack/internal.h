@@ -35,8 +35,22 @@ struct rb_crack {
     double per_D; /* K over D of the node next to a tip */
     rb_contact_problem problem;
     rb_contact_state contact;
-    int warm; /* 1: the zones of `contact` are a start */
+    rb_contact_state wheel; /* of the last coupled step; n = 0: none */
+    double approach;        /* in it */
+    int warm;               /* 1: the zones of `contact` are a start */
 };
+
+/* Names a solved step: gaps, slips and state of its problem, whose scales are `scale`,
+ * from entry `at` on. */
+void rb_crack_read_state(const rb_crack *crack, const double *gap, const double *slip,
+                         const double *scale, const rb_contact_state *of, int at,
+                         rb_crack_state *state);
+/* The same step with the wheel's contact elements in the problem (C9). */
+rb_status rb_crack_step_coupled(rb_crack *crack, const rb_crack_wheel *wheel, double x,
+                                const double *T, double stress, rb_crack_state *state,
+                                double *max_pressure, rb_message *why);
+/* Of the scaled natural residual. */
+#define RB_CRACK_TOLERANCE 1e-10
 
 enum { RB_CRACK_LOAD_POINTS = 6 };
 /* Gauss points of element k for the stress of a load. */

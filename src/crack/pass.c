@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TOLERANCE = 1e-10; /* of the scaled natural residual */
-
 /* ---- State ------------------------------------------------------------------------- */
 
 rb_status rb_crack_state_alloc(const rb_crack *c, rb_crack_state *state)
@@ -64,7 +62,7 @@ static double volume_of(const rb_crack *c, const double *gap)
 static rb_status solve_dry(rb_crack *c, rb_message *why)
 {
     const rb_contact_options options = {
-        .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = TOLERANCE};
+        .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = RB_CRACK_TOLERANCE};
     const rb_status s =
         rb_contact_solve(&c->problem, &options, c->warm, &c->contact, why);
     c->warm = s == RB_OK;
@@ -162,32 +160,29 @@ static rb_status solve_trapped(rb_crack *c, double volume, int mirrored, double 
     return s > 0 ? rb_fail(why, s, "%s", rb_status_reason(s, &info.msg)) : s;
 }
 
-/* D, r, zones and what is derived from them. */
-static void read_solution(const rb_crack *c, double pressure, double *gap,
-                          rb_crack_state *state)
+void rb_crack_read_state(const rb_crack *c, const double *gap, const double *slip,
+                         const double *scale, const rb_contact_state *of, int at,
+                         rb_crack_state *state)
 {
     const int n = c->n;
-    double *slip = gap + n;
 
-    rb_contact_kinematics(&c->problem, &c->contact, gap, slip);
     state->open_length = state->stick_length = 0.0;
     for (int j = 0; j < n; j++) {
-        state->D[j] =
-            c->contact.zone[j] == RB_ZONE_SEPARATED ? gap[j] / c->scale[j] : 0.0;
-        state->D[n + j] += slip[j] / c->scale[j];
-        state->r[j] = c->contact.p[j] * c->scale[j];
-        state->r[n + j] = c->contact.q[j] * c->scale[j];
-        state->zone[j] = c->contact.zone[j];
-        state->open_length += state->zone[j] == RB_ZONE_SEPARATED ? c->hat[j] : 0.0;
-        state->stick_length += state->zone[j] == RB_ZONE_STICK ? c->hat[j] : 0.0;
+        const int i = at + j, zone = of->zone[i];
+        state->D[j] = zone == RB_ZONE_SEPARATED ? gap[i] / scale[i] : 0.0;
+        state->D[n + j] += slip[i] / scale[i];
+        state->r[j] = of->p[i] * scale[i];
+        state->r[n + j] = of->q[i] * scale[i];
+        state->zone[j] = zone;
+        state->open_length += zone == RB_ZONE_SEPARATED ? c->hat[j] : 0.0;
+        state->stick_length += zone == RB_ZONE_STICK ? c->hat[j] : 0.0;
     }
     state->K_I = c->per_D * state->D[n - 1];
     state->K_II = c->per_D * state->D[2 * n - 1];
     state->K_I_upper = c->first ? c->per_D * state->D[0] : NAN;
     state->K_II_upper = c->first ? c->per_D * state->D[n] : NAN;
-    state->fluid_pressure = pressure;
-    state->residual = c->contact.residual;
-    state->iterations = c->contact.iterations;
+    state->residual = of->residual;
+    state->iterations = of->iterations;
 }
 
 rb_status rb_crack_step(rb_crack *c, const double *T, rb_crack_fluid fluid,
@@ -220,8 +215,11 @@ rb_status rb_crack_step(rb_crack *c, const double *T, rb_crack_fluid fluid,
                 s = solve_trapped(c, state->volume, 1, &p_f, why);
         }
     }
-    if (s == RB_OK)
-        read_solution(c, p_f, gap, state);
+    if (s == RB_OK) {
+        rb_contact_kinematics(p, &c->contact, gap, gap + n);
+        rb_crack_read_state(c, gap, gap + n, c->scale, &c->contact, 0, state);
+        state->fluid_pressure = p_f;
+    }
     free(room);
     free(gap);
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
@@ -237,11 +235,12 @@ void rb_crack_history_free(rb_crack_history *h)
     memset(h, 0, sizeof *h);
 }
 
-static rb_status history_alloc(const rb_crack *c, size_t n, rb_crack_history *h)
+static rb_status history_alloc(const rb_crack *c, size_t n, int coupled,
+                               rb_crack_history *h)
 {
     memset(h, 0, sizeof *h);
     h->nodes = c->n;
-    h->x = rb_alloc(n, 9);
+    h->x = rb_alloc(n, 10);
     h->D = rb_alloc(n, 2 * (size_t)c->n);
     h->zone = rb_alloc_int(n * (size_t)c->n);
     if (!h->x || !h->D || !h->zone) {
@@ -253,6 +252,7 @@ static rb_status history_alloc(const rb_crack *c, size_t n, rb_crack_history *h)
                                &h->K_I_upper,    &h->K_II_upper};
     for (size_t k = 0; k < (c->first ? 8 : 6); k++)
         *column[k] = h->x + (k + 1) * n;
+    h->max_pressure = coupled ? h->x + 9 * n : NULL;
     return RB_OK;
 }
 
@@ -306,11 +306,14 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         return rb_fail(why, RB_EINVAL,
                        "crack: fluid comes in by a mouth; a crack below the surface has "
                        "none");
+    if (p->fluid != RB_CRACK_DRY && p->wheel)
+        return rb_fail(why, RB_EINVAL, "crack: coupled, it is without fluid");
     const double scale = largest_stress(p);
     double *T = rb_alloc(2, (size_t)c->n);
     rb_crack_state state = {0};
     rb_status s =
-        T ? history_alloc(c, (size_t)p->steps * (size_t)p->passes, h) : RB_ENOMEM;
+        T ? history_alloc(c, (size_t)p->steps * (size_t)p->passes, p->wheel != NULL, h)
+          : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_state_alloc(c, &state);
     c->warm = 0;
@@ -320,10 +323,16 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
             p->loads > 0 ? &p->load[p->loads > 1 ? step : 0] : NULL;
         const double at_mouth =
             load ? pressure_at(load, c->shape.path.x[0] - p->x[step]) : 0.0;
-        s = rb_crack_load(c, load, p->x[step], p->tension, T);
+        double max_pressure = 0.0;
+        s = rb_crack_load(c, p->wheel ? NULL : load, p->x[step], p->tension, T);
         rb_message reason = {""};
-        if (s == RB_OK)
+        if (s == RB_OK && p->wheel)
+            s = rb_crack_step_coupled(c, p->wheel, p->x[step], T, scale, &state,
+                                      &max_pressure, &reason);
+        else if (s == RB_OK)
             s = rb_crack_step(c, T, p->fluid, at_mouth, scale, &state, &reason);
+        if (s == RB_OK && p->wheel)
+            h->max_pressure[h->n] = max_pressure;
         if (s == RB_OK)
             record(&state, p->x[step], h);
         else if (s > 0)
@@ -345,6 +354,7 @@ rb_crack_summary rb_crack_summarise(const rb_crack_history *h, int passes)
     rb_crack_summary s = {.from = h->n - steps, .pass_change = NAN};
 
     s.K_I_max = s.K_II_max = s.open_max = s.fluid_pressure_max = -INFINITY;
+    s.max_pressure = h->max_pressure ? rb_norm_inf((size_t)h->n, h->max_pressure) : NAN;
     s.K_I_min = s.K_II_min = INFINITY;
     s.K_I_max_upper = s.K_II_max_upper = s.K_I_min_upper = s.K_II_min_upper = NAN;
     for (int k = s.from; k < h->n; k++) {
