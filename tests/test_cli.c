@@ -57,6 +57,12 @@ static const struct {
     {"--formulation steady --creep 0.1 --force 1", 64,
      "--creep and --force exclude each other"},
     {"--formulation steady --shift 1", 64, "shift"},
+    {"--support hub --cover-thickness 4 --similar --load 10", 64,
+     "cover thickness of body B: its core holds the wheel, add --support-b hub"},
+    {"--support halfplane --layer-thickness 1 --young 8 --poisson 0.3 --approach 3", 64,
+     "the layer is compressed by 300 % of its thickness"},
+    {"--support hub --cover-thickness 2 --young 8 --poisson 0.3 --approach 2.1", 64,
+     "the cover is compressed by 105 % of its thickness"},
     {"--similar --young-b 1000", 64, "--similar and --young-b exclude each other"},
     {"--radius-b 50", 64, "--radius-b: body B is rigid without --similar or --young-b"},
     {"--plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
@@ -396,6 +402,42 @@ static void not_solved_is_1(void **state)
     assert_int_equal(rollbem("--support hub --similar --mu 0.1 --half-width 2 "
                              "--force-ratio 1 --contact-elements 55 --solver nsn-fb"),
                      0);
+}
+
+/* --similar is what naming everything of B would be, but for what B has by itself. */
+static void similar_copies_all_that_a_has(void **state)
+{
+    (void)state;
+    static const char *const of[][3] = {
+        {"--support halfplane --layer-thickness 2 --base-young 3e5 --base-poisson 0.2",
+         "--layer-thickness-b 2 --base-young-b 3e5 --base-poisson-b 0.2", "none"},
+        {"--support hub --radius-b 60 --support-b hub --cover-thickness 4 --core-young "
+         "2e5",
+         "--cover-thickness-b 4 --core-young-b 2e5 --core-poisson-b 0.1", ""},
+        {"--support halfplane --relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5 "
+         "--speed 9",
+         "--relaxation-time-b 0.01,0.1 --relaxation-ratio-b 1,0.5", ""}};
+    for (int k = 0; k < 3; k++) {
+        static const char common[] = "--load 100 --formulation steady --force 0 "
+                                     "--contact-elements 20 ";
+        char words[600];
+        snprintf(words, sizeof words, "%s%s --similar", common, of[k][0]);
+        json_t *copied = run_json(words);
+        snprintf(words, sizeof words, "%s%s --young-b 94500 --poisson-b 0.1 %s", common,
+                 of[k][0], of[k][1]);
+        json_t *named = run_json(words);
+        CHECK_REL(member(copied, "summary", "max_pressure"),
+                  member(named, "summary", "max_pressure"), 1e-13, "kind %d: p0", k);
+        CHECK_ABS(member(copied, "summary", "creepage"), 0.0, 1e-9, "kind %d: no slip",
+                  k);
+        json_decref(named);
+        json_decref(copied);
+        snprintf(words, sizeof words,
+                 "\"$R\" %s%s --similar %s --json > copied.json 2>/dev/null && \"$R\" "
+                 "check copied.json > /dev/null",
+                 common, of[k][0], of[k][2][0] ? "--layer-thickness-b none" : "");
+        assert_int_equal(shell(words), 0);
+    }
 }
 
 /* ---- Steps ------------------------------------------------------------------------- */
@@ -923,6 +965,7 @@ int main(void)
         cmocka_unit_test(completion_offers_every_command),
         cmocka_unit_test(the_schema_describes_every_input),
         cmocka_unit_test(not_solved_is_1),
+        cmocka_unit_test(similar_copies_all_that_a_has),
         cmocka_unit_test(static_history_from_a_table),
         cmocka_unit_test(columns_win_over_the_case_file),
         cmocka_unit_test(distances_have_a_unit),

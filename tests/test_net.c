@@ -379,6 +379,13 @@ static const conflict conflicts[] = {
     {{"surface=b-cover", "body-b=bore"}, "its core holds the wheel"},
     {{"surface=b-cover", "body-b=arc"}, "its core holds the wheel"},
     {{"surface=cover*", "support!hub"}, "its core holds the wheel"},
+    /* --similar copies what A has */
+    {{"surface=cover*", "body-b=similar"}, "its core holds the wheel"},
+    {{"surface=cover*", "body-b=arc"}, "its core holds the wheel"},
+    {{"surface=layer", "body-b=arc"}, "for the support halfplane only"},
+    {{"surface=on-elastic", "body-b=arc"}, "for the support halfplane only"},
+    {{"surface=relaxing", "body-b=arc"}, NULL},
+    {{"surface=layer", "body-b=similar", "shape=other"}, "displacement is absolute"},
     {{"surface=layer", "support=halfplane", "shape=other"}, "displacement is absolute"},
     {{"surface=b-layer", "shape=other"}, "displacement is absolute"},
     /* fifty chords of the shape cut so thick a core */

@@ -27,6 +27,28 @@ static void steady_slip_lies_between_two_midpoints(void **state)
               "sum of lambda_i (q_i + q_i+1)/2");
 }
 
+/* Beside the edges the mean friction of an element in contact and an open one is no
+ * friction of anything that slips. */
+static void what_sticks_dissipates_nothing(void **state)
+{
+    (void)state;
+    double opens[N] = {0.3, 0.0, 0.0, 0.0, -0.1}, sticks[N] = {0.0, -2.0, 3.0, 0.5, 0.0};
+    const rb_rolling_solution s = {.n = N,
+                                   .shift = opens,
+                                   .q = sticks,
+                                   .h = h,
+                                   .slip = slip,
+                                   .formulation = RB_STEADY};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    double power[N];
+    rc.formulation = RB_STEADY;
+    rb_rolling_friction_power(&s, power);
+    for (int i = 0; i < N; i++)
+        CHECK_ABS(power[i], 0.0, 0.0, "%d", i);
+    CHECK_ABS(rb_rolling_dissipated_power(&rc, N, opens, sticks, h, e_T), 0.0, 0.0, "D");
+    CHECK_ABS(rb_rolling_slid_pressure(&rc, N, opens, sticks, h, e_T), 0.0, 0.0, "wear");
+}
+
 static void other_slip_belongs_to_its_element(void **state)
 {
     (void)state;
@@ -69,6 +91,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steady_slip_lies_between_two_midpoints),
+        cmocka_unit_test(what_sticks_dissipates_nothing),
         cmocka_unit_test(other_slip_belongs_to_its_element),
         cmocka_unit_test(elastic_bodies_lose_nothing),
     };

@@ -266,7 +266,7 @@ typedef struct {
     rb_rolling_derived derived; /* what follows from rc */
     const char *gap_file;       /* profile of the initial gap, or NULL */
     double gap_smoothing;       /* standard deviation of its noise [length] */
-    int similar;                /* B is of A's material */
+    int similar;                /* B is of A's material, with its layer, cover, memory */
     double young_b, poisson_b, radius_b;
     double conductivity_b, heat_capacity_b, temperature_b;
     rb_case_memory memory_a, memory_b;
@@ -454,6 +454,8 @@ double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solu
 
 /* ---- Whose fault it is ------------------------------------------------------------- */
 
+/* 1: an option of body B that --similar copies from A. */
+int rb_case_is_copied_to_b(const char *option);
 /* Who gave the option of that name; 0: it has its default. */
 int rb_case_given(const rb_case *c, const char *name);
 /* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line

@@ -266,6 +266,8 @@ typedef struct {
 } rb_rolling_derived;
 
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
+/* 1: a body has a thickness, as a layer, a cover or a wheel on a hub. */
+int rb_rolling_has_thickness(const rb_rolling_case *rc);
 /* Of A and B; A's where B is a plane. */
 double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
@@ -308,6 +310,9 @@ typedef struct {
                         products with f serve instead (large contacts) */
     rb_bem_flexibility transforms; /* f once more, as products, where Newton's method is
                                       faster with them than with F; n = 0: none; owned */
+    double *memory[2]; /* of A and B, 2m x 2n each, in its own frame: what its memory adds
+                          to its flexibility; NULL where it has none, and without
+                          wheels; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -426,6 +431,8 @@ typedef struct {
     double torque_a;   /* M + Q R_A: external torque on A's axle, > 0 the way A rolls, so
                           that it drives A [force]; NAN in static */
     double torque_b;   /* M - Q R_B: the same of B; NAN also where B is a plane */
+    double max_strain; /* compression of a layer, cover or rim over its thickness, the
+                          larger one of both bodies; without one a/(2R) */
     double max_temperature;    /* in contact; NAN where not asked for, as below */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
@@ -545,8 +552,8 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
 /* A line each where a result must be read with care: linear elasticity far exceeded,
  * `static` with a creepage, steady rolling without one, full sliding, an arc support that
- * rolls, slip that does not oppose the friction. */
-enum { RB_ROLLING_NOTES = 8 };
+ * rolls, slip that does not oppose the friction, a layer that is computed as flat. */
+enum { RB_ROLLING_NOTES = 12 };
 typedef struct {
     int n;
     char text[RB_ROLLING_NOTES][200];

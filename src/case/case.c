@@ -297,6 +297,46 @@ static rb_status check_rigid(const rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+/* What --similar copies from A beside its two constants, each unless B's own is given. */
+static const struct {
+    const char *of_b;
+    size_t from, to;
+} copies[] = {
+#define COPY(name, member)                                                               \
+    {                                                                                    \
+        name, offsetof(rb_rolling_case, a.member), offsetof(rb_rolling_case, b.member)   \
+    }
+    COPY("layer-thickness-b", layer),
+    COPY("base-young-b", base_young),
+    COPY("base-poisson-b", base_poisson),
+    COPY("cover-thickness-b", cover),
+    COPY("core-young-b", core_young),
+    COPY("core-poisson-b", core_poisson)
+#undef COPY
+};
+
+int rb_case_is_copied_to_b(const char *option)
+{
+    for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
+        if (strcmp(option, copies[k].of_b) == 0)
+            return 1;
+    return 0;
+}
+
+static void copy_to_b(rb_case *c)
+{
+    char *rc = (char *)&c->resolved.rc;
+    const rb_rolling_body *b = &c->resolved.rc.b;
+    /* a base belongs to a layer, a core to a cover: the table has these first */
+    for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
+        if (!rb_case_given(c, copies[k].of_b) &&
+            (strncmp(copies[k].of_b, "base", 4) != 0 || b->layer > 0.0) &&
+            (strncmp(copies[k].of_b, "core", 4) != 0 || b->cover > 0.0))
+            memcpy(rc + copies[k].to, rc + copies[k].from, sizeof(double));
+    if (!rb_case_given(c, "relaxation-time-b") && !rb_case_given(c, "relaxation-ratio-b"))
+        c->resolved.memory_b = c->resolved.memory_a;
+}
+
 static rb_status resolve_body_b(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
@@ -306,6 +346,8 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
         s->young_b = s->poisson_b = NAN;
         return check_rigid(c, why);
     }
+    if (s->similar)
+        copy_to_b(c);
     rc->b.young = s->similar ? rc->a.young : s->young_b;
     rc->b.poisson = s->similar || isnan(s->poisson_b) ? rc->a.poisson : s->poisson_b;
     rc->b.radius = s->radius_b;

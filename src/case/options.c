@@ -104,7 +104,8 @@ const rb_option rb_case_table[] = {
         .unset = "not given"),
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
-    RB_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
+    RB_FLAG_LINE("similar", PLACE(similar),
+                 "elastic, of the same material as A, with its layer, cover and memory",
                  .excludes = ONE_YOUNG_B | ONE_POISSON_B),
     RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
                    "Young's modulus; makes B elastic", .unset = "rigid",

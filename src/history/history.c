@@ -337,6 +337,8 @@ static rb_status static_step(history_state *r, rb_message *why)
         relaxed(r, interval);
         record(r, 0.0);
     }
+    if (s == RB_OK)
+        s = rb_rolling_check_crushed(model, why);
     if (r->part == parts) {
         r->row++;
         r->part = 0;
@@ -390,7 +392,7 @@ static rb_status rolled_step(history_state *r, double from, double to, rb_messag
         relaxed(r, interval_of(r, c));
         record(r, to);
     }
-    return s;
+    return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
 }
 
 static int steps_at_rest(const history_state *r)

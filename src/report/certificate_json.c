@@ -93,6 +93,21 @@ static int is_copied(const json_t *inputs, const char *key)
            (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
 }
 
+/* What B has not although A has it: --similar would copy it. */
+static int is_own_of_b(const json_t *inputs, const char *key)
+{
+    char of_a[80] = "";
+    const char *below = strncmp(key, "base", 4) == 0   ? "layer-thickness-b"
+                        : strncmp(key, "core", 4) == 0 ? "cover-thickness-b"
+                                                       : key;
+    if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
+        return 0;
+    if (below != key && !json_is_number(json_object_get(inputs, below)))
+        return 0;
+    snprintf(of_a, sizeof of_a, "%.*s", (int)strlen(key) - 2, key);
+    return !json_equal(json_object_get(inputs, key), json_object_get(inputs, of_a));
+}
+
 /* Sets what differs from `now`. */
 static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *words,
                             rb_message *why)
@@ -105,7 +120,7 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
     json_object_foreach((json_t *)inputs, key, value)
     {
         if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
-            json_equal(value, json_object_get(now, key)))
+            (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
             continue;
         option_text(value, text, sizeof text);
         s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);

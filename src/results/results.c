@@ -90,6 +90,9 @@ static const rb_rolling_result scalars[] = {
                       "brakes it"),
     RESULT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 25,
            .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B: the same of B's axle"),
+    RESULT("max_strain", max_strain, .study = 26,
+           .meaning = "largest compression of a layer, cover or rim over its thickness; "
+                      "without one a/(2R)"),
     RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT,
            .study = 19, .condition = RB_FOR_HEAT,
            .meaning = "highest temperature of the surfaces in contact"),

@@ -299,6 +299,9 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
+    s->max_strain = rb_rolling_strain(&model->rc, s->approach, s->max_pressure, NULL);
+    if (isnan(s->max_strain))
+        s->max_strain = 0.5 * s->half_width / rb_rolling_radius(&model->rc);
     s->equal_instead = model->equal_instead;
     s->slip_operator = model->rc.slip_operator;
     s->kappa = NAN;

@@ -12,6 +12,8 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     rb_bem_flexibility_free(&bodies->transforms);
     rb_bem_system_free(bodies->system_a);
     rb_bem_system_free(bodies->system_b);
+    free(bodies->memory[0]);
+    free(bodies->memory[1]);
     memset(bodies, 0, sizeof *bodies);
 }
 
@@ -103,6 +105,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
         s = join_bodies(rc, mesh, large, one_body, &bodies->f, why);
     bodies->system_a = one_body[0].system;
     bodies->system_b = one_body[1].system;
+    bodies->memory[0] = one_body[0].memory;
+    bodies->memory[1] = one_body[1].memory;
     bodies->seconds_assembly =
         one_body[0].seconds_assembly + one_body[1].seconds_assembly;
     bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;

@@ -45,7 +45,20 @@ static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_bo
     double length[RB_ROLLING_TERMS];
     const double start = rb_seconds();
     const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
-    const rb_status s = how(mesh->n, mesh->ends, &surface, &one_body->f, why);
+    rb_status s = how(mesh->n, mesh->ends, &surface, &one_body->f, why);
+    if (s == RB_OK && rb_rolling_keeps_memory(rc, body)) {
+        rb_bem_surface glassy = surface;
+        rb_bem_flexibility f = {0};
+        glassy.terms = 0;
+        s = how(mesh->n, mesh->ends, &glassy, &f, why);
+        if (s == RB_OK)
+            s = rb_rolling_memory_before(&f, &one_body->memory);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_store(&one_body->f);
+        if (s == RB_OK)
+            rb_rolling_memory_after(&one_body->f, one_body->memory);
+        rb_bem_flexibility_free(&f);
+    }
     one_body->seconds_condense = rb_seconds() - start;
     return s;
 }

@@ -45,8 +45,8 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_body *
 /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
  * flexibility of a body with memory. */
 static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *body,
-                            const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
-                            rb_message *why)
+                            const rb_rolling_mesh *mesh,
+                            rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     double length[RB_ROLLING_TERMS];
     const double hub = body->hub_ratio * body->radius;
@@ -62,7 +62,13 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
         wheel.hub = hub;
         wheel.core = rb_rolling_base_material(rc, body);
     }
-    return rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, f, why);
+    rb_status s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, &one_body->f,
+                                          why);
+    if (s == RB_OK)
+        rb_rolling_memory_after(&one_body->f, one_body->memory);
+    return s;
 }
 
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
@@ -85,7 +91,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
         s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
             one_body->system, rc->normals, &one_body->f, why);
         if (s == RB_OK && body->memory.n > 0)
-            s = add_memory(rc, body, mesh, &one_body->f, why);
+            s = add_memory(rc, body, mesh, one_body, why);
         one_body->seconds_condense = rb_seconds() - start;
     }
     return s;

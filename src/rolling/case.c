@@ -87,6 +87,49 @@ double rb_rolling_radius(const rb_rolling_case *rc)
     return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
+static double thickness_of(const rb_rolling_body *body, const char **what)
+{
+    const int layer = body->layer > 0.0, cover = body->cover > 0.0;
+
+    *what = layer ? "layer" : cover ? "cover" : "rim";
+    return layer                         ? body->layer
+           : cover                       ? body->cover
+           : body->support == RB_BEM_HUB ? (1.0 - body->hub_ratio) * body->radius
+                                         : INFINITY;
+}
+
+double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
+                         const char **what)
+{
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    double most = NAN;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const char *name;
+        const rb_rolling_body *body = bodies[b];
+        const double thickness = thickness_of(body, &name),
+                     glassy = compliance(rb_rolling_material(rc, body));
+        double slow = 1.0;
+        if (isinf(thickness))
+            continue;
+        for (int k = 0; k < body->memory.n; k++)
+            slow += body->memory.ratio[k];
+        const double strain = fmin(approach * glassy * modulus(rc) / thickness,
+                                   2.0 * pressure * slow / body->young);
+        if (isnan(most) || strain > most) {
+            most = strain;
+            if (what)
+                *what = name;
+        }
+    }
+    return most;
+}
+
+int rb_rolling_has_thickness(const rb_rolling_case *rc)
+{
+    return !isnan(rb_rolling_strain(rc, 0.0, 0.0, NULL));
+}
+
 double rb_rolling_larger_radius(const rb_rolling_case *rc)
 {
     return fmax(rc->a.radius, isfinite(rc->b.radius) ? rc->b.radius : 0.0);

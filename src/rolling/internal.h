@@ -40,6 +40,8 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
 typedef struct {
     rb_bem_flexibility f;  /* owned */
     rb_bem_system *system; /* NULL without boundary elements; owned */
+    double *memory;        /* 2m x 2n: what memory adds to f, of pairs with a wheel that
+                              roll steadily; else NULL; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_body_flexibility;
 
@@ -112,6 +114,14 @@ double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
 rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
                                      const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
+
+/* 1: hysteresis is taken from what memory adds to each body, because a displacement that
+ * turns with a wheel costs nothing; half-planes move straight on (theory.md V4). */
+int rb_rolling_keeps_memory(const rb_rolling_case *rc, const rb_rolling_body *body);
+/* memory = whole - glassy, 2m x 2n, in two calls: before memory is added, and after it.
+ * RB_ENOMEM. */
+rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory);
+void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 
 /* ---- bodies.c ---------------------------------------------------------------------- */
 
@@ -298,9 +308,12 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
 
 /* ---- zone.c ------------------------------------------------------------------------ */
 
+/* RB_EINVAL: a layer, cover or rim is compressed by all of its thickness. */
+rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why);
 /* The end of a solution, a history or a curve with this status.  RB_EINVAL: a layer or
- * cover needs shorter elements than those in contact, which may also be why it failed.
- * Of meshes that results are taken from; the coarse ones before them may be too coarse.
+ * cover is crushed, or needs shorter elements than those in contact, which may also be
+ * why it failed. Of meshes that results are taken from; the coarse ones before them may
+ * be too coarse.
  */
 rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
                                           rb_message *why);
@@ -363,14 +376,20 @@ double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const doubl
 double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
                                 const double *p, const double *h, const double *e_T);
 
+/* Compression of the thinnest layer, cover or rim over its thickness, and which it is
+ * (or NULL): of two elastic bodies each takes its share of the approach by its
+ * compliance, and none more than the pressure makes of its material.  NAN: neither body
+ * has one. */
+double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
+                         const char **what);
+
 /* Torques that keep both bodies rolling against M and the force Q, > 0 where they drive
  * (theory.md V4); of B NAN where it is a plane. */
 void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
                         double *torque_a, double *torque_b);
 
-/* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
- * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
- * rolling.  RB_ENOMEM. */
+/* Power per unit speed that the bodies lose, -int t Dw ds (theory.md V4): 0 for elastic
+ * bodies, NAN but in steady rolling.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 
 /* ---- patches.c --------------------------------------------------------------------- */

@@ -1,14 +1,30 @@
 /* The power that friction dissipates and that bodies lose. */
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 
+/* 0: no element with friction slips.  What opens between an element in contact and an
+ * open one is then no slip, although their mean friction is not 0. */
+static int slides(int n, const double *lambda, const double *traction)
+{
+    for (int i = 0; i < n; i++)
+        if (lambda[i] != 0.0 && traction[i] != 0.0)
+            return 1;
+    return 0;
+}
+
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
 {
+    const int none =
+        s->formulation != RB_STATIC && s->n > 0 && !slides(s->n, s->shift, s->q);
+
     for (int i = 0; i < s->n; i++) {
         const double before = i > 0 ? s->shift[i - 1] : 0.0;
-        if (s->formulation == RB_STEADY && s->slip_operator == RB_SLIP_UPSTREAM)
+        if (none)
+            power[i] = 0.0;
+        else if (s->formulation == RB_STEADY && s->slip_operator == RB_SLIP_UPSTREAM)
             power[i] = -0.5 * (s->shift[i] + before) * s->q[i] / s->h[i];
         else
             power[i] = s->formulation == RB_STATIC ? NAN : -s->slip[i] * s->q[i];
@@ -28,16 +44,22 @@ static double slip_times(const rb_rolling_case *rc, int n, const double *lambda,
                : lambda[i] / e_T[i] * traction[i] * h[i];
 }
 
-double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
-                                   const double *q, const double *h, const double *e_T)
+static double paired_power(const rb_rolling_case *rc, int n, const double *lambda,
+                           const double *q, const double *h, const double *e_T)
 {
     double power = 0.0;
 
-    if (rc->formulation == RB_STATIC)
-        return NAN;
     for (int i = 0; i < n; i++)
         power -= slip_times(rc, n, lambda, q, h, e_T, i);
     return power;
+}
+
+double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
+                                   const double *q, const double *h, const double *e_T)
+{
+    if (rc->formulation == RB_STATIC)
+        return NAN;
+    return slides(n, lambda, q) ? paired_power(rc, n, lambda, q, h, e_T) : 0.0;
 }
 
 double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
@@ -45,7 +67,7 @@ double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *
 {
     double sum = 0.0;
 
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n && slides(n, lambda, p); i++)
         sum += fabs(slip_times(rc, n, lambda, p, h, e_T, i));
     return sum;
 }
@@ -72,6 +94,48 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
     *torque_b = isfinite(rc->b.radius) ? moment - force * rc->b.radius : NAN;
 }
 
+/* -int t Dw ds of one body for the displacement w (2m) that its memory adds under p, q.
+ * D w follows the material: on a wheel the frame of the surface turns with it, so that
+ * D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); radius: INFINITY on a half-plane, and
+ * where w is in that frame already. */
+static double work_of_memory(int n, const double *x, const double *h, double radius,
+                             const double *w, const double *p, const double *q)
+{
+    const double *w_N = w, *w_T = w + n + 1;
+    double turned = 0.0;
+
+    for (int i = 0; i < n; i++)
+        turned += (p[i] * w_T[i] - q[i] * w_N[i]) * h[i];
+    return normal_work(n, x, w_N, p, h) + normal_work(n, x, w_T, q, h) + turned / radius;
+}
+
+/* With wheels: of each body by itself what memory adds, because the elastic part, which
+ * costs nothing, would leave the error of the mesh.  r, w: room for 2m each. */
+static double work_of_memories(const rb_rolling_model *model, double *r, double *w)
+{
+    const rb_bem_flexibility *f = &model->bodies.f;
+    const rb_contact_state *state = &model->state;
+    const rb_rolling_body *const body[] = {&model->rc.a, &model->rc.b};
+    const int n = f->n, rows = 2 * f->m;
+    double power = 0.0;
+
+    for (int b = 0; b < 2; b++) {
+        if (!model->bodies.memory[b])
+            continue;
+        const int turns = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT) &&
+                          model->rc.normals == RB_BEM_NORMALS_OBSTACLE;
+        for (int i = 0; i < n; i++) {
+            r[i] = state->p[i];
+            r[n + i] = b ? -state->q[i] : state->q[i]; /* B's own frame */
+        }
+        cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0,
+                    model->bodies.memory[b], rows, r, 1, 0.0, w, 1);
+        power += work_of_memory(n, f->x, f->h, turns ? body[b]->radius : INFINITY, w, r,
+                                r + n);
+    }
+    return power;
+}
+
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
     const rb_contact_problem *p = &model->problem;
@@ -82,6 +146,11 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     if (model->rc.formulation != RB_STEADY || !rb_rolling_relaxes(&model->rc))
         return RB_OK;
     double *w = rb_alloc(4 * (size_t)n + 2, 1), *strain = w + 2 * (n + 1);
+    if (w && !rb_rolling_can(&model->rc, RB_BODY_FLAT)) {
+        *power = work_of_memories(model, strain, w);
+        free(w);
+        return RB_OK;
+    }
     const rb_status s =
         w ? rb_rolling_displacement(&model->bodies, state->p, state->q, w) : RB_ENOMEM;
     if (s == RB_OK) {
@@ -89,8 +158,7 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
         for (int i = 0; i < n; i++)
             strain[i] = state->lambda[i] - state->xi * p->e_T[i];
         *power = normal_work(n, model->bodies.f.x, w, state->p, model->bodies.f.h) -
-                 rb_rolling_dissipated_power(&model->rc, n, strain, state->q,
-                                             model->bodies.f.h, p->e_T);
+                 paired_power(&model->rc, n, strain, state->q, model->bodies.f.h, p->e_T);
     }
     free(w);
     return s;

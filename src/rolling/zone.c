@@ -83,13 +83,31 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
     return RB_OK;
 }
 
+/* Nothing is left of what is compressed by its whole thickness. */
+rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why)
+{
+    const char *what = "";
+    const double strain = rb_rolling_strain(&model->rc, model->state.delta,
+                                            rb_rolling_peak_pressure(model), &what);
+
+    return strain >= 1.0
+               ? rb_fail(
+                     why, RB_EINVAL,
+                     "the %s is compressed by %.0f %% of its thickness (approach %.3g "
+                     "mm): expected less than 100 %%",
+                     what, 100.0 * strain, model->state.delta)
+               : RB_OK;
+}
+
 rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
                                           rb_message *why)
 {
     rb_message reason = {""};
 
-    if (s == RB_OK)
-        return check_resolved(model, why);
+    if (s == RB_OK) {
+        s = check_resolved(model, why);
+        return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
+    }
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->state.zone)
         return s;
     const rb_status unresolved = check_resolved(model, &reason);
