@@ -1081,8 +1081,9 @@ static void check_torques(const contact *c, double moment, double force, double 
             violated("torque_b", "of a plane is no result");
         return;
     }
-    expect("torque_b", number(c->summary, "torque_b"), moment - force * radius[1],
-           1e-11 * (size + c->mu * number(c->summary, "normal_load") * radius[1]));
+    expect("torque_b", number(c->summary, "torque_b"),
+           copysign(1.0, radius[1]) * (moment - force * radius[1]),
+           1e-11 * (size + c->mu * number(c->summary, "normal_load") * fabs(radius[1])));
 }
 
 /* M, its ratio, the torques, and the energy of bodies that relax. */

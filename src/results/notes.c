@@ -79,12 +79,13 @@ static void note_thin(rb_rolling_note_list *list, const rb_rolling_case *rc,
             100.0 * s->max_strain);
     for (int b = 0; b < 1 + rc->elastic_b; b++)
         if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 &&
-            isfinite(bodies[b]->radius) && bodies[b]->layer >= thick * bodies[b]->radius)
+            isfinite(bodies[b]->radius) &&
+            bodies[b]->layer >= thick * fabs(bodies[b]->radius))
             add(list,
                 "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a "
                 "round cover differs by about %.0f %%, see --cover-thickness%s",
-                b ? " of B" : "", bodies[b]->layer / bodies[b]->radius,
-                280.0 * bodies[b]->layer / bodies[b]->radius, b ? "-b" : "");
+                b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
+                280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
 }
 
 static void note_motion(rb_rolling_note_list *list, const rb_rolling_case *rc)

@@ -68,29 +68,6 @@ int rb_rolling_relaxes(const rb_rolling_case *rc)
     return !rb_rolling_can(rc, RB_BODY_ELASTIC);
 }
 
-int rb_rolling_keeps_memory(const rb_rolling_case *rc, const rb_rolling_body *body)
-{
-    return body->memory.n > 0 && rc->formulation == RB_STEADY &&
-           !rb_rolling_can(rc, RB_BODY_FLAT);
-}
-
-rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory)
-{
-    const int rows = 2 * glassy->m;
-
-    *memory = rb_alloc((size_t)rows, 2 * (size_t)glassy->n);
-    return *memory ? rb_bem_flexibility_matrix(glassy, *memory, rows) : RB_ENOMEM;
-}
-
-void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory)
-{
-    const double *F = rb_bem_flexibility_stored(whole);
-    const size_t size = 4 * (size_t)whole->m * (size_t)whole->n;
-
-    for (size_t k = 0; k < size; k++)
-        memory[k] = F[k] - memory[k];
-}
-
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);

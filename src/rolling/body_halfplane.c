@@ -46,7 +46,7 @@ static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_bo
     const double start = rb_seconds();
     const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
     rb_status s = how(mesh->n, mesh->ends, &surface, &one_body->f, why);
-    if (s == RB_OK && rb_rolling_keeps_memory(rc, body)) {
+    if (s == RB_OK && one_body->keeps_memory && body->memory.n > 0) {
         rb_bem_surface glassy = surface;
         rb_bem_flexibility f = {0};
         glassy.terms = 0;

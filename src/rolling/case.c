@@ -132,7 +132,7 @@ int rb_rolling_has_thickness(const rb_rolling_case *rc)
 
 double rb_rolling_larger_radius(const rb_rolling_case *rc)
 {
-    return fmax(rc->a.radius, isfinite(rc->b.radius) ? rc->b.radius : 0.0);
+    return fmax(rc->a.radius, isfinite(rc->b.radius) ? fabs(rc->b.radius) : 0.0);
 }
 
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)

@@ -40,6 +40,7 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
 typedef struct {
     rb_bem_flexibility f;  /* owned */
     rb_bem_system *system; /* NULL without boundary elements; owned */
+    int keeps_memory;      /* 1: `memory` is wanted of a half-plane too */
     double *memory;        /* 2m x 2n: what memory adds to f, of pairs with a wheel that
                               roll steadily; else NULL; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
@@ -115,9 +116,9 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
                                      const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
 
-/* 1: hysteresis is taken from what memory adds to each body, because a displacement that
- * turns with a wheel costs nothing; half-planes move straight on (theory.md V4). */
-int rb_rolling_keeps_memory(const rb_rolling_case *rc, const rb_rolling_body *body);
+/* ---- body_memory.c
+ * ----------------------------------------------------------------- */
+
 /* memory = whole - glassy, 2m x 2n, in two calls: before memory is added, and after it.
  * RB_ENOMEM. */
 rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory);

@@ -53,10 +53,9 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
     for (int i = state->n - 1; i >= 0; i--) {
         const double at_rest = rb_rolling_law_at_rest(rc, x[i]);
         /* of a zone that slips: by its direction, so that derivatives exist at its end */
-        const int zone = state->zone[i],
-                  direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
-                              : zone == RB_ZONE_SLIP_POSITIVE ? -1
-                                                              : 0;
+        const int zone = state->zone[i], direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
+                                                     : zone == RB_ZONE_SLIP_POSITIVE ? -1
+                                                                                     : 0;
         const double slip =
             direction ? direction * state->lambda[i] : fabs(state->lambda[i]);
         const double v = slip / e_T[i] * rc->speed;

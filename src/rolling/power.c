@@ -91,7 +91,10 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
                         double *torque_a, double *torque_b)
 {
     *torque_a = moment + force * rc->a.radius;
-    *torque_b = isfinite(rc->b.radius) ? moment - force * rc->b.radius : NAN;
+    /* a bore turns about the other side, the way A does */
+    *torque_b = isfinite(rc->b.radius)
+                    ? copysign(1.0, rc->b.radius) * (moment - force * rc->b.radius)
+                    : NAN;
 }
 
 /* -int t Dw ds of one body for the displacement w (2m) that its memory adds under p, q.
