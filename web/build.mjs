@@ -1,6 +1,7 @@
 /* Puts the page together: node web/build.mjs PAGE WASM.  The library as WebAssembly (the Makefile
  * compiles it), styles and scripts go into one file that asks nothing of any network. */
 import { readFileSync, writeFileSync } from "node:fs";
+import { Script } from "node:vm";
 import { gzipSync } from "node:zlib";
 import { LARGEST, LEFT_OUT } from "./worker.js";
 
@@ -30,6 +31,7 @@ const parts = {
     LIMITS: JSON.stringify({ left_out: LEFT_OUT, largest: LARGEST }),
     VERSION: /RB_VERSION "(.*)"/.exec(readFileSync("include/rollbem/base.h", "utf8"))[1],
 };
+for (const script of [parts.SCRIPT, joined(WORKER)]) new Script(script); /* two modules with one name, and the like */
 const page = readFileSync("web/page.html", "utf8").replace(/@([A-Z]+)@/g, (all, name) => parts[name] ?? all);
 if (page.length > LIMIT) throw new Error(`page: ${page.length} bytes, more than ${LIMIT}`);
 writeFileSync(output, page);

@@ -1,7 +1,7 @@
 /* The panel of the workbench: sliders with exact fields, what is held, and every option of the table. */
 import { html, segments } from "./draw.js";
 import { slider_for } from "./knob.js";
-import { ALL_TANGENTIAL, NORMAL, PRESETS, TANGENTIAL, formulation_of, ground_of, held, hold, with_point, with_support } from "./state.js";
+import { ALL_TANGENTIAL, NORMAL, PRESETS, TANGENTIAL, formulation_of, ground_of, held, hold, plain, with_point, with_support } from "./state.js";
 import { say } from "./words.js";
 
 /* Spans of the sliders: exact fields and the library's own ranges go beyond them. */
@@ -13,8 +13,6 @@ const SPANS = {
 const RESULT_OF = { load: "normal_load", approach: "approach", "half-width": "hertz_half_width", "creep-ratio": "creep_ratio", creep: "creepage",
     "force-ratio": "force_ratio", force: "tangential_load", shift: "tangential_shift" };
 const STEPS = 400;
-
-const plain = (x) => String(Number(x.toPrecision(6)));
 
 /* What another quantity is held at when it takes over: its value as solved, within what may be held. */
 export function value_to_hold(name, numbers) {

@@ -5,7 +5,7 @@ import { start_solver } from "./solver.js";
 import { make_knob } from "./knob.js";
 import { PRESETS, read_case_file, read_link, with_mu, write_link } from "./state.js";
 import { hero_view } from "./hero.js";
-import { CHAPTER_CASES } from "./chapters.js";
+import { CHAPTER_CASES, brake_view, press_view, soft_view } from "./chapters.js";
 import { roll_view } from "./roll.js";
 import { below_view } from "./below.js";
 import { step_view } from "./step.js";
@@ -17,7 +17,7 @@ const at = (id) => document.getElementById(id);
 
 /* In the order of the page.  "cracks" comes between "below" and "step" when the library has them. */
 const CHAPTERS = [
-    ["hero", hero_view], ["below", below_view], ["step", step_view], ["roll", roll_view], ["bench", bench_view],
+    ["hero", hero_view], ["press", press_view], ["brake", brake_view], ["soft", soft_view], ["below", below_view], ["step", step_view], ["roll", roll_view], ["bench", bench_view],
 ];
 /* The words of links of earlier pages. */
 const VIEWS_OF_LINKS = { contact: "bench", take: "bench" };

@@ -14,6 +14,8 @@ export const TANGENTIAL = { static: ["force-ratio", "force", "shift"], steady: [
 export const ALL_TANGENTIAL = ["creep-ratio", "creep", "force-ratio", "force", "shift"];
 const LONGEST = 4000, LONGEST_FILE = 20000;
 
+/* A number as an option takes it. */
+export const plain = (x) => String(Number(x.toPrecision(6)));
 export const formulation_of = (given) => given.formulation ?? "static";
 export const held = (given, among) => among.find((name) => name in given);
 

@@ -148,7 +148,7 @@ function axe_source() {
 }
 
 const IDLE = "window.rollbem && rollbem.page.answer && rollbem.idle()";
-const VIEWS = ["hero", "below", "step", "roll", "bench"];
+const VIEWS = ["hero", "press", "brake", "soft", "below", "step", "roll", "bench"];
 async function views(page) {
     const number = (name) => page.run(`rollbem.page.answer.numbers.${name}`);
     /* The numbers that the page holds, and those that it shows, against a run of the program. */
