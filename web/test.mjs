@@ -7,7 +7,11 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { open_page } from "./chromium.mjs";
-import { bounds_of } from "./contact.js";
+import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
+import { value_to_hold, with_motion } from "./controls.js";
+import { headline_of, slip_share } from "./hero.js";
+import { fit_lens, offsets_of } from "./lens.js";
+import { PRESETS, ground_of, hold, share_of_ground, with_mu, with_point, with_support } from "./state.js";
 import { ticks, zone_colours } from "./draw.js";
 import { load_library } from "./library.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
@@ -130,6 +134,84 @@ await test("a wheel that relaxes is not in the page", () => {
 });
 await test("a size that the page does not take", () => check(/use the program/.test(answer(library, { kind: "solve", given: { "contact-elements": "5000" } }).refused), "it is solved"));
 
+/* ---- What the page makes of it ------------------------------------------------------ */
+
+const TANGENTIALS = ["creep-ratio", "creep", "force-ratio", "force", "shift"];
+const solve = (given) => answer(library, { kind: "solve", given });
+await test("headlines follow the state", () => {
+    const of = (more) => { const given = { ...PRESETS.rail, ...more }, got = solve(given); return headline_of(words, got.refused ? null : got, got.refused, given); };
+    for (const [more, kind, text] of [
+        [{}, "partial", "Half of this contact is slipping, and the wheel still rolls."], [{ "creep-ratio": "0" }, "free", "It rolls freely. Nothing slips."], [{ "creep-ratio": "0.08" }, "touch", "A touch on the brake: 8 % of the contact slips."],
+        [{ "creep-ratio": "0.95" }, "nearly", "One more push and it skids."], [{ "creep-ratio": "1.2" }, "skid", "Now it skids."], [{ "creep-ratio": "-1.2" }, "skid", "Now it spins."], [{ "creep-ratio": "-0.5" }, "partial", "Accelerating: half of this contact"],
+        [{ load: "-1" }, "unsolved", "No solution here: --load"], [{ "creep-ratio": "0.25" }, "partial", "A quarter of this contact"]]) {
+        const got = of(more);
+        check(got.kind === kind && got.text.toLowerCase().includes(text.toLowerCase()), `${JSON.stringify(more)}: ${got.kind}, ${got.text}`);
+    }
+});
+await test("the lines of the lens: slip is the sum of shift, and where it sticks there is none", () => {
+    const got = solve(PRESETS.rail), { slip_at, strain_at, slip_end } = offsets_of(got), n = got.numbers;
+    check(slip_at(n.contact_to) === 0 && slip_at(n.stick_from + 0.1) === 0, "it slips where it sticks");
+    check_close(slip_at(n.contact_from), slip_end, 1e-12, "slip at the trailing edge");
+    check_close(slip_share(got), 0.5, 1e-3, "half of it slips");
+    /* creepage times way is slip and strain together; the strain of both ends of the stick strip is that of the creepage */
+    check_close(strain_at(n.stick_from + 1e-9), n.creepage * (n.contact_to - n.stick_from), 1e-6, "strain where slip begins");
+    check(Math.abs(slip_at(n.contact_from) / slip_at((n.contact_from + n.stick_from) / 2)) > 1.5, "slip does not grow");
+    const fit = fit_lens(got);
+    check(fit.window[0] < n.contact_from && fit.window[1] > n.contact_to && fit.press > n.max_pressure, JSON.stringify(fit));
+});
+await test("another quantity that is held takes over at its value, also at zero", () => {
+    const free = solve({ ...PRESETS.rail, "creep-ratio": "0" }).numbers, half = solve(PRESETS.rail).numbers;
+    for (const name of ["creep", "force", "force-ratio", "creep-ratio"]) check(value_to_hold(name, free) === "0", `${name}: ${value_to_hold(name, free)}`);
+    for (const formulation of ["static", "steady"]) {
+        let given = { ...PRESETS.rail };
+        for (const to of [formulation, "static", "steady"]) given = with_motion(given, to, solve(given).numbers);
+        check_close(solve(given).numbers.force_ratio, half.force_ratio, 1e-5, "friction, from rolling to rest and back");
+    }
+});
+await test("another support drops what has no meaning there, from everywhere to everywhere", () => {
+    for (const [name, preset] of Object.entries(PRESETS))
+        for (const first of ["arc", "hub", "halfplane"])
+            for (const second of ["arc", "hub", "halfplane"]) {
+                const got = solve(with_support(with_support({ ...preset, "contact-elements": "8" }, first), second));
+                check(!got.refused, `${name}, ${first}, ${second}: ${got.refused}`);
+            }
+});
+await test("without friction the drive becomes a creepage", () => {
+    for (const [name, preset] of Object.entries(PRESETS)) {
+        const given = with_mu({ ...preset, "contact-elements": "8" }, 0, solve({ ...preset, "contact-elements": "8" }).numbers), got = solve(given);
+        check(!got.refused, `${name}: ${got.refused}`);
+    }
+});
+await test("three grounds, and what of the approach each takes", () => {
+    const other = { ...PRESETS.rail, similar: undefined, "young-b": "70000", "poisson-b": "0.33" };
+    delete other.similar;
+    const got = solve(other);
+    check(!got.refused && ground_of(other) === "other" && ground_of(PRESETS.rail) === "similar" && ground_of(PRESETS.stiff) === "rigid", `${got.refused}`);
+    check_close(share_of_ground(other, got.values), 0.745, 2e-3, "the softer ground's share");
+});
+await test("numbers of German and French keyboards", () => {
+    for (const [text, want] of [["0,3", "0.3"], ["210GPa", "210GPa"], ["2,1e5", "2.1e5"], ["0.3,0.2", "0.3,0.2"], ["-0,5", "-0.5"], ["12,5 kN/mm", "12.5 kN/mm"]]) check(with_point(text) === want, `${text}: ${with_point(text)}`);
+});
+await test("rounding of zero is zero", () => {
+    check(tidy_number("tangential_load", { tangential_load: 2.57e-16, normal_load: 1000 }) === 0, "a friction force of 2.57e-16");
+    check(tidy_number("tangential_load", { tangential_load: 1e-3, normal_load: 1000 }) === 1e-3, "a friction force of 1e-3");
+});
+await test("axes stay where they still fit", () => {
+    const before = solve(PRESETS.rail), axes = axes_of(before);
+    for (const [more, fits] of [[{ "creep-ratio": "1" }, true], [{ load: "11000" }, true], [{ load: "50000" }, false], [{ load: "100" }, false]]) check(axes_still_fit(axes, solve({ ...PRESETS.rail, ...more })) === fits, JSON.stringify(more));
+});
+await test("the largest stress is the library's, not the grid's", () => {
+    const got = answer(library, { kind: "stress", given: PRESETS.rail, nx: 5, ny: 4, depth: 0, maxima: true }), want = JSON.parse(run(["stress", "--json", "--quiet", ...words_of(PRESETS.rail)]).stdout).maxima;
+    const value = JSON.stringify(want.max_shear).match(/[\d.e+-]+/g).map(Number);
+    check(value.some((v) => Math.abs(v / got["maxima.max_shear"].at[0] - 1) < FITTED), `${got["maxima.max_shear"].at[0]}, the program has ${JSON.stringify(want.max_shear)}`);
+});
+await test("Carter's tractions are the library's", () => {
+    const got = answer(library, { kind: "closed", given: PRESETS.rail }), worst = Math.max(...got["closed.q"].at.map((q, i) => Math.abs(q - got.columns.q[i])));
+    check(worst < 0.02 * got.numbers.max_pressure, `off by ${worst}`);
+    check(answer(library, { kind: "closed", given: PRESETS.stiff })["closed.q"] === null, "Carter for a wheel on a hub");
+});
+await test("notes of the library reach the page", () => check(/linear elasticity/.test(solve({ ...PRESETS.stiff, load: "2000" }).notes.join()), "no note on the strain"));
+
 /* ---- The page ---------------------------------------------------------------------- */
 
 await test("one file below 700 kB that names no other", () => {
@@ -247,10 +329,164 @@ async function views(page) {
             check(got === `${want},${want}`, `${what}: elements, slider are ${got}`);
         }
     });
+    const text_of = (selector) => page.run(`document.querySelector(${JSON.stringify(selector)})?.textContent ?? ""`);
+    await test("the chapters answer what they ask", async () => {
+        await page.run("rollbem.open('press')");
+        await settled();
+        await page.run("rollbem.views.press.answer('16')");
+        await settled();
+        check(/Yes, 15.9\d* mm.*99\d MPa/.test(await text_of("#at-press .answer")), await text_of("#at-press .answer"));
+        await page.run("[...document.querySelectorAll('#at-press button')].find((b) => b.textContent === 'Twice the load').click()");
+        await settled();
+        check(/^2 times the load: the strip is 1.41 times as wide, and the pressure 1.41/.test(await text_of("#at-press .after .note")), await text_of("#at-press .after .note"));
+        await page.run("rollbem.open('brake')");
+        await settled();
+        await page.run("for (let k = 0; k < 8; k++) rollbem.views.brake.paint(k, 1); rollbem.views.brake.see()");
+        await settled();
+        check(/^16 of 16 right/.test(await text_of("#at-brake .answer")), await text_of("#at-brake .answer"));
+        check(/50 % of the strip slips and 75 % of the friction/.test(await page.run("document.querySelector('#at-brake').textContent")), "the state");
+        const before = await page.run("document.querySelector('#at-brake path.q').getAttribute('d')");
+        await page.run("rollbem.store.set('brake', { ...rollbem.store.case('brake'), load: '2000', radius: '200' })");
+        await settled();
+        const numbers = (d) => d.match(/[\d.]+/g).map(Number), after = numbers(await page.run("document.querySelector('#at-brake path.q').getAttribute('d')"));
+        const moved = Math.max(...numbers(before).map((v, k) => Math.abs(v - after[k])));
+        check(moved < 1.5 && /scales only/.test(await page.run("document.querySelector('#at-brake').textContent")), `the curve moved by ${moved} px`);
+        await page.run("rollbem.open('soft')");
+        await settled();
+        await page.run("rollbem.views.soft.answer('larger')");
+        await settled();
+        check(/^Yes. It turns as if it were larger, by 3.[89]/.test(await text_of("#at-soft .answer")), await text_of("#at-soft .answer"));
+        check(/rolling costs a moment of 0?\.?[1-9]|rolling costs a moment of \d/.test(await page.run("document.querySelector('#at-soft').textContent")), "the resistance");
+        await page.run("rollbem.preset('rail'); rollbem.open('below'); rollbem.views.below.reveal()");
+        await settled();
+        const table = await page.run("[...document.querySelectorAll('.skids tbody tr')].map((r) => [...r.children].map((c) => c.textContent).join(' '))");
+        for (const want of ["rolls freely 0.79 a 0.3 p₀", "0.1 0.74 a 0.305 p₀", "0.2 0.6 a 0.319 p₀", "0.3 0.38 a 0.345 p₀", "0.4 at the surface 0.4 p₀"]) check(table.includes(want), `${want} is not in ${table.join("; ")}`);
+    });
+    await test("hands on the hero, by keys: brake, turn, press", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        const key = async (hand, name) => { await page.run(`document.querySelector('.hand.${hand}').dispatchEvent(new KeyboardEvent('keydown', { key: '${name}', bubbles: true, cancelable: true }))`); await settled(); };
+        await key("border", "ArrowRight");
+        check_close(await number("creep_ratio"), 0.52, 1e-9, "the border");
+        await key("rim", "ArrowLeft");
+        check_close(await number("creep_ratio"), 0.57, 1e-9, "the rim, turned back");
+        await key("hub", "ArrowDown");
+        check_close(await number("normal_load"), 13800, 1, "the hub, pressed");
+        check(/5[78] % of this contact is slipping/.test(await text_of("#headline")), await text_of("#headline"));
+    });
+    await test("undo, redo, Back and reset", async () => {
+        const s = () => page.run("rollbem.page.given['creep-ratio'] ?? null");
+        await page.run("rollbem.preset('rail')");
+        await settled();
+        for (const value of ["0.1", "0.2", "0.3"]) { await page.run(`rollbem.page.change({ ...rollbem.page.given, "creep-ratio": "${value}" })`); await settled(); }
+        const press = async (act, want) => { await page.run(act); await page.until(`rollbem.page.given['creep-ratio'] === '${want}'`, 5); await settled(); check(await s() === want, `${act}: ${await s()}`); };
+        await press("document.querySelector('[data-history=undo]').click()", "0.2");
+        await press("window.dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, cancelable: true }))", "0.1");
+        await press("window.dispatchEvent(new KeyboardEvent('keydown', { key: 'y', ctrlKey: true, cancelable: true }))", "0.2");
+        await press("history.back()", "0.1");
+        check(Math.abs(await number("creep_ratio") - 0.1) < 1e-12, "the answer is another state's");
+        await press("document.querySelector('[data-history=reset]').click()", "0.5");
+        await press("history.back()", "0.1");
+        /* a stroke of a slider is one step */
+        await page.run("{ const k = document.querySelector('[data-dial=creep-ratio]'); for (const v of [0.3, 0.6, 0.9]) { k.value = v; k.dispatchEvent(new Event('input')); } k.dispatchEvent(new Event('change')); }");
+        await settled();
+        await press("history.back()", "0.1");
+    });
+    await test("fields show what was solved: after a preset, a file, a link, undo", async () => {
+        await page.run("rollbem.open('bench')");
+        const field = (name) => page.run(`document.getElementById('knob-${name}')?.value`), slider = (name) => page.run(`Number(document.querySelector('[data-knob="${name}"]').value)`);
+        for (const [what, act, want] of [["a preset", "rollbem.preset('stiff')", { radius: "100", mu: "0.6", young: "10" }], ["a file", `rollbem.page.open_file(new File([${JSON.stringify("radius = 77\nmu = 0.2\nsupport = halfplane\nload = 30\n")}], "a.ini"))`, { radius: "77", mu: "0.2" }],
+            ["a link", "location.hash = '#support=halfplane&radius=88&mu=0.25&load=50'", { radius: "88", mu: "0.25", load: "50" }], ["Back", "history.back()", { radius: "77" }]]) {
+            await page.run(act);
+            await new Promise((resolve) => setTimeout(resolve, 150));
+            await page.run("rollbem.open('bench')");
+            await settled();
+            for (const [name, text] of Object.entries(want)) {
+                check(await field(name) === text, `${what}: ${name} is ${await field(name)}, not ${text}`);
+                check_close(await slider(name), ["mu", "poisson"].includes(name) ? Number(text) : Math.log(Number(text)), 0.03, `${what}: the slider of ${name}`);
+            }
+        }
+        await page.run("rollbem.preset('rail')");
+        await settled();
+        await page.run("{ const f = document.getElementById('knob-young'); f.value = '205GPa'; f.dispatchEvent(new Event('change')); }");
+        await settled();
+        check_close(await slider("young"), Math.log(205000), 0.03, "the slider after 205GPa");
+        await page.run("{ const f = document.getElementById('knob-mu'); f.value = '0,25'; f.dispatchEvent(new Event('change')); }");
+        await settled();
+        check(await page.run("rollbem.page.answer.values.mu") === "0.25", "0,25 is not 0.25");
+    });
+    await test("the soft wheel at its largest load: grey, with the library's line, no exception", async () => {
+        await page.run("rollbem.preset('stiff'); rollbem.open('bench')");
+        await settled();
+        await page.run("rollbem.page.change({ ...rollbem.page.given, load: '100000' })");
+        await settled();
+        check(/does not end within/.test(await text_of("#message")) && (await page.run("document.querySelector('.contact').classList.contains('stale')")), `${await text_of("#message")}`);
+        check(/linear elasticity does not hold/.test(await text_of(".contact .notes")), `notes: ${await text_of(".contact .notes")}`);
+    });
+    await test("the point of the creep curve dragged sideways, and far off its axis", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('bench')");
+        await settled();
+        const box = await page.run("(() => { const h = document.querySelector('[data-handle=bench]'); h.scrollIntoView({ block: 'center' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+        const mouse = (type, dx) => page.tab("Input.dispatchMouseEvent", { type, x: box[0] + dx, y: box[1], button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1 });
+        await mouse("mousePressed", 0);
+        for (const dx of [3, 10, 30, 60]) await mouse("mouseMoved", dx);
+        await mouse("mouseReleased", 60);
+        await settled();
+        check(await page.run("'creep-ratio' in rollbem.page.given") && (await number("creep_ratio")) > 0.55, `creep ratio ${await number("creep_ratio")}`);
+        await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '13.6' })");
+        await settled();
+        check(/13.6 →/.test(await text_of("#at-bench svg text.off")), "13.6 is shown as something else");
+    });
+    await test("a finger that scrolls over a slider leaves it as it was; a matrix lets the page scroll", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        await page.run("{ const k = document.querySelector('[data-dial=creep-ratio]'); k.dispatchEvent(new PointerEvent('pointerdown', { pointerType: 'touch', bubbles: true })); k.value = 1; k.dispatchEvent(new Event('input')); k.dispatchEvent(new PointerEvent('pointercancel', { pointerType: 'touch', bubbles: true })); }");
+        await settled();
+        check_close(await number("creep_ratio"), 0.5, 2e-3, "creep ratio after a swipe");
+        const styles = await page.run("[...document.querySelectorAll('input[type=range]')].map((e) => getComputedStyle(e).touchAction).concat(getComputedStyle(document.querySelector('#at-step canvas') ?? document.body).touchAction)");
+        check(styles.every((style) => ["pan-y", "manipulation", "auto"].includes(style)), styles.join());
+    });
+    await test("a fast stroke over the drawn line sets every point", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('roll'); document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=creep_ratio]').click()");
+        await settled();
+        await page.run(`(() => { const svg = document.querySelector("#at-roll svg.hand-line"), box = svg.getBoundingClientRect(), send = (on, type, u, v) => on.dispatchEvent(new PointerEvent(type, { clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
+            send(svg, "pointerdown", 0.17, 0.3); send(window, "pointermove", 0.97, 0.3); send(window, "pointerup", 0.97, 0.3); })()`);
+        await settled();
+        const values = await page.run("rollbem.page.drawn.values");
+        check(new Set(values).size === 1, `drawn level: ${values}`);
+        await page.run("document.querySelector('input[name=hand][value=none]').click()");
+        await settled();
+    });
+    await test("JSON as the program has it: command, notes, units, status, signs", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('take')");
+        await settled();
+        const got = JSON.parse(await page.run("document.querySelector('[data-take=json]').value")), want = JSON.parse(run(["--json", "--quiet", ...got.command.split(" ").slice(1)]).stdout);
+        for (const name of ["schema", "version", "conventions"]) check(got[name] === want[name], `${name}: ${got[name]}`);
+        for (const name of ["notes", "units"]) check(JSON.stringify(got[name]) === JSON.stringify(want[name]), `${name}: ${JSON.stringify(got[name])}`);
+        for (const name of ["status", "formulation", "solver", "lcp_form"]) check(got.summary[name] === want.summary[name], `${name}: ${got.summary[name]}, the program has ${want.summary[name]}`);
+        for (const name of Object.keys(want.table)) if (got.table[name]) check(got.table[name].length === want.table[name].length, name);
+        for (const [name, value] of Object.entries(got.inputs)) check(want.inputs[name] === value, `input ${name}: ${value}, the program has ${want.inputs[name]}`);
+    });
+    await test("pictures to take along are whole SVG files", async () => {
+        for (const text of [await page.run("rollbem.views.hero.picture_of()"), await page.run("(rollbem.open('below'), null)")].filter(Boolean)) {
+            const ok = await page.run(`(() => { const d = new DOMParser().parseFromString(${JSON.stringify(text)}, "image/svg+xml"); return !d.querySelector("parsererror") && d.querySelectorAll("path").length; })()`);
+            check(ok > 20, `${ok} paths`);
+        }
+    });
+    await test("one condition that fails is one", () => check(words.guess_wrong.one.startsWith("1 condition fails") && words.guess_wrong.other.includes("conditions fail"), "plural"));
+    await test("an embedded first screen, and nothing else", async () => {
+        const other = await open_page(`${url}#mu=0.2&support=halfplane&support-b=halfplane&similar=yes&formulation=steady&load=1000&creep-ratio=0.3&embed=hero`);
+        try {
+            await other.until(IDLE);
+            check(await other.run("document.querySelectorAll('main > section').length === 1 && getComputedStyle(document.querySelector('header')).display === 'none' && rollbem.page.answer.values.mu === '0.2'"), "more than the hero, or another case");
+            check(other.errors.length === 0, other.errors.join("; "));
+        } finally { await other.close(); }
+    });
     await test("rolled, and looked below", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('roll')");
         await settled();
         await page.run("rollbem.views.roll.player.go(1e9)");
+        check(/within 1 %/.test(await page.run("document.querySelector('#at-roll').textContent")), "the steady value is not reached");
         check(await page.run("rollbem.views.roll.player.at") > 20, "steps");
         await page.run("document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=force_ratio]').click()");
         await settled();
@@ -279,6 +515,13 @@ async function views(page) {
             const want = flatten({ ...JSON.parse(run(["--json", "--quiet", "examples/rail/case.ini", "--mu", "0.2"]).stdout), inputs: null });
             check_close(await other.run("rollbem.page.answer.numbers.tangential_load"), want.tangential_load, FITTED * want.normal_load, "Q");
         } finally { await other.close(); rmSync(folder, { recursive: true }); }
+    });
+    await test("what rollbem page takes the page solves: up to 400 elements", () => {
+        for (const more of [{}, { formulation: "steady", "creep-ratio": "0.5" }, { support: "arc" }])
+            for (const n of ["300", "400"]) {
+                const given = { support: "halfplane", load: "100", "contact-elements": n, ...more }, got = answer(library, { kind: "solve", given });
+                check(!got.refused && !got.unsolved, `${JSON.stringify(given)}: ${got.refused ?? got.unsolved}`);
+            }
     });
     await test("rollbem page refuses what the page itself cannot show", () => {
         for (const more of [{ error: "yes" }, { accuracy: "1e-3" }, { "contact-elements": "401" }]) {
