@@ -1285,11 +1285,16 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
 /* What follows from the tensor follows from the printed tensor. */
 static void check_stress(const json_t *inputs, const json_t *at)
 {
-    const double nu =
-        strcmp(word(inputs, "plane"), "stress") == 0 ? 0.0 : number(inputs, "poisson");
+    const int disc = strcmp(word(inputs, "plane"), "stress") == 0;
+    const double thickness = number(inputs, "layer-thickness");
+    const int rigid = isnan(number(inputs, "base-young"));
     for (size_t i = 0; i < json_array_size(json_object_get(at, "x_mm")); i++) {
         const double xx = entry(at, "sxx_MPa", i), yy = entry(at, "syy_MPa", i);
         const double zz = entry(at, "szz_MPa", i), xy = entry(at, "sxy_MPa", i);
+        const int below = entry(at, "y_mm", i) > thickness;
+        const double nu = disc ? 0.0 : number(inputs, below ? "base-poisson" : "poisson");
+        if (below && rigid && !isnan(xx))
+            violated("stress", "of point %zu in a rigid base is %g", i + 1, xx);
         if (isnan(xx))
             continue;
         const double mean = 0.5 * (xx + yy), shear = hypot(0.5 * (xx - yy), xy);

@@ -348,7 +348,11 @@ static rb_status make_covered(int k, rb_rolling_case *rc, void *context)
 {
     (void)context;
     make(k, rc, NULL);
-    rc->a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}}; /* whose stress is not known */
+    rc->a.support = RB_BEM_HUB; /* whose stress is not known */
+    rc->a.cover = 0.1 * rc->a.radius;
+    rc->a.core_young = 2.0 * rc->a.young;
+    rc->a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
+    rc->formulation = RB_STEADY;
     rc->speed = 1.0;
     return RB_OK;
 }

@@ -356,18 +356,53 @@ static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void stress_below_a_layer_is_not_known(void **state)
+/* A grid and the maxima end at a rigid base; points below it are refused, and a residual
+ * stress of two materials is not looked for. */
+static void a_rigid_base_has_no_stress(void **state)
 {
     (void)state;
     rb_rolling_case rc = hertz(16);
     rb_message why;
     rb_rolling_stress s;
-    const double xy[] = {0.0, 0.1};
-    rc.a.layer = 5.0;
+    rb_rolling_stress_grid grid;
+    rb_rolling_stress_maxima m;
+    rb_rolling_shakedown limit;
+    rc.a.layer = 0.4 * rc.half_width;
+    const double xy[] = {0.0, 1.01 * rc.a.layer};
     rb_rolling_model model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_stress_at(&model, 1, xy, &s, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "inside a homogeneous elastic body only"));
+    assert_non_null(strstr(why.text, "lies outside the body"));
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 3, 3, 0.0, &grid, &why), RB_OK);
+    CHECK_REL(grid.at[8].y, rc.a.layer, 1e-12, "the last row lies on the base");
+    assert_false(isnan(grid.at[8].sxx));
+    rb_rolling_stress_grid_free(&grid);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 3, 3, 2.0 * rc.a.layer, &grid, &why),
+                 RB_OK);
+    assert_false(isnan(grid.at[5].sxx));
+    assert_true(isnan(grid.at[8].sxx));
+    rb_rolling_stress_grid_free(&grid);
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 3.0 * rc.a.layer, &m, &why),
+                 RB_OK);
+    CHECK_MAX(m.max_shear.y, rc.a.layer, "the largest shear lies in the layer");
+    CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "shakedown: of one material"));
     rb_rolling_model_free(&model);
+}
+
+static void a_cover_that_relaxes_on_an_elastic_core_is_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = hertz(16);
+    rb_message why;
+    rc.a.support = RB_BEM_HUB;
+    rc.a.cover = 0.1 * rc.a.radius;
+    rc.a.memory = (rb_rolling_memory){1, {0.01}, {1.0}};
+    CHECK_STATUS(rb_rolling_stress_check(&rc, &why), RB_OK);
+    rc.a.core_young = 2e5;
+    CHECK_STATUS(rb_rolling_stress_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "it depends on the past"));
+    rc.a.memory.n = 0;
+    CHECK_STATUS(rb_rolling_stress_check(&rc, &why), RB_OK);
 }
 
 int main(void)
@@ -383,7 +418,8 @@ int main(void)
         cmocka_unit_test(a_wheel_has_stress_up_to_its_circle),
         cmocka_unit_test(a_wide_grid_stays_on_the_lower_half),
         cmocka_unit_test(shakedown_of_a_frictionless_contact_is_sxy),
-        cmocka_unit_test(stress_below_a_layer_is_not_known),
+        cmocka_unit_test(a_rigid_base_has_no_stress),
+        cmocka_unit_test(a_cover_that_relaxes_on_an_elastic_core_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -369,6 +369,20 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
                                          rb_bem_points points, double *stress);
 
+/* The stress that a layer, or what lies below it, has under given tractions (L5).  body,
+ * load: of nodes; what they borrow stays until the field is freed.  The first call for
+ * points further apart than three times the load makes the waves of the field anew.
+ * RB_EINVAL: no layer, points outside, places too far apart for so thin a layer. */
+typedef struct rb_bem_layer_field rb_bem_layer_field;
+rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
+                                    const rb_bem_edge_load *load,
+                                    rb_bem_layer_field **field, rb_message *why);
+/* stress: 3 points, sxx, syy, sxy of the half-plane of the layer's material: what the
+ * layer has beside them is added; of points below the layer all of it is written. */
+rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points,
+                                 double *stress, rb_message *why);
+void rb_bem_layer_field_free(rb_bem_layer_field *field);
+
 /* ---- A reference ------------------------------------------------------------------- */
 
 /* Exact elastic disc: displacement of its rim (u_r outwards, u_t counter-clockwise) at

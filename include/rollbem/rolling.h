@@ -920,7 +920,8 @@ typedef struct {
     double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
 } rb_rolling_stress;
 
-/* RB_EINVAL where the stress inside A is not known: layers, bodies that relax. */
+/* RB_EINVAL where the stress inside A is not known: a cover that relaxes on an elastic
+ * core. */
 rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why);
 
 /* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points
@@ -978,7 +979,7 @@ typedef struct {
     double residual; /* [stress] */
 } rb_rolling_shakedown;
 
-/* RB_EINVAL: a wheel, a layer, a body that relaxes; RB_NO_CONTACT, RB_ENOMEM. */
+/* RB_EINVAL: a wheel, a layer; RB_NO_CONTACT, RB_ENOMEM. */
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
                                     rb_rolling_shakedown *shakedown, rb_message *why);
 /* shear_yield again: what the stress at x, y needs with that residual stress. */

@@ -35,61 +35,60 @@ static double complex creep(const rb_bem_surface *body, double k)
     return c;
 }
 
-/* Stress function f = p cosh + s sinh + C eta sinh + D (eta cosh - sinh), eta = k y, of
- * the layer 0 <= eta <= al: the surface carries p and s already, C and D follow from the
- * bond to the base.  All hyperbolic functions are multiplied by 2 exp(-al). */
+/* The layer 0 <= eta <= al and its bond. */
 typedef struct {
     double al, nu;
     double complex rho; /* compliance of the base over 1/(2 G) (0: rigid) */
     double beta;
 } bonded_layer;
 
-/* C[0], D[0] for p = 1, C[1], D[1] for s = 1. */
-static void bond(const bonded_layer *layer, double complex C[2], double complex D[2])
+/* What a function f with the derivatives f[1], f[2], f[3] at eta = al lacks of following
+ * the base, along the surface and across it. */
+static void miss_bond(const bonded_layer *layer, const double f[4], double complex *v,
+                      double complex *u)
 {
-    const double al = layer->al, nu = layer->nu, beta = layer->beta;
-    const double complex rho = layer->rho;
-    const double decay = exp(-2.0 * al), c = 1.0 + decay, h = -expm1(-2.0 * al);
-    const double f[4] = {c, h, al * h, al * c - h}, f1[4] = {h, c, h + al * c, al * h},
-                 f2[4] = {c, h, 2.0 * c + al * h, h + al * c},
-                 f3[4] = {h, c, 3.0 * h + al * c, 2.0 * c + al * h};
-    double complex u[4], v[4];
-    for (int j = 0; j < 4; j++) {
-        v[j] = (1.0 - nu) * f3[j] - (2.0 - nu) * f1[j] - rho * (f[j] + beta * f1[j]);
-        u[j] = (1.0 - nu) * f2[j] + nu * f[j] + rho * (f1[j] + beta * f[j]);
-    }
-    const double complex per_det = 1.0 / (v[2] * u[3] - v[3] * u[2]);
-    for (int j = 0; j < 2; j++) {
-        C[j] = (v[3] * u[j] - v[j] * u[3]) * per_det;
-        D[j] = (v[j] * u[2] - v[2] * u[j]) * per_det;
-    }
+    const double nu = layer->nu, beta = layer->beta;
+    *v = (1.0 - nu) * f[3] - (2.0 - nu) * f[1] - layer->rho * (f[0] + beta * f[1]);
+    *u = (1.0 - nu) * f[2] + nu * f[0] + layer->rho * (f[1] + beta * f[0]);
 }
 
-/* (L2) at al = k d; layer and base elastic, `softer`: compliance of the layer's material
- * over the glassy one. */
-static transfer transfer_at(const rb_bem_surface *body, double al, double complex softer)
+/* The half-plane's own function misses the bond by what comes down to it; the two that
+ * grow make up for that.  All are multiplied by 2 exp(-al). */
+void rb_bem_layer_wave_at(const rb_bem_surface *body, double al, rb_bem_layer_wave *wave)
 {
-    const double nu = body->material.poisson;
-    bonded_layer layer = {.al = al, .nu = nu};
-    double complex C[2], D[2];
+    bonded_layer layer = {.al = al, .nu = body->material.poisson};
+    const double decay = exp(-2.0 * al), c = 1.0 + decay, h = -expm1(-2.0 * al);
+    const double falls[2][4] = {{2.0 * decay * (1.0 + al), -2.0 * decay * al,
+                                 2.0 * decay * (al - 1.0), 2.0 * decay * (2.0 - al)},
+                                {2.0 * decay * al, 2.0 * decay * (1.0 - al),
+                                 2.0 * decay * (al - 2.0), 2.0 * decay * (3.0 - al)}};
+    const double grows[2][4] = {{al * h, h + al * c, 2.0 * c + al * h, 3.0 * h + al * c},
+                                {al * c - h, al * h, h + al * c, 2.0 * c + al * h}};
+    double complex v[2], u[2], falling_v, falling_u;
 
     if (body->elastic_base) {
         const double nu_2 = body->base.poisson;
-        layer.rho = 2.0 * (1.0 - nu_2) * body->material.shear / body->base.shear / softer;
+        layer.rho = 2.0 * (1.0 - nu_2) * body->material.shear / body->base.shear /
+                    creep(body, al / body->thickness);
         layer.beta = (1.0 - 2.0 * nu_2) / (2.0 * (1.0 - nu_2));
     }
-    bond(&layer, C, D);
-    return (transfer){.N = D[0], .T = -C[1], .C = -C[0] - 0.5 / (1.0 - nu)};
+    for (int j = 0; j < 2; j++)
+        miss_bond(&layer, grows[j], &v[j], &u[j]);
+    const double complex per_det = 1.0 / (v[0] * u[1] - v[1] * u[0]);
+    for (int j = 0; j < 2; j++) {
+        miss_bond(&layer, falls[j], &falling_v, &falling_u);
+        wave->c[j] = (v[1] * falling_u - falling_v * u[1]) * per_det;
+        wave->d[j] = (falling_v * u[0] - v[0] * falling_u) * per_det;
+    }
 }
 
-/* What the layer has over the half-plane: Z = softer (L - (1, 1, beta)). */
+/* What the layer has over the half-plane (L2): Z = softer (L - (1, 1, beta)). */
 static transfer remainder_at(const rb_bem_surface *body, double al)
 {
-    const double nu = body->material.poisson;
     const double complex softer = creep(body, al / body->thickness);
-    const transfer L = transfer_at(body, al, softer);
-    return (transfer){softer * (L.N - 1.0), softer * (L.T - 1.0),
-                      softer * (L.C - (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)))};
+    rb_bem_layer_wave w;
+    rb_bem_layer_wave_at(body, al, &w);
+    return (transfer){softer * w.d[0], -softer * w.c[1], -softer * w.c[0]};
 }
 
 /* The base's compliance over the layer's glassy one, to which L.N and L.T tend for long

@@ -184,7 +184,7 @@ static void choose_error_bars(study *st)
             choose(st, (study_result){st->result[k].r, st->result[k].of_stress, 1});
 }
 
-/* Stress below a layer is not known; what else is wrong is known with the first case. */
+/* Not every body's stress is known; what else is wrong is known with the first case. */
 static cli_exit check_stress(const study *st)
 {
     rb_message why = {""};

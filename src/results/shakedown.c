@@ -102,6 +102,9 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
     if (s == RB_OK && !rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT))
         s = rb_fail(why, RB_EINVAL,
                     "shakedown: of a half-plane, whose every place sees the same");
+    if (s == RB_OK && model->rc.a.layer > 0.0)
+        s = rb_fail(why, RB_EINVAL,
+                    "shakedown: of one material; a layer and its base yield differently");
     if (s == RB_OK && !(from < to))
         s = rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     if (s == RB_OK) {

@@ -1,5 +1,5 @@
-/* Subsurface stress of body A (B8): closed-form strips on the half-plane, Somigliana's
- * identity on a wheel. */
+/* Subsurface stress of body A (B8): closed-form strips on the half-plane, with the waves
+ * of its layer (L5), Somigliana's identity on a wheel. */
 #include "results/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -18,6 +18,12 @@ enum {
 static const double SIZES[CLIMBS] = {0.05, 0.01, 0.002}; /* of simplices, half-widths */
 static const double CONVERGED = 1e-6;                    /* size of their last one */
 
+/* Below a layer on a rigid base there is nothing to stress. */
+static double deepest(const rb_rolling_case *rc)
+{
+    return rc->a.layer > 0.0 && rc->a.base_young == 0.0 ? rc->a.layer : INFINITY;
+}
+
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
 {
     return rb_rolling_body_can(&rc->a, RB_BODY_FLAT)
@@ -29,36 +35,72 @@ double rb_rolling_surface(const rb_rolling_case *rc, double x)
 
 typedef struct {
     const rb_rolling_model *model;
-    rb_bem_field *wheel; /* NULL for a half-plane; owned */
+    rb_bem_field *wheel;             /* NULL for a half-plane; owned */
+    rb_bem_layer_field *layer;       /* NULL: of one material; owned */
+    double *nodes;                   /* of a half-plane; owned */
+    rb_bem_edge_load linear;         /* the tractions between them */
+    double length[RB_ROLLING_TERMS]; /* of its memory, which the layer borrows */
 } field;
 
 static void field_free(field *f)
 {
     rb_bem_field_free(f->wheel);
+    rb_bem_layer_field_free(f->layer);
+    free(f->nodes);
 }
 
 rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
 {
-    return rb_rolling_body_can(&rc->a, RB_BODY_STRESS)
+    if (!rb_rolling_body_can(&rc->a, RB_BODY_STRESS))
+        return rb_fail(why, RB_EINVAL, "stress: inside such a body it is not known");
+    /* given tractions make the same stress in a body that relaxes everywhere alike */
+    return rc->a.memory.n == 0 || !rb_rolling_has_elastic_core(&rc->a)
                ? RB_OK
                : rb_fail(
                      why, RB_EINVAL,
-                     "stress: inside a homogeneous elastic body only; below a layer or "
-                     "a body that relaxes it is not known");
+                     "stress: in a cover that relaxes on an elastic core it depends on "
+                     "the past; take a rigid core, or a half-plane with a layer");
+}
+
+/* Constant strips jump in q, which makes sxx infinite at their ends: tractions linear
+ * between the midpoints do not, and have the same error of second order. */
+static rb_status set_nodes(field *f)
+{
+    const rb_rolling_model *model = f->model;
+    const size_t m = (size_t)model->mesh.n;
+    f->nodes = rb_alloc(m + 2, 3);
+    if (!f->nodes)
+        return RB_ENOMEM;
+    double *x = f->nodes, *p = x + m + 2, *q = p + m + 2;
+    x[0] = model->mesh.ends[0];
+    x[m + 1] = model->mesh.ends[m];
+    for (size_t i = 0; i < m; i++)
+        x[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
+    memcpy(p + 1, model->state.p, m * sizeof(double));
+    memcpy(q + 1, model->state.q, m * sizeof(double));
+    f->linear = (rb_bem_edge_load){(int)m + 2, x, p, q};
+    return RB_OK;
 }
 
 static rb_status field_create(const rb_rolling_model *model, field *f, rb_message *why)
 {
     memset(f, 0, sizeof *f);
     f->model = model;
-    const rb_status known = rb_rolling_stress_check(&model->rc, why);
-    if (known != RB_OK || !model->bodies.system_a)
-        return known;
+    rb_status s = rb_rolling_stress_check(&model->rc, why);
+    if (s == RB_OK && rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT))
+        s = set_nodes(f);
+    if (s == RB_OK && model->rc.a.layer > 0.0) {
+        const rb_bem_surface surface =
+            rb_rolling_surface_of(&model->rc, &model->rc.a, f->length);
+        s = rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why);
+    }
+    if (s != RB_OK || !model->bodies.system_a)
+        return s;
     double *t = rb_alloc(2 * (size_t)model->mesh.n, 1);
     if (!t)
         return RB_ENOMEM;
     rb_rolling_contact_tractions(model, t);
-    const rb_status s = rb_bem_field_create(model->bodies.system_a, t, &f->wheel, why);
+    s = rb_bem_field_create(model->bodies.system_a, t, &f->wheel, why);
     free(t);
     return s;
 }
@@ -90,37 +132,15 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
     }
 }
 
-/* Constant strips jump in q, which makes sxx infinite at their ends: tractions linear
- * between the midpoints do not, and have the same error of second order. */
-static rb_status near_halfplane(const rb_rolling_model *model, int n, const double *xy,
-                                double *sigma)
-{
-    const size_t m = (size_t)model->mesh.n;
-    double *nodes = rb_alloc(m + 2, 3);
-    if (!nodes)
-        return RB_ENOMEM;
-    double *p = nodes + m + 2, *q = p + m + 2;
-    nodes[0] = model->mesh.ends[0];
-    nodes[m + 1] = model->mesh.ends[m];
-    for (size_t i = 0; i < m; i++)
-        nodes[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
-    memcpy(p + 1, model->state.p, m * sizeof(double));
-    memcpy(q + 1, model->state.q, m * sizeof(double));
-    const rb_bem_edge_load load = {(int)m + 2, nodes, p, q};
-    const rb_status s =
-        rb_bem_halfplane_stress_linear(&load, (rb_bem_points){n, xy}, sigma);
-    free(nodes);
-    return s;
-}
-
 /* Far away the strips keep more digits. */
-static rb_status halfplane_stress(const rb_rolling_model *model, int n, const double *xy,
-                                  double *sigma)
+static rb_status halfplane_stress(const field *f, int n, const double *xy, double *sigma)
 {
+    const rb_rolling_model *model = f->model;
     const double *ends = model->mesh.ends;
     const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
     const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p, model->state.q};
-    rb_status s = near_halfplane(model, n, xy, sigma);
+    rb_status s =
+        rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
     for (int k = 0; k < n && s == RB_OK; k++)
         if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
             s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k},
@@ -140,7 +160,10 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
                 return rb_fail(why, RB_EINVAL,
                                "point %d at (%g, %g) lies outside the body", k, xy[2 * k],
                                xy[2 * k + 1]);
-        return halfplane_stress(model, n, xy, sigma);
+        const rb_status s = halfplane_stress(f, n, xy, sigma);
+        return s == RB_OK && f->layer
+                   ? rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why)
+                   : s;
     }
     double *moved = rb_alloc((size_t)n, 2);
     if (!moved)
@@ -180,9 +203,13 @@ static rb_status stress_of_field(const field *f, int n, const double *xy,
     if (!sigma)
         return RB_ENOMEM;
     const rb_status s = evaluate(f, n, xy, sigma, why);
-    for (int k = 0; k < n && s == RB_OK; k++)
+    for (int k = 0; k < n && s == RB_OK; k++) {
+        const int below = rc->a.layer > 0.0 && xy[2 * k + 1] > rc->a.layer;
         stress[k] = derive(xy[2 * k], xy[2 * k + 1], sigma + 3 * k,
-                           rc->plane == RB_PLANE_STRESS ? 0.0 : rc->a.poisson);
+                           rc->plane == RB_PLANE_STRESS ? 0.0
+                           : below                      ? rc->a.base_poisson
+                                                        : rc->a.poisson);
+    }
     free(sigma);
     return s;
 }
@@ -378,7 +405,7 @@ static search box_under(const rb_rolling_model *model, double from, double to,
     search box = {.scale = a,
                   .from = from - a,
                   .to = to + a,
-                  .depth = depth > 0.0 ? depth : 2.5 * a};
+                  .depth = depth > 0.0 ? depth : fmin(2.5 * a, deepest(&model->rc))};
 
     if (!rb_rolling_body_can(&model->rc.a,
                              RB_BODY_FLAT)) { /* stay below its own equator */
@@ -417,7 +444,7 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
 {
     if (rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
-            inside[k] = xy[2 * k + 1] >= 0.0;
+            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest(&model->rc);
         return RB_OK;
     }
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
@@ -589,6 +616,7 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
                                                run.last + 1, &run)) {
         search box = box_under(model, run.from, run.to, depth);
         box.f = &f;
+        box.depth = fmin(box.depth, deepest(&model->rc));
         s = add_maxima_under(&box, maxima, why);
         patches++;
     }

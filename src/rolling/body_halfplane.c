@@ -164,7 +164,8 @@ static const rb_rolling_parameter layer_parameters[] = {
 const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
                                                .support = RB_BEM_HALFPLANE,
                                                .holds = has_layer,
-                                               .can = HALFPLANE | RB_BODY_ELASTIC,
+                                               .can = HALFPLANE | RB_BODY_ELASTIC |
+                                                      RB_BODY_STRESS,
                                                .parameters = layer_parameters,
                                                .check = check_layer};
 
@@ -177,9 +178,9 @@ static int has_memory(const rb_rolling_body *body)
 
 static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
 
-const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
-                                                    .support = RB_BEM_HALFPLANE,
-                                                    .holds = has_memory,
-                                                    .can = RB_BODY_FLAT | RB_BODY_TURNS |
-                                                           RB_BODY_BOUNDARY,
-                                                    .parameters = relaxation_parameters};
+const rb_rolling_body_kind rb_rolling_relaxation = {
+    .name = "relaxation",
+    .support = RB_BEM_HALFPLANE,
+    .holds = has_memory,
+    .can = RB_BODY_FLAT | RB_BODY_TURNS | RB_BODY_BOUNDARY | RB_BODY_STRESS,
+    .parameters = relaxation_parameters};
