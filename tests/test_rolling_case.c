@@ -260,7 +260,13 @@ static void ranges_of_heat(void **state)
             rc.heat_b.heat_capacity = 0.0);
     REFUSED("temperature: expected finite", WARM; rc.heat_a.temperature = INFINITY);
     REFUSED("temperature: expected finite", WARM; rc.heat_b.temperature = NAN);
-    REFUSED("of homogeneous elastic bodies", WARM; rc.a.layer = 1.0);
+    REFUSED("a layer or cover conducts otherwise", WARM; rc.a.layer = 1.0);
+    REFUSED("a layer or cover conducts otherwise", WARM; rc.a.support = RB_BEM_HUB;
+            rc.a.cover = 1.0);
+    REFUSED("a layer or cover conducts otherwise", WARM; rc.elastic_b = 1;
+            rc.b.layer = 1.0);
+    REFUSED("a body that relaxes heats inside", WARM;
+            rc.a.memory = (rb_rolling_memory){.n = 1, .time = {1.0}, .ratio = {1.0}});
     REFUSED("both bodies start equally warm", WARM; TRANSIENT;
             rc.heat_b.temperature = 20.0);
     REFUSED("at most 100000 contact elements, got 100001", WARM;

@@ -81,9 +81,10 @@ typedef struct {
     unsigned excludes;     /* of options that share a bit only one may be given */
     int frozen; /* numbers: 1: of the mesh, the steps or the solver, with respect to which
                    nothing is differentiated */
-    const char *alone; /* texts: the value of the option without one: where the next
-                          argument is an option, a file or has a dot or slash; or NULL */
-    const char *unset; /* help: what stands for the default; NULL: the value itself */
+    const char *alone;    /* texts: the value of the option without one: where the next
+                             argument is an option, a file or has a dot or slash; or NULL */
+    const char *unset;    /* help: what stands for the default; NULL: the value itself */
+    const char *one_only; /* why several numbers are refused; NULL: the range says it */
     const char *help;
 } rb_option;
 

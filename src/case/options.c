@@ -55,6 +55,10 @@ enum {
     ONE_FRICTION = 32
 };
 
+/* Stacks: the bond of each to the next is four more conditions for every wave. */
+#define ONE_LAYER "one layer on its base, a stack of layers is not modelled"
+#define ONE_COVER "one cover on its core, a stack of covers is not modelled"
+
 const rb_option rb_case_table[] = {
     RB_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
     RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R"),
@@ -75,7 +79,7 @@ const rb_option rb_case_table[] = {
         .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness", RC(a.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of this material, bonded to a base",
-                   .word = "none", .word_value = 0.0),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_LAYER),
     RB_NUMBER_LINE("base-young", RC(a.base_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of the layer's base", .word = "rigid",
                    .word_value = 0.0),
@@ -83,7 +87,7 @@ const rb_option rb_case_table[] = {
                    "Poisson's ratio of an elastic base"),
     RB_NUMBER_LINE("cover-thickness", RC(a.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of this material, bonded to the core",
-                   .word = "none", .word_value = 0.0),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER),
     RB_NUMBER_LINE(
         "core-young", RC(a.core_young), "MPa", RB_ABOVE(0),
         "Young's modulus of the core, a ring between the cover and a rigid hub",
@@ -128,14 +132,14 @@ const rb_option rb_case_table[] = {
                    .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness-b", RC(b.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of its material on a base",
-                   .word = "none", .word_value = 0.0),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_LAYER),
     RB_NUMBER_LINE("base-young-b", RC(b.base_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of that base", .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("base-poisson-b", RC(b.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic base"),
     RB_NUMBER_LINE("cover-thickness-b", RC(b.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of its material on its core",
-                   .word = "none", .word_value = 0.0),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER),
     RB_NUMBER_LINE("core-young-b", RC(b.core_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of that core", .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("core-poisson-b", RC(b.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),

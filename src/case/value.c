@@ -194,7 +194,12 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
     reading r = {0, {""}};
     char expected[200];
 
-    if (!set_any(option, set->target, text, &r))
+    const int stated = set_any(option, set->target, text, &r);
+    if (!stated && option->one_only && strchr(text, ','))
+        return rb_fail(why, RB_EINVAL, "%s: %s; expected %s, got '%s'", what,
+                       option->one_only,
+                       rb_option_expected(option, expected, sizeof expected), text);
+    if (!stated)
         return r.why.text[0]
                    ? rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r.why.text)
                    : rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,

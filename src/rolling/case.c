@@ -238,7 +238,8 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
     if (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: in transient rolling for the support halfplane only, "
-                       "got a wheel; --formulation steady takes wheels");
+                       "because a wheel or cover remembers its whole circumference; "
+                       "--formulation steady takes them");
     if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
                   rb_rolling_has_elastic_core(body)))
         return rb_fail(why, RB_EINVAL,
@@ -287,6 +288,13 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* A layer or a cover. */
+static int has_part_of_its_own(const rb_rolling_case *rc)
+{
+    return rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
+           (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0));
+}
+
 /* Friction heats what rolls; steps follow it where both bodies start equally warm. */
 static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
 {
@@ -316,9 +324,11 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
                        "conductivity: needs the speed of rolling, add --speed");
     if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
         return rb_fail(
-            why, RB_EINVAL,
-            "conductivity: of homogeneous elastic bodies; a layer or cover conducts "
-            "otherwise than what it is on, and a body that relaxes heats inside");
+            why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
+            has_part_of_its_own(rc)
+                ? "a layer or cover conducts otherwise than what it is on, which the "
+                  "flash temperature does not know"
+                : "a body that relaxes heats inside, not at its surface alone");
     if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
         return rb_fail(why, RB_EINVAL,
                        "temperature-b: step by step both bodies start equally warm");
@@ -441,7 +451,8 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
         (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
         return rb_fail(why, RB_EINVAL,
                        "yield stress: with one coefficient of friction or a table over "
-                       "x, not with a law that follows slip or heat");
+                       "x, not with a law that follows slip or heat: where the interface "
+                       "yields, its surfaces do not slide, and no law says what it does");
     if (rc->yield_stress > 0.0 && rc->contact.solver == RB_SOLVER_CONE)
         return rb_fail(why, RB_EINVAL,
                        "solver %s: knows Coulomb's law alone, expected lemke, newton or "
