@@ -268,6 +268,103 @@ static void wear_goes_on(void **state)
     worn_free(&second);
 }
 
+static rb_rolling_wear shared(rb_rolling_wear wear, double share)
+{
+    wear.share = share;
+    return wear;
+}
+
+/* The volumes are as the shares wherever B loses its own: in the contact, on its track,
+ * from its radius outside A or around it.  The sum is what A would lose alone. */
+static void volumes_are_as_the_shares(void **state)
+{
+    (void)state;
+    static const double radius_b[] = {INFINITY, INFINITY, INFINITY, 80.0, -70.0};
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_case rc = cylinder(60, 3.0);
+        rb_rolling_wear wear = sliding(&rc, 0.05, 3);
+        rc.b.radius = radius_b[k];
+        if (k > 0)
+            wear = (rb_rolling_wear){.law = RB_WEAR_DISSIPATION,
+                                     .coefficient = 1e-10,
+                                     .way = 1e4,
+                                     .steps = 3,
+                                     .increments = 4};
+        if (k == 1)
+            rc.force_ratio = 0.6;
+        if (k > 1) {
+            rc.formulation = RB_STEADY;
+            rc.creep_ratio = 0.5;
+        }
+        const rb_rolling_wear both = shared(wear, 0.3), none = shared(wear, 0.0);
+        worn w = run(&rc, &both), alone = run(&rc, &none);
+        const int last = w.h.n - 1;
+        assert_null(alone.h.worn_b);
+        assert_null(alone.h.radius_b);
+        assert_true((w.h.radius_b != NULL) == (k > 2));
+        CHECK_REL(w.h.worn_b[last], 3.0 / 7.0 * w.h.worn[last], k > 2 ? 1e-4 : 1e-7,
+                  "B's volume, kind %d", k);
+        CHECK_REL(w.h.worn_b[last] + w.h.worn[last], alone.h.worn[last], 1e-4,
+                  "both volumes, kind %d", k);
+        if (k == 0)
+            CHECK_REL(w.h.worn_b[last], 0.3 * wear.coefficient * rc.load * wear.way, 1e-9,
+                      "a track loses s K P S");
+        if (k > 2)
+            CHECK_REL(w.h.max_depth_b[last] / w.h.max_depth[last],
+                      3.0 / 7.0 * rc.a.radius / fabs(rc.b.radius), 1e-4, "depths");
+        if (k > 2) /* outside B shrinks, around A it grows */
+            assert_true(w.h.radius_b[last] < radius_b[k]);
+        worn_free(&w);
+        worn_free(&alone);
+    }
+}
+
+/* Fretting, the gap is that of both; sliding, that of A's part of the coefficient. */
+static void the_gap_knows_what_wears_in_it(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = cylinder(60, 3.0);
+    rb_rolling_wear one = sliding(&rc, 0.5, 3);
+    const rb_rolling_wear some = shared(one, 0.25);
+    worn w = run(&rc, &some);
+    one.coefficient *= 0.75;
+    worn alone = run(&rc, &one);
+    for (int i = 0; i < w.last.n; i++)
+        CHECK_REL(w.last.worn[i] + 1e-12, alone.last.worn[i] + 1e-12, 1e-9, "depth %d",
+                  i);
+    CHECK_REL(w.h.max_depth[3], alone.h.max_depth[3], 1e-9, "largest depth");
+    worn_free(&w);
+    worn_free(&alone);
+    rc.force_ratio = 0.6;
+    one = (rb_rolling_wear){.coefficient = 1e-6, .way = 1e3, .steps = 2, .increments = 4};
+    const rb_rolling_wear half = shared(one, 0.5);
+    w = run(&rc, &half);
+    alone = run(&rc, &one);
+    CHECK_REL(w.h.max_depth[2], 0.5 * alone.h.max_depth[2], 1e-12, "A's half");
+    CHECK_REL(w.h.max_depth_b[2], 0.5 * alone.h.max_depth[2], 1e-12, "B's half");
+    for (int i = 0; i < w.last.n; i++)
+        CHECK_ABS(w.last.worn[i], alone.last.worn[i], 0.0, "gap %d", i);
+    worn_free(&w);
+    worn_free(&alone);
+}
+
+static void shares_lie_between_0_and_1(void **state)
+{
+    (void)state;
+    static const double shares[] = {-0.1, 1.1, NAN};
+    const rb_rolling_case rc = cylinder(60, 3.0);
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_wear_history h;
+        rb_rolling_solution last;
+        rb_message why = {""};
+        const rb_rolling_wear wear = shared(sliding(&rc, 0.1, 1), shares[k]);
+        CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "wear share: expected 0 ... 1"));
+        rb_rolling_wear_history_free(&h);
+        rb_rolling_solution_free(&last);
+    }
+}
+
 static void meaningless_wear_is_refused(void **state)
 {
     (void)state;
@@ -370,6 +467,9 @@ int main(void)
         cmocka_unit_test(wheel_loses_its_radius),
         cmocka_unit_test(archard_s_wheel_loses_what_creepage_feeds),
         cmocka_unit_test(wear_goes_on),
+        cmocka_unit_test(volumes_are_as_the_shares),
+        cmocka_unit_test(the_gap_knows_what_wears_in_it),
+        cmocka_unit_test(shares_lie_between_0_and_1),
         cmocka_unit_test(meaningless_wear_is_refused),
         cmocka_unit_test(strokes_may_be_forces),
         cmocka_unit_test(friction_laws_wear_where_they_can),

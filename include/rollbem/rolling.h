@@ -800,12 +800,14 @@ typedef enum {
     RB_WEAR_DISSIPATION /* depth = K int |q| |ds| */
 } rb_rolling_wear_law;
 
-/* What wears A: sliding over B towards +x (static, `slides`); fretting between the
- * case's own shift or force and its opposite (static); or steady rolling, where a round
- * wheel stays round and its radius shrinks. */
+/* What wears A, and B by its share: sliding over B towards +x (static, `slides`), where
+ * what B loses is spread over its track and leaves the gap alone; fretting between the
+ * case's own shift or force and its opposite (static), where both wear in the contact; or
+ * steady rolling, where round bodies stay round and their radii change. */
 typedef struct {
     rb_rolling_wear_law law;
-    double coefficient; /* K [1/stress] */
+    double coefficient; /* K [1/stress], of both bodies together */
+    double share;       /* of B, 0 ... 1 */
     int slides;
     double way;     /* slid in all [length]; or cycles, or turns */
     int steps;      /* equal parts of it, each implicit and stable however long it is */
@@ -816,14 +818,17 @@ typedef struct {
 typedef struct {
     int n;
     double *way;       /* slid so far [length]; or cycles, or turns */
-    double *worn;      /* volume per unit width [length^2] */
+    double *worn;      /* volume of A per unit width [length^2] */
     double *max_depth; /* [length] */
     double *radius;    /* of A [length] */
-    double *work;      /* of friction: per slid or rolled length [force/length], or of a
-                          cycle [force] */
+    /* The same of B; NULL where it has no share, radius_b also where it is a plane. Where
+     * A slides or rolls over a plane: the depth of one passage. */
+    double *worn_b, *max_depth_b, *radius_b;
+    double *work; /* of friction: per slid or rolled length [force/length], or of a
+                     cycle [force] */
     double *approach, *normal_load, *max_pressure, *contact_from, *contact_to;
     double *residual; /* of the contact under the worn gap */
-    double radius_before;
+    double radius_before, radius_b_before;
     int slides, rolls; /* 0, 0: it frets */
     rb_units units;    /* of all values here */
 } rb_rolling_wear_history;

@@ -12,7 +12,7 @@
 typedef struct {
     /* options */
     int law, steps, increments, every;
-    double coefficient, slide, cycles;
+    double coefficient, share, slide, cycles;
     const char *snapshots, *profile;
     /* results */
     rb_report_wear report;
@@ -34,6 +34,9 @@ static const rb_option options[] = {
     RB_NUMBER_LINE("wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),
                    "K: worn volume per load and way, or per work, mm3/(N mm)",
                    .unset = "none: it must be given"),
+    RB_NUMBER_LINE("wear-share", PLACE(share), "-", RB_FROM_TO(0, 1),
+                   "part of K that wears B: in the contact where they fret, along its "
+                   "track where A slides, its radius where it rolls"),
     RB_NUMBER_LINE("slide", PLACE(slide), "mm", RB_ABOVE(0),
                    "static: A slides over B, towards +x, by this in all",
                    .unset = "A frets, or rolls"),
@@ -61,13 +64,11 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
 static const char about[] =
-    "Wears body A: sliding over B (--slide), fretting between --shift or --force and "
-    "its\n"
-    "opposite (--cycles), or rolling steadily (--formulation steady, --cycles turns),\n"
-    "where a round wheel stays round and its radius shrinks. Prints a row per step:\n"
-    "way, worn volume, depth, contact. The gap is updated implicitly: the pressure at "
-    "the\n"
-    "end of a step is the one that wears it.\n"
+    "Wears body A, and B by --wear-share: sliding over B (--slide), fretting between\n"
+    "--shift or --force and its opposite (--cycles), or rolling steadily\n"
+    "(--formulation steady, --cycles turns), where round bodies stay round and their\n"
+    "radii change. Prints a row per step: way, worn volume, depth, contact. The gap is\n"
+    "updated implicitly: the pressure at the end of a step is the one that wears it.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
@@ -95,6 +96,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     wear *w = run->own;
     const rb_rolling_wear how = {.law = w->law,
                                  .coefficient = w->coefficient,
+                                 .share = w->share,
                                  .slides = !isnan(w->slide),
                                  .way = isnan(w->slide) ? w->cycles : w->slide,
                                  .steps = w->steps,
@@ -127,6 +129,7 @@ static void add_inputs(const cli_case_run *run, json_t **inputs)
     rb_report_json_set(inputs, "wear-law", json_string(laws[w->law].name));
     rb_report_json_set(inputs, "wear-coefficient",
                        json_real(rb_unit_shown(units, "1/MPa", w->coefficient)));
+    rb_report_json_set(inputs, "wear-share", json_real(w->share));
     rb_report_json_set(inputs, "slide",
                        rb_report_json_number(rb_unit_shown(units, "mm", w->slide)));
     rb_report_json_set(inputs, "cycles", rb_report_json_number(w->cycles));

@@ -24,6 +24,9 @@ typedef struct {
     double *path;       /* n: way that the surfaces slide in a cycle [length] */
     double *F;          /* flexibility with the compliance on its diagonal */
     double work;        /* of friction in a cycle [force] */
+    double track;   /* volume per unit width that B has lost where A slides or rolls on a
+                       plane [length^2] */
+    double passage; /* depth of that track in one passage of A [length] */
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
     const rb_rolling_wear_observer *observer; /* or NULL */
@@ -166,9 +169,19 @@ static double archard(const wear_state *r)
 
 static rb_status slide(wear_state *r, double way, rb_message *why)
 {
+    const double share = r->wear->share;
+    double carried = 0.0;
+
     for (int i = 0; i < r->n; i++)
-        r->compliance[i] = archard(r) * way;
-    return wear_off(r, why);
+        r->compliance[i] = (1.0 - share) * archard(r) * way;
+    const rb_status s = wear_off(r, why);
+    if (s != RB_OK) /* the zone may have to grow first */
+        return s;
+    for (int i = 0; i < r->n; i++)
+        carried += r->model.state.p[i] * r->model.bodies.f.h[i];
+    r->passage = share * archard(r) * carried;
+    r->track += r->passage * way;
+    return RB_OK;
 }
 
 /* Adds the slip of an increment of the cycle that counts, the second one. */
@@ -246,11 +259,15 @@ static double depth_of_turn(const wear_state *r)
                                               state->q, h, e_T));
 }
 
-/* (W3) A round wheel stays round: R = R_before - turns dz(R). */
+/* (W3) A round wheel stays round: R = R_before - turns dz(R); B turns R/|R_B| times as
+ * often, a bore grows. */
 static rb_status roll(wear_state *r, double turns, rb_message *why)
 {
     enum { ROUNDS = 30 };
-    const double before = r->rc.a.radius;
+    const double before = r->rc.a.radius, before_b = r->rc.b.radius;
+    const double share = r->wear->share;
+    const int turns_b = r->rc.elastic_b && isfinite(before_b) && share > 0.0;
+    double depth = 0.0;
     rb_status s = RB_OK;
 
     for (int k = 0; k < ROUNDS; k++) {
@@ -258,15 +275,22 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         s = rb_rolling_model_create(&r->rc, &r->model, why);
         if (s != RB_OK)
             break;
-        const double radius = before - turns * depth_of_turn(r), moved = r->rc.a.radius;
-        if (!(radius > 0.5 * before))
-            return rb_fail(why, RB_EINVAL,
-                           "wear: a step takes %g of the radius %g; take more steps",
-                           before - radius, before);
+        depth = depth_of_turn(r);
+        const double radius = before - turns * (1.0 - share) * depth,
+                     moved = r->rc.a.radius;
+        if (turns_b)
+            r->rc.b.radius =
+                before_b - turns * share * depth * moved / fabs(r->rc.b.radius);
+        if (!(radius > 0.5 * before) || !(r->rc.b.radius / before_b > 0.5 || !turns_b))
+            return rb_fail(
+                why, RB_EINVAL, "wear: a step takes %g of the radius %g; take more steps",
+                fmax(before - radius, turns_b ? before_b - r->rc.b.radius : 0.0), before);
         r->rc.a.radius = radius;
         if (fabs(radius - moved) <= 1e-14 * before)
             break;
     }
+    r->passage = share * depth;
+    r->track += turns_b ? 0.0 : r->passage * turns * 2.0 * M_PI * before;
     r->work = rb_rolling_dissipated_power(&r->model.rc, r->model.state.n,
                                           r->model.state.lambda, r->model.state.q,
                                           r->model.bodies.f.h, r->model.problem.e_T);
@@ -289,9 +313,26 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
     h->worn[k] =
         rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
+    const int both = !rolls && !r->wear->slides; /* wear where they touch */
+    double volume = 0.0, deepest = 0.0;
     for (int i = 0; i < r->n; i++) { /* none where it rolls */
-        h->worn[k] += r->depth[i] * s.h[i];
-        h->max_depth[k] = fmax(h->max_depth[k], r->depth[i]);
+        volume += r->depth[i] * s.h[i];
+        deepest = fmax(deepest, r->depth[i]);
+    }
+    const double share = r->wear->share, of_a = both ? 1.0 - share : 1.0;
+    h->worn[k] += of_a * volume;
+    h->max_depth[k] = fmax(h->max_depth[k], of_a * deepest);
+    if (h->worn_b) {
+        h->worn_b[k] = both ? share * volume : r->track;
+        h->max_depth_b[k] = both ? share * deepest : r->passage;
+    }
+    if (h->radius_b) {
+        h->radius_b[k] = r->rc.b.radius;
+        if (rolls) {
+            h->worn_b[k] =
+                M_PI * fabs(gsl_pow_2(h->radius_b_before) - gsl_pow_2(h->radius_b[k]));
+            h->max_depth_b[k] = h->radius_b_before - h->radius_b[k];
+        }
     }
     h->work[k] = r->wear->slides ? fabs(s.tangential_load) : r->work;
     h->approach[k] = s.approach;
@@ -343,6 +384,9 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
     if (!(wear->coefficient > 0.0) || isinf(wear->coefficient))
         return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g",
                        wear->coefficient);
+    if (!(wear->share >= 0.0 && wear->share <= 1.0))
+        return rb_fail(why, RB_EINVAL, "wear share: expected 0 ... 1 of body B, got %g",
+                       wear->share);
     if (!(wear->way > 0.0) || isinf(wear->way))
         return rb_fail(why, RB_EINVAL, "wear: expected a way or cycles > 0, got %g",
                        wear->way);
@@ -381,6 +425,20 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
     return rb_rolling_case_check(rc, why);
 }
 
+static void drop_columns_of_b(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                              rb_rolling_wear_history *h)
+{
+    if (wear->share == 0.0) {
+        free(h->worn_b);
+        free(h->max_depth_b);
+        h->worn_b = h->max_depth_b = NULL;
+    }
+    if (wear->share == 0.0 || !rc->elastic_b || !isfinite(rc->b.radius)) {
+        free(h->radius_b);
+        h->radius_b = NULL;
+    }
+}
+
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                               const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
@@ -398,7 +456,10 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1,
                                      history);
+    if (s == RB_OK)
+        drop_columns_of_b(rc, wear, history);
     history->radius_before = rc->a.radius;
+    history->radius_b_before = rc->b.radius;
     history->slides = wear->slides;
     history->rolls = rc->formulation == RB_STEADY;
     if (s == RB_OK)

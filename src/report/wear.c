@@ -60,6 +60,11 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
     fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], words_of(h).way);
     fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n",
             h->worn[last], mm, mm, h->max_depth[last], mm);
+    if (h->worn_b)
+        fprintf(out, "  worn of B %.6g %s3 per %s of width, %s %.5g %s deep\n",
+                h->worn_b[last], mm, mm,
+                h->slides || (h->rolls && !h->radius_b) ? "in one passage" : "at most",
+                h->max_depth_b[last], mm);
     fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n",
             h->contact_from[last], h->contact_to[last], mm, h->contact_from[0],
             h->contact_to[0], mm);

@@ -234,6 +234,10 @@ static const rb_rolling_result wears[] = {
     WEAR("worn", worn, .unit = "mm2", .meaning = "worn volume per mm of width"),
     WEAR("max_depth", max_depth, .unit = "mm", .meaning = "largest worn depth"),
     WEAR("radius", radius, .unit = "mm", .meaning = "of A"),
+    WEAR("worn_b", worn_b, .unit = "mm2", .meaning = "worn volume of B, with a share"),
+    WEAR("max_depth_b", max_depth_b, .unit = "mm",
+         .meaning = "largest worn depth of B; of a track, in one passage"),
+    WEAR("radius_b", radius_b, .unit = "mm", .meaning = "of B; < 0 of a bore"),
     WEAR("work", work,
          .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
     WEAR("approach", approach, .unit = "mm", .meaning = "delta"),
@@ -455,6 +459,7 @@ void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
             h->way[k] = rb_unit_shown(units, "mm", h->way[k]);
     }
     h->radius_before = rb_unit_shown(units, "mm", h->radius_before);
+    h->radius_b_before = rb_unit_shown(units, "mm", h->radius_b_before);
 }
 
 void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
