@@ -243,14 +243,14 @@ static void coupled(void **state)
             CHECK_ABS(in_summary(root, "K_II_max") / scale_of(root),
                       both ? want[k].coupled : want[k].alone, 2e-3, "%s", line);
             if (both)
-                CHECK_MAX(1.15 * scale_of(root) / sqrt(M_PI),
+                CHECK_MAX(1.1 * scale_of(root) / sqrt(M_PI),
                           in_summary(root, "max_pressure"), "corner at the mouth");
             json_decref(root);
         }
     json_t *far =
         run_json(HERTZ "--mu 0 --contact-elements 32 --crack-elements 10 --coupled "
                        "--crack-mouth 9 --from -9 --to -8 --steps 4");
-    CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 1e-3,
+    CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 3e-3,
               "far away");
     json_decref(far);
     check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64,

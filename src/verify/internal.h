@@ -46,6 +46,7 @@ void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnso
 void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
 void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
 void rb_verify_interface(rb_verify *v); /* heat, wear */
+void rb_verify_crack(rb_verify *v);     /* stress intensities */
 /* How near fitted elements come, by their number. */
 void rb_verify_accuracy(rb_verify *v);
 

@@ -9,5 +9,6 @@ int rb_verify_run(rb_verify_each_check *each, void *context)
     rb_verify_rolling(&v);
     rb_verify_accuracy(&v);
     rb_verify_interface(&v);
+    rb_verify_crack(&v);
     return v.failed;
 }
