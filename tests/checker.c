@@ -58,7 +58,7 @@ static void expect(const char *law, double got, double want, double tol)
 enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
 static const char *const column_names[COLUMNS] = {"x_mm",   "h_mm",  "gap_mm", "p_MPa",
                                                   "q_MPa",  "un_mm", "ut_mm",  "shift_mm",
-                                                  "slip_1", "zone"};
+                                                  "slip", "zone"};
 enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE, YIELD_NEGATIVE, YIELD_POSITIVE };
 
 typedef struct {
@@ -423,7 +423,7 @@ static void check_contact(const contact *c, const table *t)
 static void check_law(contact *c, const table *t, const json_t *object,
                       const rows *controls)
 {
-    const json_t *printed = json_object_get(object, "mu_1");
+    const json_t *printed = json_object_get(object, "mu");
     const json_t *warmth = json_object_get(object, "temperature_K");
     const double T0 = number(c->inputs, "temperature"), V = number(c->inputs, "speed");
     const double d = listed(c->inputs, "memory", 0), s0 = listed(c->inputs, "memory", 1);
@@ -435,7 +435,7 @@ static void check_law(contact *c, const table *t, const json_t *object,
     c->moves = c->formulation != STATIC && (heats || listed(c->inputs, "mu-fall", 0));
     c->mu_of = doubles((size_t)t->n);
     if ((printed != NULL) == (is_one && !follows_way))
-        violated("friction law", "the column mu_1 does not follow --friction-law");
+        violated("friction law", "the column mu does not follow --friction-law");
     for (int i = t->n - 1; i >= 0; i--) {
         const double x = t->column[X][i];
         const int open = c->formulation == STATIC || t->column[ZONE][i] == SEPARATED;
@@ -484,7 +484,7 @@ static void check_friction(const contact *c, const table *t)
             violated("slip", "element %d, zone 3: q = %g, mu p = %g, shift %g", i + 1,
                      q[i], bound, shift[i]);
         if (c->formulation != STATIC && slip[i] * shift[i] < 0.0)
-            violated("slip_1", "element %d: %g against a shift of %g", i + 1, slip[i],
+            violated("slip", "element %d: %g against a shift of %g", i + 1, slip[i],
                      shift[i]);
     }
 }
@@ -842,7 +842,7 @@ static void check_kinematics(const contact *c, const table *t)
                            (5.0 + 3.0 * EDGE) / 4.0 * ut[i + 1] +
                            (1.0 + EDGE) / 4.0 * ut[i + 2] + local_slip(c, t, i),
                        3.0 * length + 1e-12 * fabs(xi) * dx);
-            expect("slip_1 = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx,
+            expect("slip = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx,
                    length / dx);
         }
     }

@@ -92,7 +92,7 @@ static void compare(const char *file, const char *words)
     compare_column(table, "x_mm", got->n, got->x);
     compare_column(table, "p_MPa", got->n, got->p);
     compare_column(table, "q_MPa", got->n, got->q);
-    compare_column(table, "slip_1", got->n, got->slip);
+    compare_column(table, "slip", got->n, got->slip);
     json_decref(root);
     rb_case_result_free(&r);
     rb_case_free(c);

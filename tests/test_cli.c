@@ -216,14 +216,14 @@ static void json_and_table_hold_the_same_numbers(void **state)
 {
     (void)state;
     static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa",  "q_MPa",
-                                        "un_mm", "ut_mm", "shift_mm", "slip_1", "zone"};
+                                        "un_mm", "ut_mm", "shift_mm", "slip", "zone"};
     json_t *root = run_json(QUICK " --shift 0.001");
     const json_t *table = json_object_get(root, "table");
     assert_int_equal(rollbem(QUICK " --shift 0.001 --header=bare --quiet"), 0);
     assert_string_equal(err, "");
     char *line = strtok(out, "\n");
     assert_string_equal(line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\t"
-                              "slip_1\tzone");
+                              "slip\tzone");
     size_t row = 0;
     for (line = strtok(NULL, "\n"); line; line = strtok(NULL, "\n"), row++)
         for (int j = 0; j < 10; j++) {
@@ -236,7 +236,7 @@ static void json_and_table_hold_the_same_numbers(void **state)
     json_decref(root);
 }
 
-/* P and Q summed from the table; |q| <= mu p; slip_1 and zones by their words. */
+/* P and Q summed from the table; |q| <= mu p; slip and zones by their words. */
 static void table_obeys_its_own_conventions(void **state)
 {
     (void)state;
@@ -897,7 +897,7 @@ static void closed_pipe_is_73(void **state)
                            " --quiet; echo $? >code; } | true; "
                            "sleep 0.4; exit $(cat code)"),
                      73);
-    assert_non_null(strstr(err, "roken pipe"));
+    assert_string_equal(err, ""); /* | head has seen enough */
 }
 
 static void pictures_are_written_or_not_there(void **state)

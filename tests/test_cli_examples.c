@@ -28,7 +28,7 @@ static double tolerance_of(const char *name, double scale)
 {
     if (strcmp(name, "zone") == 0)
         return 0.0;
-    if (strcmp(name, "residual_1") == 0 || strcmp(name, "resistance_moment_N") == 0)
+    if (strcmp(name, "residual") == 0 || strcmp(name, "resistance_moment_N") == 0)
         return 1e-7 * scale + 1e-9;
     return 1e-7 * scale + 1e-12;
 }

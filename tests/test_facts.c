@@ -6,7 +6,7 @@
 /* ---- Two answers ------------------------------------------------------------------- */
 
 static const char *const columns[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
-                                      "un_mm", "ut_mm", "shift_mm", "slip_1"};
+                                      "un_mm", "ut_mm", "shift_mm", "slip"};
 enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, COLUMNS };
 
 static const json_t *table_of(const json_t *root)

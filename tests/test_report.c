@@ -83,7 +83,7 @@ static void table_reads_back_exactly(void **state)
     char line[400];
     assert_non_null(fgets(line, sizeof line, file));
     assert_string_equal(
-        line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\tslip_1\tzone\n");
+        line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\tslip\tzone\n");
     for (int i = 0; i < N; i++) {
         double v[9];
         int zone;
@@ -237,89 +237,84 @@ static void summary_says_how_much_of_the_stick_zone_sticks(void **state)
     }
 }
 
-/* The contact and an element at either side, the slip where the terminal is wide; of
- * many elements at most about twenty. */
-static void brief_table_shows_the_contact(void **state)
+/* A table as a terminal shows it, in a window of so many rows and columns. */
+static void show(const char *text, int rows, int columns, int colour, char *shown,
+                 size_t size)
 {
-    (void)state;
-    static const char all[] = "elements; all, with every column: rollbem ... > FILE\n";
-    rb_rolling_solution s = carter();
-    char line[200], want[100];
-    for (int wide = 0; wide < 2; wide++) {
-        FILE *file = tmpfile();
-        CHECK_STATUS(rb_report_brief_table(file, &s, wide ? 96 : 95), RB_OK);
-        rewind(file);
-        assert_non_null(fgets(line, sizeof line, file));
-        assert_int_equal(strstr(line, "slip_1") != NULL, wide);
-        assert_int_equal(strlen(line), (wide ? 4 : 3) * 24 + 6 + 1);
-        for (int i = 1; i < 19; i++) {
-            double x, p, q, slip = s.slip[i];
-            int zone;
-            assert_non_null(fgets(line, sizeof line, file));
-            if (wide)
-                assert_int_equal(
-                    sscanf(line, "%lf %lf %lf %lf %d", &x, &p, &q, &slip, &zone), 5);
-            else
-                assert_int_equal(sscanf(line, "%lf %lf %lf %d", &x, &p, &q, &zone), 4);
-            CHECK_ABS(x, s.x[i], 0.0, "x");
-            CHECK_ABS(p, s.p[i], 0.0, "p");
-            CHECK_ABS(q, s.q[i], 0.0, "q");
-            CHECK_ABS(slip, s.slip[i], 0.0, "slip");
-            assert_int_equal(zone, s.zone[i]);
-        }
-        assert_non_null(fgets(line, sizeof line, file));
-        snprintf(want, sizeof want, "18 of 20 %s", all);
-        assert_string_equal(line, want);
-        fclose(file);
-    }
-    memset(zones, 0, sizeof zones);
-    for (int touching = 0; touching < 3; touching++) { /* none, the last, the first */
-        FILE *file = tmpfile();
-        if (touching)
-            zones[touching == 1 ? N - 1 : 0] = 1;
-        CHECK_STATUS(rb_report_brief_table(file, &s, 80), RB_OK);
-        const int rows = touching == 2 ? N : 2; /* first and last: all of them */
-        snprintf(want, sizeof want, "\n%d of 20 %s", rows, all);
-        assert_non_null(strstr(content(file), want));
-        fclose(file);
-    }
+    const rb_report_window window = {rows, columns, colour, " gap "};
+    char copy[4000];
+    FILE *file = tmpfile();
+    snprintf(copy, sizeof copy, "%s", text);
+    CHECK_STATUS(rb_report_terminal(file, copy, &window), RB_OK);
+    snprintf(shown, size, "%.*s", (int)size - 1, content(file));
+    fclose(file);
 }
 
-static void brief_table_of_many_elements_skips_some(void **state)
+static void a_terminal_gets_five_digits_and_units_below_the_names(void **state)
 {
     (void)state;
-    enum { MANY = 101 };
-    static double column[9][MANY];
-    static int zone[MANY];
-    rb_rolling_solution s = {.n = MANY,
-                             .x = column[0],
-                             .h = column[1],
-                             .gap = column[2],
-                             .p = column[3],
-                             .q = column[4],
-                             .un = column[5],
-                             .ut = column[6],
-                             .shift = column[7],
-                             .slip = column[8],
-                             .zone = zone};
-    double x;
-    char line[200];
-    for (int i = 0; i < MANY; i++) {
-        s.x[i] = i;
-        zone[i] = i >= 10 && i < 52; /* with their neighbours 44: every third */
+    char shown[4000];
+    show("x_mm\tp_MPa\tspeed_mm/s\tslip\tzone\tnothing\n"
+         "# a comment\n"
+         "-0.123456789\t0\t5\t1e-30\t0\tNaN\n"
+         "0.5\t123456.78901\t5\t0.25\t1\tNaN\n"
+         "1\t-2\t5\t-1\t2\tNaN\n",
+         24, 80, 0, shown, sizeof shown);
+    assert_string_equal(shown, "         x           p  slip  zone\n"
+                               "        mm         MPa            \n"
+                               "  -0.12346           0     0     0\n"
+                               "       0.5  1.2346e+05  0.25     1\n"
+                               "         1          -2    -1     2\n"
+                               "in every row: speed = 5 mm/s\n");
+}
+
+/* No line is wider than the window, no more rows than it has, first and last among them;
+ * the columns that matter less go first. */
+static void a_terminal_gets_what_fits(void **state)
+{
+    (void)state;
+    char text[4000] = "x_mm\tgap\tp\tq\tr\ts\n", shown[4000], *line = shown;
+    int lines = 0;
+    for (int i = 0; i < 100; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "%d\t%d.5\t%d\t%d\t%d\t%d\n", i, i, 2 * i, 3 * i, 4 * i, 12345 * i);
+    show(text, 20, 26, 0, shown, sizeof shown);
+    assert_non_null(strstr(shown, "\n   0  "));
+    assert_non_null(strstr(shown, "\n  99  "));
+    assert_null(strstr(shown, "gap"));
+    assert_non_null(strstr(shown, "one row of 8, without 2 columns; all 100 rows: "));
+    for (char *end; (end = strchr(line, '\n')) != NULL; line = end + 1, lines++)
+        assert_true(end - line <= 26 || strstr(line, "one row") == line);
+    assert_in_range(lines, 15, 20);
+}
+
+static void a_terminal_shows_zones_in_colour(void **state)
+{
+    (void)state;
+    char shown[4000];
+    const char *table = "x\tzone\tstatus\n0\t0\tsolved\n1\t1\tray\n2\t3\tsolved\n";
+    show(table, 24, 80, 1, shown, sizeof shown);
+    assert_non_null(strstr(shown, "\033[90m0\033[0m"));
+    assert_non_null(strstr(shown, "\033[32m1\033[0m"));
+    assert_non_null(strstr(shown, "\033[33m3\033[0m"));
+    assert_non_null(strstr(shown, "\033[31mray\033[0m"));
+    show(table, 24, 80, 0, shown, sizeof shown);
+    assert_null(strchr(shown, '\033'));
+}
+
+/* JSON, sentences, a table of commas, nothing at all. */
+static void a_terminal_gets_other_text_as_it_is(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"{\n \"a\": 1\n}\n", "x,y\n1,2\n", "one line", "",
+                                        "\n"};
+    char shown[4000];
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        show(texts[k], 24, 80, 0, shown, sizeof shown);
+        assert_string_equal(shown, texts[k]);
     }
-    FILE *file = tmpfile();
-    CHECK_STATUS(rb_report_brief_table(file, &s, 80), RB_OK);
-    rewind(file);
-    assert_non_null(fgets(line, sizeof line, file));
-    for (int i = 9; i < 53; i += 3) {
-        assert_non_null(fgets(line, sizeof line, file));
-        assert_int_equal(sscanf(line, "%lf", &x), 1);
-        CHECK_ABS(x, i, 0.0, "row");
-    }
-    assert_non_null(fgets(line, sizeof line, file));
-    assert_int_equal(strncmp(line, "15 of 101 elements", 18), 0);
-    fclose(file);
+    show("a\tb\n", 24, 80, 0, shown, sizeof shown);
+    assert_string_equal(shown, "  a  b\n");
 }
 
 static void notes_warn_where_due(void **state)
@@ -331,18 +326,18 @@ static void notes_warn_where_due(void **state)
     rc.a.support = RB_BEM_HALFPLANE;
     rc.creep = 1e-3;
     FILE *file = tmpfile();
-    rb_report_notes(file, &rc, &s);
+    rb_report_notes(file, &rc, &s, NULL);
     assert_string_equal(content(file), "");
     rc.a.support = RB_BEM_ARC;
     s.approach = rc.a.radius / 2.0;
-    rb_report_notes(file, &rc, &s);
+    rb_report_notes(file, &rc, &s, NULL);
     assert_non_null(strstr(content(file), "hub and halfplane"));
     assert_non_null(strstr(content(file), "linear elasticity does not hold"));
     fclose(file);
     file = tmpfile();
     rc.formulation = s.formulation = RB_STATIC;
     rc.creep = 0.1;
-    rb_report_notes(file, &rc, &s);
+    rb_report_notes(file, &rc, &s, NULL);
     assert_non_null(strstr(content(file), "--formulation steady"));
     fclose(file);
 }
@@ -967,8 +962,10 @@ int main(void)
         cmocka_unit_test(notes_warn_where_due),
         cmocka_unit_test(pictures_of_three_kinds),
         cmocka_unit_test(picture_of_another_kind),
-        cmocka_unit_test(brief_table_shows_the_contact),
-        cmocka_unit_test(brief_table_of_many_elements_skips_some),
+        cmocka_unit_test(a_terminal_gets_five_digits_and_units_below_the_names),
+        cmocka_unit_test(a_terminal_gets_what_fits),
+        cmocka_unit_test(a_terminal_shows_zones_in_colour),
+        cmocka_unit_test(a_terminal_gets_other_text_as_it_is),
         cmocka_unit_test(profiles_are_drawn),
         cmocka_unit_test(pictures_need_something_to_draw),
         cmocka_unit_test(history_of_few_steps_is_drawn),

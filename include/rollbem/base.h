@@ -98,6 +98,10 @@ const char *rb_guess_text(rb_guess *guess, const char *prefix);
  * 4 times the length holds any text. */
 char *rb_printable(const char *text, char *to, size_t size);
 
+/* A finite number in the fewest digits that read back equal: 0.3, 1e-09.  Returns text. */
+enum { RB_NUMBER_TEXT = 32 };
+char *rb_number_text(double x, char text[RB_NUMBER_TEXT]);
+
 /* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
  * product overflows.  Released with free(). */
 double *rb_alloc(size_t rows, size_t cols);

@@ -1,5 +1,6 @@
 /* Solutions as tables, JSON, lines for people and pictures.  Formats: docs/report.md.
- * Numbers with 17 significant digits: what is read back is what was computed. */
+ * What is read back is what was computed: numbers in tables have
+ * the fewest digits that read back equal, those in JSON 17. */
 #ifndef ROLLBEM_REPORT_H
 #define ROLLBEM_REPORT_H
 
@@ -43,7 +44,8 @@ rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
 void rb_report_cell_text(rb_report_cells *c, const char *text);
 /* A few words, "-" in the place of blanks, at which numpy would split. */
 void rb_report_cell_words(rb_report_cells *c, const char *words);
-/* 17 digits; NaN, or nothing in CSV, for what is no finite number. */
+/* The fewest digits that read back equal; NaN, or nothing in CSV, for what is no finite
+ * number. */
 void rb_report_cell_number(rb_report_cells *c, double x);
 void rb_report_cell_whole(rb_report_cells *c, int n);
 void rb_report_cells_end_row(rb_report_cells *c);
@@ -57,6 +59,20 @@ void rb_report_comment_origin(const rb_report_cells *c, const char *command);
 /* RB_EWRITE: see errno. */
 rb_status rb_report_flush(FILE *out);
 
+/* What a person's terminal takes. */
+typedef struct {
+    int rows, columns;
+    int colour;        /* 1: with ANSI colours for zones and failures */
+    const char *minor; /* names of columns, each between blanks, that go first where not
+                          all of them fit; NULL: none */
+} rb_report_window;
+
+/* A table with tabs for a terminal: five digits, one row of several where there are more
+ * than the window has, units below the names, columns that say the same in every row
+ * in a line below.  What is no such table is written as it is.  text: changed.
+ * RB_ENOMEM, RB_EWRITE. */
+rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window);
+
 /* ---- Table ------------------------------------------------------------------------ */
 
 /* One row per contact element; # lines with version, command, conventions, status,
@@ -64,9 +80,6 @@ rb_status rb_report_flush(FILE *out);
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
                           const rb_rolling_solution *s, const char *command,
                           const rb_report_style *style);
-/* For a terminal of so many columns: x, p, q, slip and zone of the contact, aligned, in
- * the fewest digits that read back equal, at most about twenty rows. */
-rb_status rb_report_brief_table(FILE *out, const rb_rolling_solution *s, int width);
 
 /* The steps of a transient or a static history, one row each; its errors, where there
  * are any, in columns of their own, error_*. */
@@ -169,7 +182,8 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
  * error. */
 struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
                                     const rb_rolling_solution *s);
-void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
+void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
+                     const rb_report_window *window);
 
 /* The papers that a run rests on; s NULL: its solver is not known. */
 void rb_report_citations(FILE *out, const rb_rolling_case *rc,

@@ -24,6 +24,9 @@ const char *rb_unit_name(rb_units system, const char *unit);
 double rb_unit_shown(rb_units system, const char *unit, double x);
 double rb_unit_stored(rb_units system, const char *unit, double x);
 
+/* 1: a unit of the table of any kind, such as "MPa" and "kN/m". */
+int rb_unit_is_known(const char *name);
+
 /* "210GPa", "0.3", "18 in": *value, in mm, N, MPa where *plain is 0, and as it stands
  * where *plain is 1: there was no unit.  RB_EINVAL: no finite number, or (with a line in
  * why) no such unit, or one of something else. */

@@ -119,6 +119,11 @@ static const unit_row *find(const char *name, size_t length, const char *kind)
     return NULL;
 }
 
+int rb_unit_is_known(const char *name)
+{
+    return find(name, strlen(name), NULL) != NULL;
+}
+
 const char *rb_unit_name(rb_units system, const char *unit)
 {
     for (int k = 0; k < KINDS; k++)

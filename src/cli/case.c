@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- A case from words ------------------------------------------------------------ */
 
@@ -96,7 +97,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     const cli_case_run *run = context;
     (void)why;
     if (run->o.style.format != RB_REPORT_JSON)
-        return (run->o.brief ? run->command->brief_table : run->command->table)(out, run);
+        return run->command->table(out, run);
     json_t *inputs = rb_report_json_inputs(run->words);
     if (run->command->inputs)
         run->command->inputs(run, &inputs);
@@ -121,23 +122,29 @@ static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int p
 
 static void summarise(const cli_case_run *run)
 {
+    const rb_report_window window = {.columns =
+                                         isatty(STDERR_FILENO) ? cli_terminal_width() : 0,
+                                     .colour = cli_is_coloured(stderr)};
     if (run->o.quiet)
         return;
     if (run->solution)
-        rb_report_notes(stderr, run->noted ? run->noted : &run->c->rc, run->solution);
+        rb_report_notes(stderr, run->noted ? run->noted : &run->c->rc, run->solution,
+                        &window);
     run->command->summarise(run);
 }
 
 static cli_exit print(const cli_spec *spec, const cli_case_run *run)
 {
+    /* a person reads the notes first */
+    const int first = !run->o.output && cli_reader_is_person();
     cli_exit code = run->command->before_table ? run->command->before_table(run) : CLI_OK;
-    if (code == CLI_OK && run->o.brief)
+    if (code == CLI_OK && first)
         summarise(run);
     if (code == CLI_OK)
         code = cli_write_file(run->o.output, write_results, run);
     if (code == CLI_OK)
         code = write_files(spec, run, 0);
-    if (code == CLI_OK && !run->o.brief)
+    if (code == CLI_OK && !first)
         summarise(run);
     if (code == CLI_OK && run->o.cite)
         rb_report_citations(stderr, &run->c->rc, run->solution);
@@ -212,7 +219,6 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         code = cli_case_resolve(&spec, run.words, &run.args);
     if (code == CLI_CONTINUE) {
         run.c = rb_case_resolved(run.words);
-        run.o.brief = command->brief_table && cli_output_is_brief(&run.o);
         rb_case_store(run.words, &run.set, own);
         code = command->check(&run);
     }

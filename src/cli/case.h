@@ -98,8 +98,6 @@ struct cli_case_command {
     /* what may still refuse before the table is written */
     cli_exit (*before_table)(const cli_case_run *run);
     rb_status (*table)(FILE *out, const cli_case_run *run);
-    /* for a person at a terminal, in the place of the table and behind the summary */
-    rb_status (*brief_table)(FILE *out, const cli_case_run *run);
     /* adds to `inputs`, and to what stands beside it */
     void (*inputs)(const cli_case_run *run, struct json_t **inputs);
     void (*json)(const cli_case_run *run, struct json_t **root);

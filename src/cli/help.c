@@ -1,8 +1,10 @@
 /* --help and --usage, made from the option tables. */
 #include "cli/cli.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { NAME_COLUMN = 28, WIDTH = 88 };
 
@@ -82,8 +84,34 @@ static void print_option(const rb_option *o, const void *target)
     print_wrapped(text, NAME_COLUMN, NAME_COLUMN);
 }
 
+/* Standard output of this process through a pager, which leaves at once where a screen
+ * holds everything; NULL: it is no terminal. */
+static FILE *open_pager(void)
+{
+    FILE *pager = NULL;
+    if (isatty(STDOUT_FILENO))
+        pager = popen("if [ -n \"$PAGER\" ]; then exec $PAGER; elif command -v less "
+                      ">/dev/null; then exec less -FRX; else exec cat; fi",
+                      "w");
+    if (pager)
+        dup2(fileno(pager), STDOUT_FILENO);
+    return pager;
+}
+
+/* The pager reads until the last copy of its pipe is closed. */
+static void close_pager(FILE *pager)
+{
+    if (!pager)
+        return;
+    fflush(stdout);
+    close(STDOUT_FILENO);
+    open("/dev/null", O_WRONLY);
+    pclose(pager);
+}
+
 void cli_print_help(const cli_spec *spec)
 {
+    FILE *pager = open_pager();
     printf("Usage: %s\n\n%s\n", spec->synopsis, spec->about);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
@@ -97,11 +125,13 @@ void cli_print_help(const cli_spec *spec)
          "  --help                    this text\n"
          "  --usage                   the options on a few lines\n"
          "  --version\n"
+         "  --color=auto|always|never  colours on a terminal (auto: without NO_COLOR)\n"
          "  --describe=man|markdown   this text as a manual page or for a page;\n"
          "                            =schema: the JSON Schema of --json\n"
          "  --completion=bash|zsh|fish  the completion of a shell");
     if (spec->notes)
         printf("\n%s", spec->notes);
+    close_pager(pager);
 }
 
 void cli_print_usage(const cli_spec *spec)

@@ -39,6 +39,8 @@ static int close_output(int code)
     errno = 0;
     int failed = fflush(stdout) != 0 || ferror(stdout);
     failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
+    if (failed && errno == EPIPE) /* | head has seen enough */
+        return code == CLI_OK ? CLI_CANTWRITE : code;
     if (failed && code != CLI_CANTWRITE) /* not said yet */
         return cli_fail(CLI_CANTWRITE, "standard output: %s",
                         errno ? strerror(errno) : "write error");

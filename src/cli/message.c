@@ -1,5 +1,5 @@
 /* Exit codes and the one error line. */
-#include "cli/cli.h"
+#include "cli/output.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -50,7 +50,10 @@ cli_exit cli_fail(cli_exit code, const char *format, ...)
     if (keeps)
         snprintf(kept, sizeof kept, "%.399s", shown);
     else
-        fprintf(stderr, "rollbem: %s\n", shown);
+        fprintf(stderr,
+                cli_is_coloured(stderr) ? "\033[31mrollbem:\033[0m %s\n"
+                                        : "rollbem: %s\n",
+                shown);
     return code;
 }
 

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <jansson.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -45,14 +46,53 @@ rb_option_set cli_output_set(cli_output *o)
     return (rb_option_set){options, OPTIONS, o, o->given, NULL};
 }
 
-int cli_output_is_brief(const cli_output *o)
+/* ---- Terminals --------------------------------------------------------------------- */
+
+int cli_is_coloured(FILE *stream)
 {
-    int asked = 0;
-    for (int i = 0; i < OPTIONS; i++)
-        asked |= o->given[i] && (strcmp(options[i].name, "format") == 0 ||
-                                 strcmp(options[i].name, "header") == 0);
-    return !asked && !o->output && o->style.format == RB_REPORT_TSV &&
-           isatty(STDOUT_FILENO);
+    const char *line = cli_command_line(), *none = getenv("NO_COLOR");
+    if (strstr(line, " --color=always") || strstr(line, " --color=never"))
+        return strstr(line, " --color=always") != NULL;
+    return isatty(fileno(stream)) && !(none && *none);
+}
+
+int cli_reader_is_person(void)
+{
+    const char *line = cli_command_line();
+    return isatty(STDOUT_FILENO) && !strstr(line, " --header") &&
+           !strstr(line, " --format");
+}
+
+static int window_of(int fd, unsigned short *rows, unsigned short *columns)
+{
+    struct winsize size;
+    if (ioctl(fd, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+        return 0;
+    *rows = size.ws_row;
+    *columns = size.ws_col;
+    return 1;
+}
+
+int cli_terminal_width(void)
+{
+    unsigned short rows, columns;
+    return window_of(STDERR_FILENO, &rows, &columns) ? columns : 80;
+}
+
+int cli_terminal_height(void)
+{
+    unsigned short rows = 0, columns;
+    return window_of(STDOUT_FILENO, &rows, &columns) && rows > 0 ? rows : 24;
+}
+
+rb_status cli_show_table(char *text, int summary)
+{
+    unsigned short rows, columns;
+    const int known = window_of(STDOUT_FILENO, &rows, &columns);
+    const rb_report_window window = {cli_terminal_height() - summary,
+                                     known ? columns : 80, cli_is_coloured(stdout),
+                                     " h gap un ut shift "};
+    return rb_report_terminal(stdout, text, &window);
 }
 
 /* ---- Files that options name ------------------------------------------------------- */
@@ -177,10 +217,32 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 
 /* ---- Open, write, commit ----------------------------------------------------------- */
 
+/* Lines of the summary and of the command above and below a table on a terminal. */
+enum { SUMMARY_LINES = 9 };
+
+/* What would go to a terminal, abbreviated there. */
+static rb_status write_to_terminal(cli_write *write, const void *context, rb_message *why)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *memory = open_memstream(&text, &size);
+    if (!memory)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    rb_status s = write(memory, context, why);
+    if (fclose(memory) != 0 && s == RB_OK)
+        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = cli_show_table(text, SUMMARY_LINES);
+    free(text);
+    return s;
+}
+
 rb_status cli_write_to(const char *path, cli_write *write, const void *context,
                        rb_message *why)
 {
     rb_io_writer w;
+    if (!path && cli_reader_is_person())
+        return write_to_terminal(write, context, why);
     rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
         return s;
@@ -190,7 +252,9 @@ rb_status cli_write_to(const char *path, cli_write *write, const void *context,
     if (s == RB_EWRITE && ferror(w.file))
         rb_fail(why, s, "%s: cannot write: %s", path ? path : "standard output",
                 strerror(errno));
+    const int e = errno;
     rb_io_writer_abandon(&w);
+    errno = e;
     return s;
 }
 
@@ -198,6 +262,8 @@ cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 {
     rb_message why = {""};
     const rb_status s = cli_write_to(path, write, context, &why);
+    if (s == RB_EWRITE && !path && errno == EPIPE)
+        return CLI_CANTWRITE; /* | head has seen enough */
     return s == RB_OK ? CLI_OK : cli_say(s, &why);
 }
 
@@ -275,12 +341,4 @@ cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *o
     const problem_run run = {p, args, &worst};
     const cli_exit code = cli_write_file(output, write_problems, &run);
     return code == CLI_OK ? worst : code;
-}
-
-int cli_terminal_width(void)
-{
-    struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        return size.ws_col;
-    return 80;
 }

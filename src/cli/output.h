@@ -50,7 +50,6 @@ extern const rb_choice cli_picture_sizes[];
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
     int quiet, cite;
-    int brief; /* 1: a person reads standard output: a short table */
     const char *output, *plot;
     cli_pictures pictures;
     int given[CLI_OUTPUT_OPTIONS_MAX];
@@ -59,8 +58,14 @@ typedef struct {
 /* Section [output]: form of the results, --output, --plot and how, --quiet, --cite. */
 rb_option_set cli_output_set(cli_output *o);
 
-/* 1: the table goes to a terminal, and nobody has asked for a form of it. */
-int cli_output_is_brief(const cli_output *o);
+/* 1: standard output is a terminal, and nobody has asked for a form of the results: they
+ * are abbreviated there. */
+int cli_reader_is_person(void);
+/* 1: ANSI colours on that stream: a terminal without NO_COLOR, or --color. */
+int cli_is_coloured(FILE *stream);
+/* A table with tabs on a terminal that has to hold so many other lines too; text:
+ * changed. */
+rb_status cli_show_table(char *text, int summary);
 
 /* The file that the option of that name asks for; NULL: none. */
 const char *cli_option_path(const cli_spec *spec, const char *name);
@@ -98,7 +103,8 @@ typedef struct {
 /* All operands, also after one that fails; the largest exit code of them. */
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output);
 
-/* Characters in a line of standard error. */
+/* Characters in a line of standard error, and lines of standard output. */
 int cli_terminal_width(void);
+int cli_terminal_height(void);
 
 #endif

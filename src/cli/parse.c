@@ -133,6 +133,15 @@ static cli_exit answer_builder(const cli_spec *spec, const char *argument)
     return code;
 }
 
+/* Where it is right cli_is_coloured finds it in the command line. */
+static cli_exit check_colour(const char *when)
+{
+    if (strcmp(when, "auto") == 0 || strcmp(when, "always") == 0 ||
+        strcmp(when, "never") == 0)
+        return CLI_CONTINUE;
+    return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
+}
+
 static cli_exit answer_common(const cli_spec *spec, const char *argument)
 {
     if (strcmp(argument, "--help") == 0)
@@ -169,6 +178,8 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
             CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)", argument,
             other ? (int)strlen(other) : (int)n, other ? other : argument + 1);
     }
+    if (value_behind("--color=", argument))
+        return check_colour(value_behind("--color=", argument));
     const cli_exit code = answer_common(spec, argument);
     return code == CLI_CONTINUE ? parse_option(spec, i, argc, argv) : code;
 }

@@ -117,19 +117,13 @@ static void add_json(const cli_case_run *run, json_t **root)
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
+    if (it->derivatives && !run->o.output && cli_reader_is_person())
+        return rb_report_brief_derivatives(out, run->solution, &it->shown);
     if (it->derivatives)
         return rb_report_derivative_table(out, run->solution, &it->shown,
                                           cli_command_line(), &run->o.style);
     return rb_report_table(out, &run->c->rc, run->solution, cli_command_line(),
                            &run->o.style);
-}
-
-static rb_status write_brief_table(FILE *out, const cli_case_run *run)
-{
-    const solved *it = run->own;
-    if (it->derivatives)
-        return rb_report_brief_derivatives(out, run->solution, &it->shown);
-    return rb_report_brief_table(out, run->solution, cli_terminal_width());
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
@@ -337,7 +331,6 @@ static const cli_case_command command = {
     .solve = solve,
     .before_table = show_behind,
     .table = write_table,
-    .brief_table = write_brief_table,
     .json = add_json,
     .summarise = summarise,
 };

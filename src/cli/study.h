@@ -53,6 +53,8 @@ typedef struct {
     double *drawn;        /* of every case: what the pictures show; NULL: no picture */
     uint64_t fingerprint; /* of all inputs */
     FILE *out;
+    char *text; /* what it has, where it is memory for a terminal; owned */
+    size_t size;
     int lost;            /* 1: no memory for a number of JSON */
     int complete;        /* 1: every row has come */
     struct json_t *list; /* of each column's list; with --format json alone */

@@ -548,6 +548,13 @@ static cli_exit open_output(study *st)
     if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare)
         return open_whole(st);
     st->out = stdout;
+    if (!path && cli_reader_is_person()) {
+        st->out = open_memstream(&st->text, &st->size);
+        if (!st->out)
+            return cli_fail(CLI_INTERNAL, "out of memory");
+        write_head(st, st->out);
+        return CLI_CONTINUE;
+    }
     if (!path || strcmp(path, "-") == 0 || (exists && !S_ISREG(old.st_mode))) {
         if (exists)
             st->out = fopen(path, "w");
@@ -590,10 +597,16 @@ static cli_exit close_output(study *st, cli_exit code)
         e = errno;
     }
     st->out = NULL;
+    if (st->text && !failed) {
+        failed = cli_show_table(st->text, 4) != RB_OK;
+        e = errno;
+    }
+    free(st->text);
+    st->text = NULL;
     if (failed && st->path)
         take_back(st);
-    if (!failed || code == CLI_CANTWRITE)
-        return code;
+    if (!failed || code == CLI_CANTWRITE || (!st->path && e == EPIPE))
+        return failed ? CLI_CANTWRITE : code;
     errno = e;
     return cannot_write(st->o->output ? st->o->output : "standard output");
 }

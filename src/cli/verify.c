@@ -1,5 +1,5 @@
 /* rollbem verify: references, wanted and got. */
-#include "cli/cli.h"
+#include "cli/output.h"
 
 #include "rollbem/verify.h"
 
@@ -7,6 +7,11 @@ static void print_check(const rb_verify_check *c, void *context)
 {
     int *count = context;
     ++*count;
+    if (cli_reader_is_person()) { /* 80 columns */
+        printf("%-5s %-43.43s %9.4g %9.4g %8.1e\n", c->holds ? "ok" : "WRONG", c->what,
+               c->wanted, c->got, c->error);
+        return;
+    }
     printf("%-6s %-56s wanted %-12.6g got %-12.6g %s %-8.2g bound %.2g",
            c->holds ? "ok" : "WRONG", c->what, c->wanted, c->got,
            c->relative ? "rel. error" : "error     ", c->error, c->bound);
@@ -29,6 +34,8 @@ int cli_verify(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
     if (code == CLI_CONTINUE) {
         int count = 0;
+        if (cli_reader_is_person())
+            printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
         const int failed = rb_verify_run(print_check, &count);
         printf("%d of %d references hold\n", count - failed, count);
         code = failed ? CLI_UNSOLVED : CLI_OK;

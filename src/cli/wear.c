@@ -154,11 +154,13 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
 static rb_status write_profile(FILE *out, const void *context, rb_message *why)
 {
     const rb_rolling_solution *s = ((const cli_case_run *)context)->solution;
+    char x[RB_NUMBER_TEXT], worn[RB_NUMBER_TEXT];
     (void)why;
     const char *mm = rb_unit_name(s->units, "mm");
     fprintf(out, "x_%s\tdepth_%s\n# %s\n", mm, mm, cli_command_line());
     for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.17g\t%.17g\n", s->x[i], s->worn[i]);
+        fprintf(out, "%s\t%s\n", rb_number_text(s->x[i], x),
+                rb_number_text(s->worn[i], worn));
     return rb_report_flush(out);
 }
 

@@ -52,9 +52,10 @@ void rb_report_cell_words(rb_report_cells *c, const char *words)
 
 void rb_report_cell_number(rb_report_cells *c, double x)
 {
+    char text[RB_NUMBER_TEXT];
     begin_cell(c);
     if (isfinite(x))
-        fprintf(c->out, "%.17g", x);
+        fputs(rb_number_text(x, text), c->out);
     else if (!is_csv(c))
         fputs("NaN", c->out); /* as R spells it; the others take any case */
 }

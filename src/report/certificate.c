@@ -469,7 +469,7 @@ static double rounding_of_column(const rb_certificate *c, const char *key, int i
 {
     if (strcmp(key, "un_mm") == 0 || strcmp(key, "ut_mm") == 0)
         return c->displacement;
-    return strcmp(key, "slip_1") == 0 ? c->displacement / c->again.h[i] : 0.0;
+    return strcmp(key, "slip") == 0 ? c->displacement / c->again.h[i] : 0.0;
 }
 
 static void compare_table(rb_certificate *c, const json_t *again)

@@ -23,7 +23,7 @@ static void write_curve(rb_report_cells *c, const rb_report_curves *curves, int 
     const int parts = curves->has_errors ? 2 : 1;
 
     if (k == 0) {
-        rb_report_cell_text(c, "mu_1");
+        rb_report_cell_text(c, "mu");
         rb_report_cell_headings(c, parts, part);
         rb_report_cells_end_row(c);
         rb_report_comment_head(c, command);

@@ -10,7 +10,7 @@ const char *const rb_report_conventions[] = {
     "p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length",
     "creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < "
     "0",
-    "slip_1 > 0: A's surface slides towards +x; shift likewise",
+    "slip > 0: A's surface slides towards +x; shift likewise",
     "zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
     NULL};
 

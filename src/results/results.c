@@ -385,8 +385,9 @@ double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
 const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
                                char heading[RB_ROLLING_HEADING])
 {
+    const int has_unit = r->unit && strcmp(r->unit, "1") != 0;
     snprintf(heading, RB_ROLLING_HEADING, "%s%s%s", r->symbol ? r->symbol : r->name,
-             r->unit ? "_" : "", r->unit ? rb_unit_name(units, r->unit) : "");
+             has_unit ? "_" : "", has_unit ? rb_unit_name(units, r->unit) : "");
     return heading;
 }
 

@@ -1,0 +1,232 @@
+/* A table with tabs as a person wants it on a terminal: few digits, few rows, few
+ * columns. */
+#include "rollbem/report.h"
+#include "rollbem/units.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 6 };
+
+typedef struct {
+    int rows, columns;
+    const char **cell; /* rows x columns, borrowed from the text; row 0: the names */
+} grid;
+
+typedef struct {
+    char name[WIDTH], unit[WIDTH];
+    int width, is_shown, is_constant;
+    double scale; /* the largest number; below rounding of it everything is zero */
+} column;
+
+/* Lines of text are cut at tabs and ends in place; comments are left out.  0: it is no
+ * table with tabs; -1: no memory. */
+static int cut(char *text, grid *g)
+{
+    int lines = 1;
+    char *end = strchr(text, '\n');
+    *g = (grid){0, 1, NULL};
+    if (!end || !memchr(text, '\t', (size_t)(end - text)))
+        return 0;
+    for (const char *c = text; c < end; c++)
+        g->columns += *c == '\t';
+    for (const char *c = text; *c; c++)
+        lines += *c == '\n';
+    g->cell = calloc((size_t)lines * (size_t)g->columns, sizeof *g->cell);
+    if (!g->cell)
+        return -1;
+    for (char *line = text, *next; *line; line = next) {
+        next = line + strcspn(line, "\n");
+        if (*next)
+            *next++ = '\0';
+        if (*line == '#' || !*line)
+            continue;
+        const char **row = g->cell + (size_t)g->rows++ * (size_t)g->columns;
+        for (int j = 0; j < g->columns; j++) {
+            row[j] = line;
+            line += strcspn(line, "\t");
+            if (*line)
+                *line++ = '\0';
+        }
+    }
+    return 1;
+}
+
+static const char *entry(const grid *g, int i, int j)
+{
+    const char *text = g->cell[(size_t)i * (size_t)g->columns + (size_t)j];
+    return text ? text : "";
+}
+
+static int read_number(const char *text, double *x)
+{
+    char *end;
+    *x = strtod(text, &end);
+    return *text && !*end;
+}
+
+/* A cell with five digits, 0 where it is rounding of the largest number of its column or
+ * of anything. */
+static const char *shown(const grid *g, int i, int j, const column *c, char text[WIDTH])
+{
+    double x;
+    if (!read_number(entry(g, i, j), &x))
+        snprintf(text, WIDTH, "%.*s", WIDTH - 1, entry(g, i, j));
+    else if (isnan(x))
+        snprintf(text, WIDTH, "-");
+    else
+        snprintf(text, WIDTH, "%.5g", fabs(x) <= fmax(1e-12 * c->scale, 1e-15) ? 0.0 : x);
+    return text;
+}
+
+/* The unit behind the last "_" of a heading such as p_MPa stands below the name. */
+static void split_heading(const char *heading, column *c)
+{
+    const char *unit = strrchr(heading, '_');
+    const int known = unit && rb_unit_is_known(unit + 1);
+    snprintf(c->name, WIDTH, "%.*s", known ? (int)(unit - heading) : WIDTH - 1, heading);
+    snprintf(c->unit, WIDTH, "%s", known ? unit + 1 : "");
+}
+
+/* Every so many rows, and the last one. */
+static int next_row(const grid *g, int i, int step)
+{
+    return i < g->rows - 1 && i + step > g->rows - 1 ? g->rows - 1 : i + step;
+}
+
+/* Widths for the rows that are shown, and columns that say the same everywhere. */
+static void measure(const grid *g, int step, column *all)
+{
+    char text[WIDTH];
+    for (int j = 0; j < g->columns; j++) {
+        column *c = &all[j];
+        double x;
+        split_heading(entry(g, 0, j), c);
+        for (int i = 1; i < g->rows; i++)
+            if (read_number(entry(g, i, j), &x) && isfinite(x))
+                c->scale = fmax(c->scale, fabs(x));
+        c->is_constant = g->rows > 2;
+        for (int i = 2; i < g->rows && c->is_constant; i++)
+            c->is_constant = strcmp(entry(g, i, j), entry(g, 1, j)) == 0;
+        const size_t name = strlen(c->name), unit = strlen(c->unit);
+        c->width = (int)(name > unit ? name : unit);
+        for (int i = 1; i < g->rows; i = next_row(g, i, step)) {
+            const int width = (int)strlen(shown(g, i, j, c, text));
+            c->width = width > c->width ? width : c->width;
+        }
+    }
+}
+
+/* Columns that differ, from the left, as many as fit; those of `minor` only where all do.
+ */
+static int choose(const grid *g, const rb_report_window *window, column *all)
+{
+    int left_out = 0, wanted = 0;
+    for (int j = 0; j < g->columns; j++)
+        wanted += all[j].is_constant ? 0 : GAP + all[j].width;
+    const int all_fit = wanted <= window->columns;
+    for (int j = 0, used = 0; j < g->columns; j++) {
+        column *c = &all[j];
+        char word[WIDTH + 2];
+        snprintf(word, sizeof word, " %s ", c->name);
+        const int minor = window->minor && strstr(window->minor, word) && !all_fit;
+        c->is_shown =
+            !c->is_constant && !minor && used + GAP + c->width <= window->columns;
+        used += c->is_shown ? GAP + c->width : 0;
+        left_out += !c->is_shown && !c->is_constant;
+    }
+    return left_out;
+}
+
+/* Zones and failures stand out; what a colour says the text says too. */
+static const char *colour_of(const column *c, const char *text)
+{
+    if (strcmp(c->name, "zone") == 0)
+        return *text == '0' ? "\033[90m" : *text == '1' ? "\033[32m" : "\033[33m";
+    if (strcmp(c->name, "status") == 0 && strncmp(text, "solved", 6) != 0)
+        return "\033[31m";
+    return "";
+}
+
+static void print_row(FILE *out, const grid *g, int i, const column *all, int colour)
+{
+    char text[WIDTH];
+    for (int j = 0; j < g->columns; j++) {
+        if (!all[j].is_shown)
+            continue;
+        shown(g, i, j, &all[j], text);
+        const char *start = colour ? colour_of(&all[j], text) : "";
+        fprintf(out, "%*s%s%s%s", GAP + all[j].width - (int)strlen(text), "", start, text,
+                *start ? "\033[0m" : "");
+    }
+    fputc('\n', out);
+}
+
+static void print_names(FILE *out, const grid *g, const column *all, int colour)
+{
+    int units = 0;
+    for (int j = 0; j < g->columns; j++)
+        units |= all[j].is_shown && all[j].unit[0];
+    for (int line = 0; line <= units; line++) {
+        fputs(colour ? "\033[1m" : "", out);
+        for (int j = 0; j < g->columns; j++)
+            if (all[j].is_shown)
+                fprintf(out, "%*s", GAP + all[j].width, line ? all[j].unit : all[j].name);
+        fputs(colour ? "\033[0m\n" : "\n", out);
+    }
+}
+
+/* What the rows above do not say, in lines of the window's width. */
+static void print_rest(FILE *out, const grid *g, const column *all, int left_out,
+                       int step, int width)
+{
+    char text[WIDTH], item[3 * WIDTH];
+    int at = 0;
+    for (int j = 0; j < g->columns; j++) {
+        if (!all[j].is_constant || strcmp(shown(g, 1, j, &all[j], text), "-") == 0 ||
+            !*text)
+            continue;
+        const int n = snprintf(item, sizeof item, "%s%s%s = %s%s%s",
+                               at ? "," : "in every row:", " ", all[j].name, text,
+                               all[j].unit[0] ? " " : "", all[j].unit);
+        const int breaks = at > 0 && at + n >= width;
+        if (breaks)
+            fputs(",\n ", out);
+        fputs(breaks ? item + 1 : item, out);
+        at = breaks ? n : at + n;
+    }
+    fputs(at ? "\n" : "", out);
+    if (step > 1)
+        fprintf(out, "one row of %d%s", step, left_out ? ", " : "");
+    if (left_out)
+        fprintf(out, "without %d column%s", left_out, left_out > 1 ? "s" : "");
+    if (step > 1 || left_out)
+        fprintf(out, "; all %d rows: rollbem ... > FILE\n", g->rows - 1);
+}
+
+rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window)
+{
+    grid g;
+    const int is_table = cut(text, &g);
+    if (is_table <= 0) {
+        fputs(text, out);
+        return is_table < 0 ? RB_ENOMEM : rb_report_flush(out);
+    }
+    column *all = calloc((size_t)g.columns, sizeof *all);
+    if (all) {
+        /* names, units, two lines about the rest, and the prompt */
+        const int most = window->rows - 5 > LEAST_ROWS ? window->rows - 5 : LEAST_ROWS;
+        const int rows = g.rows - 1;
+        const int step = rows <= most ? 1 : (rows - 1 + most - 2) / (most - 1);
+        measure(&g, step, all);
+        const int left_out = choose(&g, window, all);
+        print_names(out, &g, all, window->colour);
+        for (int i = 1; i < g.rows; i = next_row(&g, i, step))
+            print_row(out, &g, i, all, window->colour);
+        print_rest(out, &g, all, left_out, step, window->columns);
+    }
+    free(all);
+    free(g.cell);
+    return all ? rb_report_flush(out) : RB_ENOMEM;
+}
