@@ -122,9 +122,9 @@ static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int p
 
 static void summarise(const cli_case_run *run)
 {
-    const rb_report_window window = {.columns =
-                                         isatty(STDERR_FILENO) ? cli_terminal_width() : 0,
-                                     .colour = cli_is_coloured(stderr)};
+    const rb_report_window window = {
+        .columns = isatty(STDERR_FILENO) ? cli_terminal_width(STDERR_FILENO) : 0,
+        .colour = cli_is_coloured(stderr)};
     if (run->o.quiet)
         return;
     if (run->solution)

@@ -95,6 +95,17 @@ cli_exit cli_say_of(const char *option, rb_status s, const rb_message *why);
 int cli_keep_failures(int keep);
 const char *cli_kept_failure(void);
 
+/* ---- The terminal ---------------------------------------------------------------- */
+
+/* --color: "auto", "always", "never"; 0: it is none of them. */
+int cli_set_colour(const char *when);
+/* 1: ANSI colours on that stream: a terminal without NO_COLOR, or always. */
+int cli_is_coloured(FILE *stream);
+/* Characters in a line of the terminal behind that descriptor, 80 where there is none;
+ * lines of standard output, 24 where it is no terminal. */
+int cli_terminal_width(int fd);
+int cli_terminal_height(void);
+
 /* ---- Options (rollbem/case.h) ----------------------------------------------------- */
 
 #define CLI_MAX_SETS 4

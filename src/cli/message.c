@@ -1,5 +1,5 @@
 /* Exit codes and the one error line. */
-#include "cli/output.h"
+#include "cli/cli.h"
 
 #include <stdarg.h>
 #include <string.h>

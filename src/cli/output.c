@@ -7,7 +7,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -48,14 +47,6 @@ rb_option_set cli_output_set(cli_output *o)
 
 /* ---- Terminals --------------------------------------------------------------------- */
 
-int cli_is_coloured(FILE *stream)
-{
-    const char *line = cli_command_line(), *none = getenv("NO_COLOR");
-    if (strstr(line, " --color=always") || strstr(line, " --color=never"))
-        return strstr(line, " --color=always") != NULL;
-    return isatty(fileno(stream)) && !(none && *none);
-}
-
 int cli_reader_is_person(void)
 {
     const char *line = cli_command_line();
@@ -63,35 +54,11 @@ int cli_reader_is_person(void)
            !strstr(line, " --format");
 }
 
-static int window_of(int fd, unsigned short *rows, unsigned short *columns)
-{
-    struct winsize size;
-    if (ioctl(fd, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-        return 0;
-    *rows = size.ws_row;
-    *columns = size.ws_col;
-    return 1;
-}
-
-int cli_terminal_width(void)
-{
-    unsigned short rows, columns;
-    return window_of(STDERR_FILENO, &rows, &columns) ? columns : 80;
-}
-
-int cli_terminal_height(void)
-{
-    unsigned short rows = 0, columns;
-    return window_of(STDOUT_FILENO, &rows, &columns) && rows > 0 ? rows : 24;
-}
-
 rb_status cli_show_table(char *text, int summary)
 {
-    unsigned short rows, columns;
-    const int known = window_of(STDOUT_FILENO, &rows, &columns);
     const rb_report_window window = {cli_terminal_height() - summary,
-                                     known ? columns : 80, cli_is_coloured(stdout),
-                                     " h gap un ut shift "};
+                                     cli_terminal_width(STDOUT_FILENO),
+                                     cli_is_coloured(stdout), " h gap un ut shift "};
     return rb_report_terminal(stdout, text, &window);
 }
 

@@ -61,8 +61,6 @@ rb_option_set cli_output_set(cli_output *o);
 /* 1: standard output is a terminal, and nobody has asked for a form of the results: they
  * are abbreviated there. */
 int cli_reader_is_person(void);
-/* 1: ANSI colours on that stream: a terminal without NO_COLOR, or --color. */
-int cli_is_coloured(FILE *stream);
 /* A table with tabs on a terminal that has to hold so many other lines too; text:
  * changed. */
 rb_status cli_show_table(char *text, int summary);
@@ -102,9 +100,5 @@ typedef struct {
 
 /* All operands, also after one that fails; the largest exit code of them. */
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output);
-
-/* Characters in a line of standard error, and lines of standard output. */
-int cli_terminal_width(void);
-int cli_terminal_height(void);
 
 #endif

@@ -133,11 +133,9 @@ static cli_exit answer_builder(const cli_spec *spec, const char *argument)
     return code;
 }
 
-/* Where it is right cli_is_coloured finds it in the command line. */
 static cli_exit check_colour(const char *when)
 {
-    if (strcmp(when, "auto") == 0 || strcmp(when, "always") == 0 ||
-        strcmp(when, "never") == 0)
+    if (cli_set_colour(when))
         return CLI_CONTINUE;
     return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
 }

@@ -172,9 +172,7 @@ static cli_exit show_behind(const cli_case_run *run)
 static void summarise(const cli_case_run *run)
 {
     const solved *it = run->own;
-    if (it->tolerance)
-        rb_report_tolerances(stderr, &it->r.solution, &it->shown);
-    rb_report_summary(stderr, &it->r.solution, cli_terminal_width());
+    rb_report_summary(stderr, &it->r.solution, cli_terminal_width(STDERR_FILENO));
     if (it->r.has_errors)
         rb_report_errors(stderr, &it->r.solution, &it->r.errors);
     if (it->all.n > 0)

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct {
     /* options */
@@ -302,7 +303,7 @@ static const cli_case_file files[] = {{"vtk", .write = write_vtk},
 
 static void summarise(const cli_case_run *run)
 {
-    rb_report_summary(stderr, run->solution, cli_terminal_width());
+    rb_report_summary(stderr, run->solution, cli_terminal_width(STDERR_FILENO));
     rb_report_stress_summary(stderr, &((const stress *)run->own)->table);
 }
 
