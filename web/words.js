@@ -49,7 +49,7 @@ export const words = {
     take: { title: "Take it along", clip: "Clip (WebM)", command: "Copy as command", ini: "Copy as case file", python: "Copy as Python", link: "Copy link", embed: "Copy for embedding",
         recording: "Recording {seconds} seconds …", saved: "Saved.", failed: "That did not work: {why}", lesson: "The lesson: docs/course/06-rolling.md. The theory: docs/theory.md. To cite: CITATION.cff, and rollbem --cite." },
     take_title: "Take it away: command, case file, table, JSON, Python", take_python: "The same in Python",
-    conventions: "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is at +x. p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length. creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < 0. slip_1 > 0: A's surface slides towards +x; shift likewise. zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
+    conventions: "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is at +x. p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length. creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < 0. slip > 0: A's surface slides towards +x; shift likewise. zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
     json_units: { system: "mm", length: "mm", stress: "MPa", load: "N/mm", moment: "N", speed: "mm/s", compliance: "mm/MPa" },
     loading: "Loading the library …",
     no_wasm: "This browser cannot run the page: it needs WebAssembly and DecompressionStream ({why}).",
