@@ -46,7 +46,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-where-possible page-test python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -380,6 +380,9 @@ journeys: all
 # with what the tests of the package need
 python-test: ; @scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python
 
+# the page's scripts and styles as web/biome.json has them; biome comes from the npm registry
+page-format: ; @web/lint $(B) format --write
+page-lint: ; @web/lint $(B) ci
 page-test: page $(B)/rollbem
 	@B=$(B) tests/page
 

@@ -5,14 +5,27 @@ import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { svg_text } from "./take.js";
 import { say } from "./words.js";
 
-const FINE = [81, 49], COARSE = [41, 25], FRINGES = 9, BANDS = 14;
+const FINE = [81, 49],
+    COARSE = [41, 25],
+    FRINGES = 9,
+    BANDS = 14;
 /* A colour scale of even brightness steps, dark to bright. */
-const SCALE = [[26, 29, 64], [38, 70, 120], [28, 120, 140], [72, 164, 124], [166, 196, 90], [244, 214, 96], [250, 240, 200]];
+const SCALE = [
+    [26, 29, 64],
+    [38, 70, 120],
+    [28, 120, 140],
+    [72, 164, 124],
+    [166, 196, 90],
+    [244, 214, 96],
+    [250, 240, 200],
+];
 const SKIDS = [0, 0.1, 0.2, 0.3, 0.4]; /* 0: it rolls freely */
 const NEAR = 0.2; /* half-widths: a guess that is right */
 
 function colour(t) {
-    const place = Math.max(0, Math.min(0.99999, t)) * (SCALE.length - 1), k = Math.floor(place), part = place - k;
+    const place = Math.max(0, Math.min(0.99999, t)) * (SCALE.length - 1),
+        k = Math.floor(place),
+        part = place - k;
     return SCALE[k].map((v, i) => v + (SCALE[k + 1][i] - v) * part);
 }
 /* Of even steps upwards, so that colours mean the same while a hand moves something. */
@@ -22,47 +35,125 @@ const nice_above = (x) => {
 };
 
 /* The colours of the bands and their stresses. */
-const scale_bar = (words, most) => html("div", { class: "scale", role: "img", "aria-label": say(words.below_scale, { most: show(most) }) },
-    html("span", {}, "0"), html("i", { style: `background:linear-gradient(90deg,${Array.from({ length: BANDS }, (_, k) => `rgb(${colour(k / (BANDS - 0.5)).map(Math.round)}) ${(100 * k) / BANDS}% ${(100 * (k + 1)) / BANDS}%`).join()})` }), html("span", {}, `${show(most)} ${words.mpa}`));
+const scale_bar = (words, most) =>
+    html(
+        "div",
+        { class: "scale", role: "img", "aria-label": say(words.below_scale, { most: show(most) }) },
+        html("span", {}, "0"),
+        html("i", {
+            style: `background:linear-gradient(90deg,${Array.from({ length: BANDS }, (_, k) => `rgb(${colour(k / (BANDS - 0.5)).map(Math.round)}) ${(100 * k) / BANDS}% ${(100 * (k + 1)) / BANDS}%`).join()})`,
+        }),
+        html("span", {}, `${show(most)} ${words.mpa}`),
+    );
 
 /* A field between its points, as an image. */
 function image_of(field, [nx, ny], width, height, paint) {
-    const canvas = document.createElement("canvas"), image = new ImageData((canvas.width = width), (canvas.height = height));
+    const canvas = document.createElement("canvas"),
+        image = new ImageData((canvas.width = width), (canvas.height = height));
     for (let row = 0; row < height; row++)
         for (let column = 0; column < width; column++) {
-            const u = (column / (width - 1)) * (nx - 1), v = (row / (height - 1)) * (ny - 1), i = Math.min(nx - 2, Math.floor(u)), j = Math.min(ny - 2, Math.floor(v));
-            const s = u - i, t = v - j, at = i + nx * j;
-            const value = (field[at] * (1 - s) + field[at + 1] * s) * (1 - t) + (field[at + nx] * (1 - s) + field[at + nx + 1] * s) * t;
-            image.data.set([...(Number.isFinite(value) ? paint(value) : [128, 128, 128]), 255], 4 * (column + width * row));
+            const u = (column / (width - 1)) * (nx - 1),
+                v = (row / (height - 1)) * (ny - 1),
+                i = Math.min(nx - 2, Math.floor(u)),
+                j = Math.min(ny - 2, Math.floor(v));
+            const s = u - i,
+                t = v - j,
+                at = i + nx * j;
+            const value =
+                (field[at] * (1 - s) + field[at + 1] * s) * (1 - t) +
+                (field[at + nx] * (1 - s) + field[at + nx + 1] * s) * t;
+            image.data.set(
+                [...(Number.isFinite(value) ? paint(value) : [128, 128, 128]), 255],
+                4 * (column + width * row),
+            );
         }
     canvas.getContext("2d").putImageData(image, 0, 0);
     return canvas.toDataURL();
 }
 
 export function below_view(words, page) {
-    const { store } = page, w = words.below;
-    let data = null, kind = "max_shear", scale = 0, guess = null, revealed = false, skids = new Map(), drawn_for = null, place = null;
-    const picture = html("figure"), note = html("p", { class: "answer", "aria-live": "polite" }), bar = html("div");
-    const choice = html("div", { class: "narrow" }, segments("below", words.below_title, Object.entries(words.below_kinds), kind, (value) => { kind = value; scale = 0; draw_anew(); }));
-    const question = html("p", { class: "question" }, w.question), told = html("p", { class: "answer", "aria-live": "polite" });
+    const { store } = page,
+        w = words.below;
+    let data = null,
+        kind = "max_shear",
+        scale = 0,
+        guess = null,
+        revealed = false,
+        skids = new Map(),
+        drawn_for = null,
+        place = null;
+    const picture = html("figure"),
+        note = html("p", { class: "answer", "aria-live": "polite" }),
+        bar = html("div");
+    const choice = html(
+        "div",
+        { class: "narrow" },
+        segments("below", words.below_title, Object.entries(words.below_kinds), kind, (value) => {
+            kind = value;
+            scale = 0;
+            draw_anew();
+        }),
+    );
+    const question = html("p", { class: "question" }, w.question),
+        told = html("p", { class: "answer", "aria-live": "polite" });
     const reveal_button = html("button", { type: "button", class: "button main", onclick: () => reveal() }, w.reveal);
     const table = html("div");
-    const knob = page.knob({ name: "below-drive", label: w.drive, from: 0, to: 1.2, ends: [w.free, w.skids], read: (a) => Math.abs(a.numbers.creep_ratio) || 0, write: drive });
-    const mu = page.knob({ name: "below-mu", label: words.hero.mu, from: 0, to: 0.5, read: (a) => Number(a.values.mu.split(",")[0]), write: (v) => page.change(page.with_mu(page.given, v)) });
-    const node = html("div", { class: "two" },
-        html("div", { class: "tale" }, question, html("p", { class: "note" }, w.how), reveal_button, told, html("div", { class: "after" }, html("p", {}, w.then), html("div", { class: "knobs one" }, knob.node, mu.node), table, page.history_buttons())),
-        card("", choice, picture, bar, note, html("div", { class: "row" }, page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-stress", null))));
+    const knob = page.knob({
+        name: "below-drive",
+        label: w.drive,
+        from: 0,
+        to: 1.2,
+        ends: [w.free, w.skids],
+        read: (a) => Math.abs(a.numbers.creep_ratio) || 0,
+        write: drive,
+    });
+    const mu = page.knob({
+        name: "below-mu",
+        label: words.hero.mu,
+        from: 0,
+        to: 0.5,
+        read: (a) => Number(a.values.mu.split(",")[0]),
+        write: (v) => page.change(page.with_mu(page.given, v)),
+    });
+    const node = html(
+        "div",
+        { class: "two" },
+        html("div", { class: "tale" }, question, html("p", { class: "note" }, w.how), reveal_button, told),
+        card(
+            "",
+            choice,
+            picture,
+            bar,
+            note,
+            html(
+                "div",
+                { class: "row" },
+                page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-stress", null),
+            ),
+        ),
+        html(
+            "div",
+            { class: "after" },
+            html("p", {}, w.then),
+            html("div", { class: "knobs one" }, knob.node, mu.node),
+            table,
+            page.history_buttons(),
+        ),
+    );
 
     /* The direction of the drive stays; full sliding is a creep ratio beyond 1. */
     function drive(value) {
-        if (formulation_of(page.given) === "static") return page.change(hold(page.given, ALL_TANGENTIAL, "force-ratio", String(-Math.min(0.99, value))));
+        if (formulation_of(page.given) === "static")
+            return page.change(hold(page.given, ALL_TANGENTIAL, "force-ratio", String(-Math.min(0.99, value))));
         const sign = store.solved.main?.numbers.creep_ratio < 0 ? -1 : 1;
         if (Number(page.given.mu) === 0) return;
         page.change(hold(page.given, ALL_TANGENTIAL, "creep-ratio", String(Number((sign * value).toFixed(3)))));
     }
     function wants() {
         const [nx, ny] = store.holding ? COARSE : FINE;
-        return store.trouble("main") ? [] : [{ kind: "stress", given: page.given, nx, ny, depth: 0, maxima: !store.holding, grid: [nx, ny] }];
+        return store.trouble("main")
+            ? []
+            : [{ kind: "stress", given: page.given, nx, ny, depth: 0, maxima: !store.holding, grid: [nx, ny] }];
     }
     function take(answer, request) {
         if (request.skid !== undefined) {
@@ -76,26 +167,55 @@ export function below_view(words, page) {
         revealed = true;
         draw_anew();
         if (formulation_of(page.given) !== "static" && !skids.size)
-            for (const skid of SKIDS) page.ask({ kind: "stress", slot: `skid ${skid}`, view: "below", skid, given: { ...hold(page.given, ALL_TANGENTIAL, "creep-ratio", skid ? "1.2" : "0"), mu: String(skid || 0.3) }, nx: 5, ny: 4, depth: 0, maxima: true });
+            for (const skid of SKIDS)
+                page.ask({
+                    kind: "stress",
+                    slot: `skid ${skid}`,
+                    view: "below",
+                    skid,
+                    given: {
+                        ...hold(page.given, ALL_TANGENTIAL, "creep-ratio", skid ? "1.2" : "0"),
+                        mu: String(skid || 0.3),
+                    },
+                    nx: 5,
+                    ny: 4,
+                    depth: 0,
+                    maxima: true,
+                });
     }
     /* { value, x, depth } of the largest stress: the library's, or of the grid while it moves. */
     function largest(name) {
         const found = data[`maxima.${name}`];
-        if (found) return { value: found.at[0], x: found.at[1], depth: Math.abs(found.at[2] - surface_at(found.at[1])), own: true };
-        const field = data[`stress.${name}`].at, xs = data["stress.x"].at, ys = data["stress.y"].at, nx = data.grid[0];
+        if (found)
+            return {
+                value: found.at[0],
+                x: found.at[1],
+                depth: Math.abs(found.at[2] - surface_at(found.at[1])),
+                own: true,
+            };
+        const field = data[`stress.${name}`].at,
+            xs = data["stress.x"].at,
+            ys = data["stress.y"].at,
+            nx = data.grid[0];
         let best = 0;
-        field.forEach((v, i) => { if (v > field[best]) best = i; });
+        field.forEach((v, i) => {
+            if (v > field[best]) best = i;
+        });
         return { value: field[best], x: xs[best], depth: Math.abs(ys[best] - ys[best % nx]), own: false };
     }
     /* Height of the surface at x: the first row of the grid. */
     function surface_at(x) {
-        const xs = data["stress.x"].at, nx = data.grid[0];
+        const xs = data["stress.x"].at,
+            nx = data.grid[0];
         let k = 0;
         while (k < nx - 1 && Math.abs(xs[k + 1] - x) < Math.abs(xs[k] - x)) k++;
         return data["stress.y"].at[k];
     }
 
-    function draw_anew() { drawn_for = null; draw(); }
+    function draw_anew() {
+        drawn_for = null;
+        draw();
+    }
     function draw() {
         knob.sync(store.solved.main);
         mu.sync(store.solved.main);
@@ -103,27 +223,77 @@ export function below_view(words, page) {
         const key = [data, kind, revealed, guess, width_of(picture)].map(String).join() + (data?.milliseconds ?? "");
         if (!data || key === drawn_for) return;
         drawn_for = key;
-        const name = kind === "fringes" ? "max_shear" : kind, field = data[`stress.${name}`].at, xs = data["stress.x"].at, ys = data["stress.y"].at, [nx, ny] = data.grid;
-        const width = width_of(picture), left = 52, right = 10, inner = width - left - right, top = 12;
-        const x0 = xs[0], x1 = xs[nx - 1], depth = Math.max(...ys) - Math.min(...ys), height = Math.min(520, Math.round((inner * depth) / (x1 - x0)));
+        const name = kind === "fringes" ? "max_shear" : kind,
+            field = data[`stress.${name}`].at,
+            xs = data["stress.x"].at,
+            ys = data["stress.y"].at,
+            [nx, _ny] = data.grid;
+        const width = width_of(picture),
+            left = 52,
+            right = 10,
+            inner = width - left - right,
+            top = 12;
+        const x0 = xs[0],
+            x1 = xs[nx - 1],
+            depth = Math.max(...ys) - Math.min(...ys),
+            height = Math.min(520, Math.round((inner * depth) / (x1 - x0)));
         const most = largest(name);
-        if (!scale || (!store.holding && (most.value > scale || most.value < 0.6 * scale))) scale = nice_above(most.value || 1);
-        const X = (x) => left + ((x - x0) / (x1 - x0)) * inner, Y = (d) => top + (d / depth) * height;
-        const root = svg("svg", { viewBox: `0 0 ${width} ${height + 62}`, width, height: height + 62, role: "img", "aria-label": revealed ? words.below_alt : w.guess_alt });
+        if (!scale || (!store.holding && (most.value > scale || most.value < 0.6 * scale)))
+            scale = nice_above(most.value || 1);
+        const X = (x) => left + ((x - x0) / (x1 - x0)) * inner,
+            Y = (d) => top + (d / depth) * height;
+        const root = svg("svg", {
+            viewBox: `0 0 ${width} ${height + 62}`,
+            width,
+            height: height + 62,
+            role: "img",
+            "aria-label": revealed ? words.below_alt : w.guess_alt,
+        });
         place = { X, Y, x0, x1, depth, left, inner, top, height, width };
         if (revealed) {
-            const pixels = store.holding ? 260 : 560, tall = Math.max(20, Math.round((height * pixels) / inner));
-            const paint = kind === "fringes" ? (v) => Array(3).fill(250 * Math.sin((Math.PI * FRINGES * v) / scale) ** 2) : (v) => colour(Math.floor((v / scale) * BANDS) / (BANDS - 0.5));
-            root.append(svg("image", { href: image_of(field, data.grid, pixels, tall, paint), x: left, y: top, width: inner, height, preserveAspectRatio: "none" }));
+            const pixels = store.holding ? 260 : 560,
+                tall = Math.max(20, Math.round((height * pixels) / inner));
+            const paint =
+                kind === "fringes"
+                    ? (v) => Array(3).fill(250 * Math.sin((Math.PI * FRINGES * v) / scale) ** 2)
+                    : (v) => colour(Math.floor((v / scale) * BANDS) / (BANDS - 0.5));
+            root.append(
+                svg("image", {
+                    href: image_of(field, data.grid, pixels, tall, paint),
+                    x: left,
+                    y: top,
+                    width: inner,
+                    height,
+                    preserveAspectRatio: "none",
+                }),
+            );
         } else root.append(svg("rect", { x: left, y: top, width: inner, height, style: "fill:var(--body-a)" }));
-        for (const v of ticks(x0, x1, Math.max(4, width / 110))) root.append(svg("text", { x: X(v), y: height + 34, "text-anchor": "middle", class: "soft" }, show(v, 3)));
-        for (const v of ticks(0, depth, 5)) root.append(svg("text", { x: left - 8, y: Y(v) + 5, "text-anchor": "end", class: "soft" }, show(v, 3)));
-        root.append(svg("text", { x: width - right, y: height + 54, "text-anchor": "end", class: "soft" }, words.x_axis), svg("text", { x: left, y: height + 54, class: "soft" }, "↓ " + words.depth));
+        for (const v of ticks(x0, x1, Math.max(4, width / 110)))
+            root.append(svg("text", { x: X(v), y: height + 34, "text-anchor": "middle", class: "soft" }, show(v, 3)));
+        for (const v of ticks(0, depth, 5))
+            root.append(svg("text", { x: left - 8, y: Y(v) + 5, "text-anchor": "end", class: "soft" }, show(v, 3)));
+        root.append(
+            svg("text", { x: width - right, y: height + 54, "text-anchor": "end", class: "soft" }, words.x_axis),
+            svg("text", { x: left, y: height + 54, class: "soft" }, "↓ " + words.depth),
+        );
         const { contact_from: from, contact_to: to } = data.numbers;
         root.append(svg("path", { d: `M${X(from)} ${top - 3}H${X(to)}`, style: "stroke:var(--ink);stroke-width:6" }));
-        const mark = (x, y, style) => [svg("circle", { cx: x, cy: y, r: 9, style: "fill:none;stroke:#fff;stroke-width:5" }), svg("circle", { cx: x, cy: y, r: 9, style })];
+        const mark = (x, y, style) => [
+            svg("circle", { cx: x, cy: y, r: 9, style: "fill:none;stroke:#fff;stroke-width:5" }),
+            svg("circle", { cx: x, cy: y, r: 9, style }),
+        ];
         if (revealed) root.append(...mark(X(most.x), Y(most.depth), "fill:none;stroke:#101418;stroke-width:2.2"));
-        if (guess) root.append(svg("path", { d: `M${X(guess.x) - 8} ${Y(guess.depth) - 8}l16 16m0 -16l-16 16`, style: "stroke:#fff;stroke-width:6;stroke-linecap:round" }), svg("path", { d: `M${X(guess.x) - 8} ${Y(guess.depth) - 8}l16 16m0 -16l-16 16`, style: "stroke:var(--accent);stroke-width:3;stroke-linecap:round" }));
+        if (guess)
+            root.append(
+                svg("path", {
+                    d: `M${X(guess.x) - 8} ${Y(guess.depth) - 8}l16 16m0 -16l-16 16`,
+                    style: "stroke:#fff;stroke-width:6;stroke-linecap:round",
+                }),
+                svg("path", {
+                    d: `M${X(guess.x) - 8} ${Y(guess.depth) - 8}l16 16m0 -16l-16 16`,
+                    style: "stroke:var(--accent);stroke-width:3;stroke-linecap:round",
+                }),
+            );
         if (!revealed) make_guessable(root);
         picture.replaceChildren(root);
         choice.hidden = !revealed;
@@ -131,28 +301,72 @@ export function below_view(words, page) {
         reveal_button.hidden = revealed;
         if (!revealed) return;
         bar.replaceChildren(kind === "fringes" ? "" : scale_bar(words, scale));
-        const a = data.numbers.half_width, p0 = data.numbers.max_pressure;
-        note.textContent = say(words.below_note, { what: words.below_kinds[name], value: show(most.value, 3), part: show(most.value / p0, 3), x: show(most.x, 2), place: most.depth > 0.02 * a ? say(words.below_depth, { depth: show(most.depth, 3), part: show(most.depth / a, 2) }) : words.below_surface })
-            + (most.own ? "" : ` ${w.coarse}`) + (kind === "fringes" ? " " + say(words.below_fringes, { step: show((2 * scale) / FRINGES, 3) }) : "");
-        const shear = largest("max_shear"), deep = shear.depth > 0.02 * a, off = guess && Math.hypot(guess.x - shear.x, guess.depth - shear.depth) / a;
-        told.textContent = [guess && (off < NEAR ? w.right : say(w.wrong, { off: show(off, 2) })), say(deep ? w.answer_below : w.answer_surface, { depth: show(shear.depth / a, 2), part: show(shear.value / p0, 2) }), w.why].filter(Boolean).join(" ");
+        const a = data.numbers.half_width,
+            p0 = data.numbers.max_pressure;
+        note.textContent =
+            say(words.below_note, {
+                what: words.below_kinds[name],
+                value: show(most.value, 3),
+                part: show(most.value / p0, 3),
+                x: show(most.x, 2),
+                place:
+                    most.depth > 0.02 * a
+                        ? say(words.below_depth, { depth: show(most.depth, 3), part: show(most.depth / a, 2) })
+                        : words.below_surface,
+            }) +
+            (most.own ? "" : ` ${w.coarse}`) +
+            (kind === "fringes" ? " " + say(words.below_fringes, { step: show((2 * scale) / FRINGES, 3) }) : "");
+        const shear = largest("max_shear"),
+            deep = shear.depth > 0.02 * a,
+            off = guess && Math.hypot(guess.x - shear.x, guess.depth - shear.depth) / a;
+        told.textContent = [
+            guess && (off < NEAR ? w.right : say(w.wrong, { off: show(off, 2) })),
+            say(deep ? w.answer_below : w.answer_surface, {
+                depth: show(shear.depth / a, 2),
+                part: show(shear.value / p0, 2),
+            }),
+            w.why,
+        ]
+            .filter(Boolean)
+            .join(" ");
         draw_table();
     }
     /* A point is marked by pointer, or by arrow keys and Enter. */
     function make_guessable(root) {
-        const box = svg("rect", { x: place.left, y: place.top, width: place.inner, height: place.height, tabindex: 0, role: "button", "aria-label": w.guess_alt, style: "fill:transparent;cursor:crosshair" });
-        const put = (x, depth) => { guess = { x: Math.max(place.x0, Math.min(place.x1, x)), depth: Math.max(0, Math.min(place.depth, depth)) }; };
+        const box = svg("rect", {
+            x: place.left,
+            y: place.top,
+            width: place.inner,
+            height: place.height,
+            tabindex: 0,
+            role: "button",
+            "aria-label": w.guess_alt,
+            style: "fill:transparent;cursor:crosshair",
+        });
+        const put = (x, depth) => {
+            guess = { x: Math.max(place.x0, Math.min(place.x1, x)), depth: Math.max(0, Math.min(place.depth, depth)) };
+        };
         box.addEventListener("click", (event) => {
-            const rect = root.getBoundingClientRect(), zoom = place.width / rect.width;
-            put(place.x0 + (((event.clientX - rect.left) * zoom - place.left) / place.inner) * (place.x1 - place.x0), (((event.clientY - rect.top) * zoom - place.top) / place.height) * place.depth);
+            const rect = root.getBoundingClientRect(),
+                zoom = place.width / rect.width;
+            put(
+                place.x0 + (((event.clientX - rect.left) * zoom - place.left) / place.inner) * (place.x1 - place.x0),
+                (((event.clientY - rect.top) * zoom - place.top) / place.height) * place.depth,
+            );
             reveal();
         });
         box.addEventListener("keydown", (event) => {
-            if (event.key === "Enter" || event.key === " ") { event.preventDefault(); guess ??= { x: 0, depth: 0 }; return reveal(); }
-            const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] ?? [];
+            if (event.key === "Enter" || event.key === " ") {
+                event.preventDefault();
+                guess ??= { x: 0, depth: 0 };
+                return reveal();
+            }
+            const [dx, dy] =
+                { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] ?? [];
             if (dx === undefined) return;
             event.preventDefault();
-            const from = guess ?? { x: (place.x0 + place.x1) / 2, depth: 0 }, step = place.depth / 25;
+            const from = guess ?? { x: (place.x0 + place.x1) / 2, depth: 0 },
+                step = place.depth / 25;
             put(from.x + dx * step, from.depth + dy * step);
             draw_anew();
             picture.querySelector("rect[tabindex]")?.focus();
@@ -162,11 +376,54 @@ export function below_view(words, page) {
     function draw_table() {
         if (!revealed || !skids.size) return;
         const rows = SKIDS.filter((skid) => skids.has(skid)).map((skid) => {
-            const answer = skids.get(skid), found = answer["maxima.max_shear"].at, { half_width: a, max_pressure: p0 } = answer.numbers;
+            const answer = skids.get(skid),
+                found = answer["maxima.max_shear"].at,
+                { half_width: a, max_pressure: p0 } = answer.numbers;
             const depth = Math.abs(found[2] - answer["stress.y"].at[2]) / a;
-            return [skid ? show(skid) : w.rolls_freely, depth > 0.02 ? `${show(depth, 2)} a` : words.below_surface, `${show(found[0] / p0, 3)} p₀`];
+            return [
+                skid ? show(skid) : w.rolls_freely,
+                depth > 0.02 ? `${show(depth, 2)} a` : words.below_surface,
+                `${show(found[0] / p0, 3)} p₀`,
+            ];
         });
-        table.replaceChildren(html("table", { class: "skids" }, html("caption", {}, w.table), html("thead", {}, html("tr", {}, w.head.map((text) => html("th", { scope: "col" }, text)))), html("tbody", {}, rows.map((row) => html("tr", {}, row.map((text) => html("td", {}, text)))))));
+        table.replaceChildren(
+            html(
+                "table",
+                { class: "skids" },
+                html("caption", {}, w.table),
+                html(
+                    "thead",
+                    {},
+                    html(
+                        "tr",
+                        {},
+                        w.head.map((text) => html("th", { scope: "col" }, text)),
+                    ),
+                ),
+                html(
+                    "tbody",
+                    {},
+                    rows.map((row) =>
+                        html(
+                            "tr",
+                            {},
+                            row.map((text) => html("td", {}, text)),
+                        ),
+                    ),
+                ),
+            ),
+        );
     }
-    return { node, render: draw, uses: ["main"], fine: true, wants, take, resize: draw_anew, reveal, data: () => data, shown: () => revealed };
+    return {
+        node,
+        render: draw,
+        uses: ["main"],
+        fine: true,
+        wants,
+        take,
+        resize: draw_anew,
+        reveal,
+        data: () => data,
+        shown: () => revealed,
+    };
 }

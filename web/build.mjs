@@ -7,19 +7,45 @@ import { LARGEST, LEFT_OUT } from "./worker.js";
 
 /* Scripts in the order of their use; each is an ES module for tests and editors. */
 const WORKER = ["library.js", "worker.js"];
-const PAGE = ["words.js", "draw.js", "state.js", "store.js", "solver.js", "knob.js", "pen.js", "lens.js", "contact.js", "take.js", "controls.js", "bench.js", "hero.js", "chapters.js",
-    "roll.js", "below.js", "matrices.js", "step.js", "main.js"];
+const PAGE = [
+    "words.js",
+    "draw.js",
+    "state.js",
+    "store.js",
+    "solver.js",
+    "knob.js",
+    "pen.js",
+    "lens.js",
+    "contact.js",
+    "take.js",
+    "controls.js",
+    "bench.js",
+    "hero.js",
+    "chapters.js",
+    "roll.js",
+    "below.js",
+    "matrices.js",
+    "step.js",
+    "main.js",
+];
 const LIMIT = 700e3;
 
 /* The sketch of docs/ as a picture of its own, which the page's styles leave as it is; its title describes it. */
 function picture(file) {
-    const svg = readFileSync(file, "utf8"), title = /<title[^>]*>([^"<]*)<\/title>/.exec(svg)[1];
+    const svg = readFileSync(file, "utf8"),
+        title = /<title[^>]*>([^"<]*)<\/title>/.exec(svg)[1];
     return `<img alt="${title}" src="data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}">`;
 }
 
 /* Modules in one: their imports are of each other. */
-const joined = (files) => files.map((file) => readFileSync(`web/${file}`, "utf8")
-    .replace(/^import .*?;\n/gms, "").replace(/^export /gm, "")).join("\n");
+const joined = (files) =>
+    files
+        .map((file) =>
+            readFileSync(`web/${file}`, "utf8")
+                .replace(/^import .*?;\n/gms, "")
+                .replace(/^export /gm, ""),
+        )
+        .join("\n");
 
 const [output, wasm] = process.argv.slice(2);
 const parts = {

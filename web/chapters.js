@@ -6,22 +6,60 @@ import { svg_text } from "./take.js";
 import { say } from "./words.js";
 
 const FREE = { ...PRESETS.rail, "creep-ratio": "0" };
-const MEMORY = { support: "halfplane", formulation: "steady", radius: "150", young: "8", poisson: "0.48", mu: "0.25", load: "25", force: "0", "contact-elements": "40", mesh: "uniform",
-    "relaxation-time": "0.01", "relaxation-ratio": "1", speed: "300" };
+const MEMORY = {
+    support: "halfplane",
+    formulation: "steady",
+    radius: "150",
+    young: "8",
+    poisson: "0.48",
+    mu: "0.25",
+    load: "25",
+    force: "0",
+    "contact-elements": "40",
+    mesh: "uniform",
+    "relaxation-time": "0.01",
+    "relaxation-ratio": "1",
+    speed: "300",
+};
 
 /* The cases of the chapters that have one of their own. */
-export const CHAPTER_CASES = { press: FREE, brake: { ...PRESETS.rail }, soft: hold(PRESETS.roll, ALL_TANGENTIAL, "force", "0"), memory: MEMORY };
+export const CHAPTER_CASES = {
+    press: FREE,
+    brake: { ...PRESETS.rail },
+    soft: hold(PRESETS.roll, ALL_TANGENTIAL, "force", "0"),
+    memory: MEMORY,
+};
 
 /* One of several answers: buttons; told(chosen) after. */
 function choices(label, entries, chosen) {
-    const buttons = entries.map(([value, text]) => html("button", { type: "button", class: "button choice", "aria-pressed": "false", onclick: () => {
-        for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
-        chosen(value);
-    }, "data-value": value }, text));
+    const buttons = entries.map(([value, text]) =>
+        html(
+            "button",
+            {
+                type: "button",
+                class: "button choice",
+                "aria-pressed": "false",
+                onclick: () => {
+                    for (const button of buttons)
+                        button.setAttribute("aria-pressed", String(button.dataset.value === value));
+                    chosen(value);
+                },
+                "data-value": value,
+            },
+            text,
+        ),
+    );
     return html("div", { class: "row choices", role: "group", "aria-label": label }, buttons);
 }
-/* The tale on the left, the figure on the right; what comes after the guess is hidden until then. */
-const layout = (tale, ...figure) => html("div", { class: "two" }, html("div", { class: "tale" }, tale), card("", ...figure));
+/* The question, the figure beside it, and below the question what comes after the guess, hidden until then. */
+const layout = (tale, after, ...figure) =>
+    html(
+        "div",
+        { class: "two" },
+        html("div", { class: "tale" }, tale),
+        card("", ...figure),
+        html("div", { class: "after" }, after),
+    );
 
 /* What a chapter tells where its case was not solved; grey. */
 function grey(node, page, name) {
@@ -33,29 +71,141 @@ function grey(node, page, name) {
 /* ---- 1 Press ----------------------------------------------------------------------- */
 
 export function press_view(words, page) {
-    const { store } = page, w = words.press, picture = html("figure"), told = html("p", { class: "answer", "aria-live": "polite" }), compared = html("p", { class: "note", "aria-live": "polite" });
-    let guess = null, drawn_for = null;
-    const set = (name, value) => store.set("press", name === "load" ? hold(store.case("press"), NORMAL, "load", plain(value)) : { ...store.case("press"), [name]: plain(value) });
-    const load = page.knob({ name: "press-load", label: words.hero.load, from: 1000, to: 50000, scale: "log", unit: "N/mm", read: (a) => a.numbers.normal_load, write: (v) => set("load", v) });
-    const radius = page.knob({ name: "press-radius", label: w.radius, from: 100, to: 1000, scale: "log", unit: "mm", read: (a) => Number(a.values.radius), write: (v) => set("radius", v) });
-    const twice = html("button", { type: "button", class: "button", onclick: () => set("load", Math.min(50000, 2 * (store.solved.press?.numbers.normal_load ?? 0))) }, w.twice);
-    const node = layout([html("p", { class: "question" }, w.question), choices(w.question, w.choices, (value) => { guess = value; drawn_for = null; render(); }), told,
-        html("div", { class: "after" }, html("p", {}, w.then), html("div", { class: "knobs one" }, load.node, radius.node), html("div", { class: "row" }, twice, page.history_buttons()), compared)],
-        picture, html("div", { class: "row" }, page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-press", null, () => store.case("press"))));
+    const { store } = page,
+        w = words.press,
+        picture = html("figure"),
+        told = html("p", { class: "answer", "aria-live": "polite" }),
+        compared = html("p", { class: "note", "aria-live": "polite" });
+    let guess = null,
+        answered = null,
+        drawn_for = null;
+    const set = (name, value) =>
+        store.set(
+            "press",
+            name === "load"
+                ? hold(store.case("press"), NORMAL, "load", plain(value))
+                : { ...store.case("press"), [name]: plain(value) },
+        );
+    const load = page.knob({
+        name: "press-load",
+        label: words.hero.load,
+        from: 1000,
+        to: 50000,
+        scale: "log",
+        unit: "N/mm",
+        read: (a) => a.numbers.normal_load,
+        write: (v) => set("load", v),
+    });
+    const radius = page.knob({
+        name: "press-radius",
+        label: w.radius,
+        from: 100,
+        to: 1000,
+        scale: "log",
+        unit: "mm",
+        read: (a) => Number(a.values.radius),
+        write: (v) => set("radius", v),
+    });
+    const twice = html(
+        "button",
+        {
+            type: "button",
+            class: "button",
+            onclick: () => set("load", Math.min(50000, 2 * (store.solved.press?.numbers.normal_load ?? 0))),
+        },
+        w.twice,
+    );
+    const node = layout(
+        [
+            html("p", { class: "question" }, w.question),
+            choices(w.question, w.choices, (value) => {
+                guess = value;
+                drawn_for = null;
+                render();
+            }),
+            told,
+        ],
+        [
+            html("p", {}, w.then),
+            html("div", { class: "knobs one" }, load.node, radius.node),
+            html("div", { class: "row" }, twice, page.history_buttons()),
+            compared,
+        ],
+        picture,
+        html(
+            "div",
+            { class: "row" },
+            page.take_along(
+                () => svg_text(picture.querySelector("svg")),
+                "rollbem-press",
+                null,
+                () => store.case("press"),
+            ),
+        ),
+    );
     function render() {
-        const a = store.solved.press, before = store.ghosts.press, key = [a, before, guess, width_of(picture), store.trouble("press")];
+        const a = store.solved.press,
+            before = store.ghosts.press,
+            key = [a, before, guess, width_of(picture), store.trouble("press")];
         if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
-        const n = a.numbers, ghost = before && before !== a ? before : null, trouble = grey(node, page, "press");
+        const n = a.numbers,
+            ghost = before && before !== a ? before : null,
+            trouble = grey(node, page, "press");
         [load, radius].forEach((knob) => knob.sync(a));
         node.classList.toggle("revealed", guess !== null);
-        const blank = { ...a, columns: { ...a.columns, p: a.columns.p.map(() => 0), q: a.columns.q.map(() => 0), zone: a.columns.zone.map(() => 0) } };
+        const blank = {
+            ...a,
+            columns: {
+                ...a.columns,
+                p: a.columns.p.map(() => 0),
+                q: a.columns.q.map(() => 0),
+                zone: a.columns.zone.map(() => 0),
+            },
+        };
         const wide = width_of(picture);
-        picture.replaceChildren(tractions_picture(picture, words, guess === null ? blank : a, { width: wide, height: Math.round(Math.min(400, Math.max(220, wide * 0.5))), name: "press", slip: false, axes: { x: [-24, 24], top: 2400, low: -1, slip: 0 }, ghost: guess === null ? null : ghost }));
-        told.textContent = guess === null ? "" : trouble || say(guess === "16" ? w.right : w.wrong, { wide: show(2 * n.half_width, 3), a: show(n.half_width, 3), p0: show(n.max_pressure, 3), approach: show(n.approach, 2), air: show(n.max_pressure * 10, 2) });
-        compared.textContent = !ghost || guess === null ? w.hint : say(w.compared, { load: show(n.normal_load / ghost.numbers.normal_load, 3), wide: show(n.half_width / ghost.numbers.half_width, 3), pressure: show(n.max_pressure / ghost.numbers.max_pressure, 3) });
+        picture.replaceChildren(
+            tractions_picture(picture, words, guess === null ? blank : a, {
+                width: wide,
+                height: Math.round(Math.min(400, Math.max(220, wide * 0.5))),
+                name: "press",
+                slip: false,
+                bounds: false,
+                units: undefined,
+                axes: { x: [-24, 24], top: 2400, low: -1, slip: 0 },
+                ghost: guess === null ? null : ghost,
+            }),
+        );
+        /* The answer is that of the question, whatever the hand does later. */
+        if (trouble || (guess !== null && answered !== guess))
+            told.textContent =
+                trouble ||
+                say(guess === "16" ? w.right : w.wrong, {
+                    wide: show(2 * n.half_width, 3),
+                    a: show(n.half_width, 3),
+                    p0: show(n.max_pressure, 3),
+                    approach: show(n.approach, 2),
+                    air: show(n.max_pressure * 10, 2),
+                });
+        answered = guess;
+        compared.textContent =
+            !ghost || guess === null
+                ? w.hint
+                : say(w.compared, {
+                      load: show(n.normal_load / ghost.numbers.normal_load, 3),
+                      wide: show(n.half_width / ghost.numbers.half_width, 3),
+                      pressure: show(n.max_pressure / ghost.numbers.max_pressure, 3),
+                  });
     }
-    return { node, render, uses: ["press"], resize() { drawn_for = null; }, answer: (value) => node.querySelector(`[data-value="${value}"]`).click() };
+    return {
+        node,
+        render,
+        uses: ["press"],
+        resize() {
+            drawn_for = null;
+        },
+        answer: (value) => node.querySelector(`[data-value="${value}"]`).click(),
+    };
 }
 
 /* ---- 2 Brake ----------------------------------------------------------------------- */
@@ -63,24 +213,128 @@ export function press_view(words, page) {
 const CELLS = 16;
 
 export function brake_view(words, page) {
-    const { store } = page, w = words.brake, picture = html("figure"), curve_host = html("figure"), legend_row = html("div");
-    const told = html("p", { class: "answer", "aria-live": "polite" }), state = html("p", { "aria-live": "polite" }), care = html("p", { class: "note", "aria-live": "polite" }), solved_row = html("div", { class: "cells", role: "img" });
-    let painted = Array(CELLS).fill(0), revealed = false, drawn_for = null, curve = null, curve_key = "", ghost_curve = null, brush = null;
-    const set = (given) => store.set("brake", given), given = () => store.case("brake");
-    const drive = page.knob({ name: "brake-drive", label: w.drive, from: 0, to: 1.2, ends: [words.below.free, words.below.skids], read: (a) => a.numbers.creep_ratio, write: (v) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(v))) });
-    const scale_knob = (name, label, from, to, unit, read) => page.knob({ name: `brake-${name}`, label, from, to, scale: "log", unit, read, write: (v) => set(name === "load" ? hold(given(), NORMAL, "load", plain(v)) : { ...given(), [name]: plain(v) }) });
-    const scales = [scale_knob("load", words.hero.load, 1000, 50000, "N/mm", (a) => a.numbers.normal_load), scale_knob("radius", words.press.radius, 100, 1000, "mm", (a) => Number(a.values.radius)), scale_knob("young", w.stiffness, 50000, 400000, "MPa", (a) => Number(a.values.young))];
-    const cells = painted.map((_, k) => html("button", { type: "button", "data-cell": k, onclick: (event) => { if (event.detail === 0) paint(k, 1 - painted[k]); },
-        onpointerdown: (event) => { event.preventDefault(); cells[k].focus(); cells[k].releasePointerCapture?.(event.pointerId); brush = 1 - painted[k]; paint(k, brush); } }));
-    const strip = html("div", { class: "cells paint", style: `grid-template-columns:repeat(${CELLS},minmax(0,1fr))`, role: "group", "aria-label": w.question, onpointermove: (event) => {
-        const over = document.elementFromPoint(event.clientX, event.clientY)?.dataset?.cell;
-        if (brush !== null && over !== undefined) paint(Number(over), brush);
-    } }, cells);
-    window.addEventListener("pointerup", () => { brush = null; });
-    const see = html("button", { type: "button", class: "button main", onclick: () => { revealed = true; drawn_for = null; render(); } }, w.see);
-    const node = layout([html("p", { class: "question" }, w.question), html("p", { class: "note" }, w.how), html("div", { class: "ends-row" }, html("span", {}, w.rear), html("span", {}, w.front)), strip, solved_row, html("div", { class: "row", style: "margin:.7rem 0" }, see), told,
-        html("div", { class: "after" }, html("p", {}, w.then), html("div", { class: "knobs one" }, drive.node), state, html("div", { class: "row" }, page.history_buttons()), html("p", {}, w.and), html("div", { class: "knobs one" }, scales.map((knob) => knob.node)), care)],
-        picture, legend_row, html("div", { class: "after" }, curve_host), html("div", { class: "row" }, page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-brake", null, given)));
+    const { store } = page,
+        w = words.brake,
+        picture = html("figure"),
+        curve_host = html("figure"),
+        legend_row = html("div");
+    const told = html("p", { class: "answer", "aria-live": "polite" }),
+        state = html("p", { "aria-live": "polite" }),
+        care = html("p", { class: "note", "aria-live": "polite" }),
+        solved_row = html("div", { class: "cells", role: "img" });
+    let painted = Array(CELLS).fill(0),
+        revealed = false,
+        drawn_for = null,
+        curve = null,
+        curve_key = "",
+        ghost_curve = null,
+        brush = null;
+    const set = (given) => store.set("brake", given),
+        given = () => store.case("brake");
+    const drive = page.knob({
+        name: "brake-drive",
+        label: w.drive,
+        from: 0,
+        to: 1.2,
+        ends: [words.below.free, words.below.skids],
+        read: (a) => a.numbers.creep_ratio,
+        write: (v) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(v))),
+    });
+    const scale_knob = (name, label, from, to, unit, read) =>
+        page.knob({
+            name: `brake-${name}`,
+            label,
+            from,
+            to,
+            scale: "log",
+            unit,
+            read,
+            write: (v) =>
+                set(name === "load" ? hold(given(), NORMAL, "load", plain(v)) : { ...given(), [name]: plain(v) }),
+        });
+    const scales = [
+        scale_knob("load", words.hero.load, 1000, 50000, "N/mm", (a) => a.numbers.normal_load),
+        scale_knob("radius", words.press.radius, 100, 1000, "mm", (a) => Number(a.values.radius)),
+        scale_knob("young", w.stiffness, 50000, 400000, "MPa", (a) => Number(a.values.young)),
+    ];
+    const cells = painted.map((_, k) =>
+        html("button", {
+            type: "button",
+            "data-cell": k,
+            onclick: (event) => {
+                if (event.detail === 0) paint(k, 1 - painted[k]);
+            },
+            onpointerdown: (event) => {
+                event.preventDefault();
+                cells[k].focus();
+                cells[k].releasePointerCapture?.(event.pointerId);
+                brush = 1 - painted[k];
+                paint(k, brush);
+            },
+        }),
+    );
+    const strip = html(
+        "div",
+        {
+            class: "cells paint",
+            style: `grid-template-columns:repeat(${CELLS},minmax(0,1fr))`,
+            role: "group",
+            "aria-label": w.question,
+            onpointermove: (event) => {
+                const over = document.elementFromPoint(event.clientX, event.clientY)?.dataset?.cell;
+                if (brush !== null && over !== undefined) paint(Number(over), brush);
+            },
+        },
+        cells,
+    );
+    window.addEventListener("pointerup", () => {
+        brush = null;
+    });
+    const see = html(
+        "button",
+        {
+            type: "button",
+            class: "button main",
+            onclick: () => {
+                revealed = true;
+                drawn_for = null;
+                render();
+            },
+        },
+        w.see,
+    );
+    const node = layout(
+        [
+            html("p", { class: "question" }, w.question),
+            html("p", { class: "note" }, w.how),
+            html("div", { class: "ends-row" }, html("span", {}, w.rear), html("span", {}, w.front)),
+            strip,
+            solved_row,
+            html("div", { class: "row", style: "margin:.7rem 0" }, see),
+            told,
+        ],
+        [
+            html("p", {}, w.then),
+            html("div", { class: "knobs one" }, drive.node),
+            state,
+            html("div", { class: "row" }, page.history_buttons()),
+            html("p", {}, w.and),
+            html(
+                "div",
+                { class: "knobs one" },
+                scales.map((knob) => knob.node),
+            ),
+            care,
+        ],
+        picture,
+        legend_row,
+        html("div", { class: "revealing" }, curve_host),
+        html(
+            "div",
+            { class: "row" },
+            page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-brake", null, given),
+        ),
+    );
 
     function paint(k, zone) {
         painted[k] = zone;
@@ -90,7 +344,10 @@ export function brake_view(words, page) {
         painted.forEach((zone, k) => {
             cells[k].className = zone ? "zone2" : "zone1";
             cells[k].textContent = zone ? "≈" : "=";
-            cells[k].setAttribute("aria-label", say(w.cell, { k: k + 1, n: CELLS, zone: zone ? words.hero.slips : words.hero.sticks }));
+            cells[k].setAttribute(
+                "aria-label",
+                say(w.cell, { k: k + 1, n: CELLS, zone: zone ? words.hero.slips : words.hero.sticks }),
+            );
             cells[k].setAttribute("aria-pressed", String(Boolean(zone)));
         });
     }
@@ -106,83 +363,280 @@ export function brake_view(words, page) {
     const wanted = () => curve_request(given(), "curve brake");
     const wants = () => (revealed && wanted().key !== curve_key ? [wanted()] : []);
     function render() {
-        const a = store.solved.brake, before = store.ghosts.brake, key = [a, before, revealed, curve, width_of(picture), store.trouble("brake")];
+        const a = store.solved.brake,
+            before = store.ghosts.brake,
+            key = [a, before, revealed, curve, width_of(picture), store.trouble("brake")];
         if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
-        const n = a.numbers, trouble = grey(node, page, "brake"), ghost = before && before !== a ? before : null;
+        const n = a.numbers,
+            trouble = grey(node, page, "brake"),
+            ghost = before && before !== a ? before : null;
         [drive, ...scales].forEach((knob) => knob.sync(a));
         node.classList.toggle("revealed", revealed);
         see.hidden = revealed;
-        const seen = scaled(a), blank = { ...seen, columns: { ...seen.columns, q: seen.columns.q.map(() => 0), zone: seen.columns.zone.map(() => 0) } }, wide = width_of(picture);
-        picture.replaceChildren(tractions_picture(picture, words, revealed ? seen : blank, { width: wide, height: Math.round(Math.min(300, Math.max(190, wide * 0.36))), name: "brake", slip: false, axes: { x: [-1.4, 1.4], top: 1.1, low: -0.42, slip: 0 }, ghost: revealed && ghost ? scaled(ghost) : null, units: ["x/a", "p/p₀"] }));
+        const seen = scaled(a),
+            blank = {
+                ...seen,
+                columns: { ...seen.columns, q: seen.columns.q.map(() => 0), zone: seen.columns.zone.map(() => 0) },
+            },
+            wide = width_of(picture);
+        picture.replaceChildren(
+            tractions_picture(picture, words, revealed ? seen : blank, {
+                width: wide,
+                height: Math.round(Math.min(300, Math.max(190, wide * 0.36))),
+                name: "brake",
+                slip: false,
+                axes: { x: [-1.4, 1.4], top: 1.1, low: -0.42, slip: 0 },
+                ghost: revealed && ghost ? scaled(ghost) : null,
+                units: ["x/a", "p/p₀"],
+            }),
+        );
         legend_row.replaceChildren(revealed ? tractions_legend(words, a.columns.zone, false) : "");
         if (!revealed) return;
         if (wants().length) page.ask_view("brake");
-        const right = solved_cells(a), hits = right.filter((zone, k) => zone === painted[k]).length, focused = curve_host.contains(document.activeElement), used = Math.abs(n.force_ratio), slips = n.contact ? 1 - n.stick_length / (n.contact_to - n.contact_from) || 0 : 0;
+        const right = solved_cells(a),
+            hits = right.filter((zone, k) => zone === painted[k]).length,
+            focused = curve_host.contains(document.activeElement),
+            used = Math.abs(n.force_ratio),
+            slips = n.contact ? 1 - n.stick_length / (n.contact_to - n.contact_from) || 0 : 0;
         if (!solved_row.firstChild) {
             solved_row.style.gridTemplateColumns = `repeat(${CELLS},minmax(0,1fr))`;
             solved_row.setAttribute("aria-label", w.solved);
-            solved_row.append(...right.map((zone) => html("span", { class: zone ? "zone2" : "zone1" }, zone ? "≈" : "=")));
+            solved_row.append(
+                ...right.map((zone) => html("span", { class: zone ? "zone2" : "zone1" }, zone ? "≈" : "=")),
+            );
             told.textContent = `${say(w.hits, { hits, n: CELLS })} ${w.answer}`;
         }
-        state.textContent = trouble || say(n.stick === 0 ? w.state_skids : w.state, { s: show(100 * n.creep_ratio, 3), slips: show(100 * (n.stick === 0 ? 1 : slips), 2), used: show(100 * used, 2), slower: show(100 * n.creepage, 2) });
-        care.textContent = ghost && Math.abs(ghost.numbers.max_pressure / n.max_pressure - 1) > 0.01 ? say(w.care_not, { before: show(ghost.numbers.max_pressure, 3), now: show(n.max_pressure, 3), width_before: show(2 * ghost.numbers.half_width, 3), width: show(2 * n.half_width, 3) }) : "";
-        curve_host.replaceChildren(creep_curve(words, { width: width_of(curve_host), height: Math.round(Math.min(330, Math.max(240, width_of(curve_host) * 0.42))), curve, ghost: ghost_curve, old: curve_key !== wanted().key, numbers: n, store, name: "brake",
-            set: (s) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(Math.max(0, s)))), set_force: (f) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(Math.max(0, n.creep_ratio - (f - n.force_ratio) / 2)))) }));
+        state.textContent =
+            trouble ||
+            say(n.stick === 0 ? w.state_skids : w.state, {
+                s: show(100 * n.creep_ratio, 3),
+                slips: show(100 * (n.stick === 0 ? 1 : slips), 2),
+                used: show(100 * used, 2),
+                slower: show(100 * n.creepage, 2),
+            });
+        care.textContent =
+            ghost && Math.abs(ghost.numbers.max_pressure / n.max_pressure - 1) > 0.01
+                ? say(w.care_not, {
+                      before: show(ghost.numbers.max_pressure, 3),
+                      now: show(n.max_pressure, 3),
+                      width_before: show(2 * ghost.numbers.half_width, 3),
+                      width: show(2 * n.half_width, 3),
+                  })
+                : "";
+        curve_host.replaceChildren(
+            creep_curve(words, {
+                width: width_of(curve_host),
+                height: Math.round(Math.min(330, Math.max(240, width_of(curve_host) * 0.42))),
+                curve,
+                ghost: ghost_curve,
+                old: curve_key !== wanted().key,
+                numbers: n,
+                store,
+                name: "brake",
+                set: (s) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(Math.max(0, s)))),
+                set_force: (f) =>
+                    set(
+                        hold(
+                            given(),
+                            ALL_TANGENTIAL,
+                            "creep-ratio",
+                            plain(Math.max(0, n.creep_ratio - (f - n.force_ratio) / 2)),
+                        ),
+                    ),
+            }),
+        );
         if (focused) curve_host.querySelector(".handle")?.focus();
     }
     draw_cells();
-    return { node, render, wants, uses: ["brake"], resize() { drawn_for = null; }, paint, see: () => see.click(),
+    return {
+        node,
+        render,
+        wants,
+        uses: ["brake"],
+        resize() {
+            drawn_for = null;
+        },
+        paint,
+        see: () => see.click(),
         take(answer, request) {
             ghost_curve = curve;
             [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
             render();
-        } };
+        },
+    };
 }
 
 /* ---- 3 A soft wheel ---------------------------------------------------------------- */
 
 export function soft_view(words, page) {
-    const { store } = page, w = words.soft, picture = html("figure"), curve_host = html("figure"), leaning = html("figure");
-    const told = html("p", { class: "answer", "aria-live": "polite" }), state = html("p", { "aria-live": "polite" }), costs = html("p", { "aria-live": "polite" });
-    let guess = null, drawn_for = null, curve = null, curve_key = "";
-    const given = () => store.case("soft"), set = (more) => store.set("soft", { ...given(), ...more });
-    const cover = page.knob({ name: "soft-cover", label: w.cover, from: 4, to: 40, unit: "mm", read: (a) => Number(a.values["cover-thickness"]), write: (v) => set({ "cover-thickness": plain(v) }) });
-    const poisson = page.knob({ name: "soft-poisson", label: w.poisson, from: 0.2, to: 0.485, read: (a) => Number(a.values.poisson), write: (v) => set({ poisson: plain(v) }) });
-    const speed = page.knob({ name: "soft-speed", label: w.speed, from: 10, to: 100000, scale: "log", unit: "mm/s", read: (a) => Number(a.values.speed), write: (v) => store.set("memory", { ...store.case("memory"), speed: plain(v) }) });
-    const node = layout([html("p", { class: "question" }, w.question), choices(w.question, w.choices, (value) => { guess = value; drawn_for = null; page.ask_view("soft"); render(); }), told,
-        html("div", { class: "after" }, html("p", {}, w.then), html("div", { class: "knobs one" }, cover.node, poisson.node), state, html("div", { class: "row" }, page.history_buttons()), html("p", {}, w.memory), html("div", { class: "knobs one" }, speed.node), costs)],
-        picture, html("div", { class: "after" }, curve_host, html("h3", {}, w.leaning), leaning), html("div", { class: "row" }, page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-soft", null, given)));
+    const { store } = page,
+        w = words.soft,
+        picture = html("figure"),
+        curve_host = html("figure"),
+        leaning = html("figure");
+    const told = html("p", { class: "answer", "aria-live": "polite" }),
+        state = html("p", { "aria-live": "polite" }),
+        costs = html("p", { "aria-live": "polite" });
+    let guess = null,
+        drawn_for = null,
+        curve = null,
+        curve_key = "";
+    const given = () => store.case("soft"),
+        set = (more) => store.set("soft", { ...given(), ...more });
+    const cover = page.knob({
+        name: "soft-cover",
+        label: w.cover,
+        from: 4,
+        to: 40,
+        unit: "mm",
+        read: (a) => Number(a.values["cover-thickness"]),
+        write: (v) => set({ "cover-thickness": plain(v) }),
+    });
+    const poisson = page.knob({
+        name: "soft-poisson",
+        label: w.poisson,
+        from: 0.2,
+        to: 0.485,
+        read: (a) => Number(a.values.poisson),
+        write: (v) => set({ poisson: plain(v) }),
+    });
+    const speed = page.knob({
+        name: "soft-speed",
+        label: w.speed,
+        from: 10,
+        to: 100000,
+        scale: "log",
+        unit: "mm/s",
+        read: (a) => Number(a.values.speed),
+        write: (v) => store.set("memory", { ...store.case("memory"), speed: plain(v) }),
+    });
+    const node = layout(
+        [
+            html("p", { class: "question" }, w.question),
+            choices(w.question, w.choices, (value) => {
+                guess = value;
+                drawn_for = null;
+                page.ask_view("soft");
+                render();
+            }),
+            told,
+        ],
+        [
+            html("p", {}, w.then),
+            html("div", { class: "knobs one" }, cover.node, poisson.node),
+            state,
+            html("div", { class: "row" }, page.history_buttons()),
+            html("p", {}, w.memory),
+            html("div", { class: "knobs one" }, speed.node),
+            costs,
+        ],
+        picture,
+        html("div", { class: "revealing" }, curve_host, html("h3", {}, w.leaning), leaning),
+        html(
+            "div",
+            { class: "row" },
+            page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-soft", null, given),
+        ),
+    );
     const wanted = () => curve_request(given(), "curve soft");
     const wants = () => (guess !== null && !store.holding && wanted().key !== curve_key ? [wanted()] : []);
     /* The wheel turns as if its radius were larger by this part: the rim is so much slower than it travels. */
     const larger_by = (n) => 1 / (1 - n.free_creepage) - 1;
     function render() {
-        const a = store.solved.soft, m = store.solved.memory, key = [a, m, store.ghosts.soft, store.ghosts.memory, guess, curve, width_of(picture), store.trouble("soft"), store.trouble("memory")];
+        const a = store.solved.soft,
+            m = store.solved.memory,
+            key = [
+                a,
+                m,
+                store.ghosts.soft,
+                store.ghosts.memory,
+                guess,
+                curve,
+                width_of(picture),
+                store.trouble("soft"),
+                store.trouble("memory"),
+            ];
         if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
-        const n = a.numbers, trouble = grey(node, page, "soft") || (store.trouble("memory") && say(words.refused, { why: store.trouble("memory") })), shown = guess !== null, percent = 100 * larger_by(n);
-        const ghost_of = (name) => (shown && store.ghosts[name] && store.ghosts[name] !== store.solved[name] ? store.ghosts[name] : null);
+        const n = a.numbers,
+            trouble =
+                grey(node, page, "soft") ||
+                (store.trouble("memory") && say(words.refused, { why: store.trouble("memory") })),
+            shown = guess !== null,
+            percent = 100 * larger_by(n);
+        const ghost_of = (name) =>
+            shown && store.ghosts[name] && store.ghosts[name] !== store.solved[name] ? store.ghosts[name] : null;
         [cover, poisson].forEach((knob) => knob.sync(a));
         node.classList.toggle("revealed", shown);
-        const wide = width_of(picture), tall = Math.round(Math.min(230, Math.max(150, wide * 0.3)));
-        picture.replaceChildren(tractions_picture(picture, words, a, { width: wide, height: tall, name: "soft", slip: false, axes: { x: [-26, 26], top: 3, low: -0.9, slip: 0 }, ghost: ghost_of("soft") }));
+        const wide = width_of(picture),
+            tall = Math.round(Math.min(230, Math.max(150, wide * 0.3)));
+        picture.replaceChildren(
+            tractions_picture(picture, words, a, {
+                width: wide,
+                height: tall,
+                name: "soft",
+                slip: false,
+                axes: { x: [-26, 26], top: 3, low: -0.9, slip: 0 },
+                ghost: ghost_of("soft"),
+            }),
+        );
         if (!shown) return;
         const kind = Math.abs(percent) < 0.05 ? "same" : percent > 0 ? "larger" : "smaller";
-        told.textContent = trouble || [guess === kind ? w.right : w.wrong, say(w.answer[kind], { percent: show(Math.abs(percent), 2), xi: show(n.free_creepage, 2) }), kind === "larger" ? w.why : ""].filter(Boolean).join(" ");
+        told.textContent =
+            trouble ||
+            [
+                guess === kind ? w.right : w.wrong,
+                say(w.answer[kind], { percent: show(Math.abs(percent), 2), xi: show(n.free_creepage, 2) }),
+                kind === "larger" ? w.why : "",
+            ]
+                .filter(Boolean)
+                .join(" ");
         state.textContent = trouble || say(w.state, { percent: show(percent, 2), half: show(n.half_width, 3) });
         if (curve_key !== wanted().key && wants().length) page.ask_view("soft");
-        curve_host.replaceChildren(creep_curve(words, { width: width_of(curve_host), height: 270, curve, old: curve_key !== wanted().key, numbers: n, store, name: "soft",
-            set: (s) => store.set("soft", hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(s))), set_force: (f) => store.set("soft", hold(given(), ALL_TANGENTIAL, "force-ratio", plain(f))) }));
+        curve_host.replaceChildren(
+            creep_curve(words, {
+                width: width_of(curve_host),
+                height: 270,
+                curve,
+                old: curve_key !== wanted().key,
+                numbers: n,
+                store,
+                name: "soft",
+                set: (s) => store.set("soft", hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(s))),
+                set_force: (f) => store.set("soft", hold(given(), ALL_TANGENTIAL, "force-ratio", plain(f))),
+            }),
+        );
         if (!m) return;
         speed.sync(m);
-        leaning.replaceChildren(tractions_picture(leaning, words, m, { width: wide, height: tall, name: "memory", slip: false, axes: { x: [-32, 32], top: 1.9, low: -0.4, slip: 0 }, ghost: ghost_of("memory") }));
+        leaning.replaceChildren(
+            tractions_picture(leaning, words, m, {
+                width: wide,
+                height: tall,
+                name: "memory",
+                slip: false,
+                axes: { x: [-32, 32], top: 1.9, low: -0.4, slip: 0 },
+                ghost: ghost_of("memory"),
+            }),
+        );
         const sum = [...m.columns.p].reduce((s, p, i) => s + p * m.columns.h[i], 0);
-        costs.textContent = say(w.costs, { moment: show(m.numbers.resistance_moment, 2), forward: show(m.numbers.resistance_moment / (sum || 1), 2) });
+        costs.textContent = say(w.costs, {
+            moment: show(m.numbers.resistance_moment, 2),
+            forward: show(m.numbers.resistance_moment / (sum || 1), 2),
+        });
     }
-    return { node, render, wants, uses: ["soft", "memory"], resize() { drawn_for = null; }, answer: (value) => node.querySelector(`[data-value="${value}"]`).click(),
+    return {
+        node,
+        render,
+        wants,
+        uses: ["soft", "memory"],
+        resize() {
+            drawn_for = null;
+        },
+        answer: (value) => node.querySelector(`[data-value="${value}"]`).click(),
         take(answer, request) {
             [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
             render();
-        } };
+        },
+    };
 }

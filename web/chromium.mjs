@@ -6,41 +6,76 @@ import { join } from "node:path";
 
 export async function open_page(url, { width = 1280, height = 900, dark = false, mobile = false } = {}) {
     const folder = mkdtempSync(join(tmpdir(), "page-"));
-    const browser = spawn("chromium", ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
-        `--user-data-dir=${folder}`, "--remote-debugging-pipe", "about:blank"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-    const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), errors = [], requested = [];
-    let last = 0, rest = "";
+    const browser = spawn(
+        "chromium",
+        [
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-background-networking",
+            "--no-first-run",
+            `--user-data-dir=${folder}`,
+            "--remote-debugging-pipe",
+            "about:blank",
+        ],
+        { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] },
+    );
+    const [to, from] = [browser.stdio[3], browser.stdio[4]],
+        waiting = new Map(),
+        errors = [],
+        requested = [];
+    let last = 0,
+        rest = "";
     from.on("data", (chunk) => {
         const lines = (rest + chunk).split("\0");
         rest = lines.pop();
         for (const text of lines) {
             const { id, result, error, method, params } = JSON.parse(text);
-            if (id) { const { resolve, reject } = waiting.get(id); waiting.delete(id); error ? reject(new Error(error.message)) : resolve(result); }
-            if (method === "Runtime.exceptionThrown") errors.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+            if (id) {
+                const { resolve, reject } = waiting.get(id);
+                waiting.delete(id);
+                error ? reject(new Error(error.message)) : resolve(result);
+            }
+            if (method === "Runtime.exceptionThrown")
+                errors.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
             if (method === "Log.entryAdded" && params.entry.level === "error") errors.push(params.entry.text);
             if (method === "Network.requestWillBeSent") requested.push(params.request.url);
         }
     });
-    const send = (method, params = {}, sessionId) => new Promise((resolve, reject) => {
-        waiting.set(++last, { resolve, reject });
-        to.write(JSON.stringify({ id: last, method, params, sessionId }) + "\0");
-    });
+    const send = (method, params = {}, sessionId) =>
+        new Promise((resolve, reject) => {
+            waiting.set(++last, { resolve, reject });
+            to.write(JSON.stringify({ id: last, method, params, sessionId }) + "\0");
+        });
     const { targetId } = await send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
     const tab = (method, params) => send(method, params, sessionId);
     for (const domain of ["Page", "Runtime", "Log", "Network"]) await tab(`${domain}.enable`);
-    const size = (w, h, is_dark = false, is_mobile = false) => Promise.all([tab("Emulation.setDeviceMetricsOverride", { width: w, height: h, deviceScaleFactor: 1, mobile: is_mobile }),
-        tab("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: is_dark ? "dark" : "light" }] })]);
+    const size = (w, h, is_dark = false, is_mobile = false) =>
+        Promise.all([
+            tab("Emulation.setDeviceMetricsOverride", { width: w, height: h, deviceScaleFactor: 1, mobile: is_mobile }),
+            tab("Emulation.setEmulatedMedia", {
+                features: [{ name: "prefers-color-scheme", value: is_dark ? "dark" : "light" }],
+            }),
+        ]);
     await size(width, height, dark, mobile);
     await tab("Page.navigate", { url });
     /* Value of an expression, which may be a promise. */
     async function run(expression) {
-        const { result, exceptionDetails } = await tab("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+        const { result, exceptionDetails } = await tab("Runtime.evaluate", {
+            expression,
+            awaitPromise: true,
+            returnByValue: true,
+        });
         if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
         return result.value;
     }
     async function until(expression, seconds = 30) {
-        for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 10)))
+        for (
+            const end = Date.now() + 1000 * seconds;
+            Date.now() < end;
+            await new Promise((resolve) => setTimeout(resolve, 10))
+        )
             if (await run(expression).catch(() => false)) return;
         throw new Error(`not so after ${seconds} s: ${expression}`);
     }
@@ -51,8 +86,14 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
         rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
     }
     async function picture(full = true) {
-        const { cssContentSize: { width: w, height: h } } = await tab("Page.getLayoutMetrics");
-        const { data } = await tab("Page.captureScreenshot", { format: "png", captureBeyondViewport: full, ...(full && { clip: { x: 0, y: 0, width: w, height: Math.min(h, 4000), scale: 1 } }) });
+        const {
+            cssContentSize: { width: w, height: h },
+        } = await tab("Page.getLayoutMetrics");
+        const { data } = await tab("Page.captureScreenshot", {
+            format: "png",
+            captureBeyondViewport: full,
+            ...(full && { clip: { x: 0, y: 0, width: w, height: Math.min(h, 4000), scale: 1 } }),
+        });
         return Buffer.from(data, "base64");
     }
     return { run, until, close, picture, size, errors, requested, tab };

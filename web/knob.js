@@ -8,8 +8,18 @@ const KEYS_REST = 500; /* ms after which keys are taken to rest */
  * over it leaves it as it was.  move(value) on the way. */
 export function slider_for(store, attributes, move) {
     const slider = html("input", { type: "range", ...attributes });
-    let before = null, down = false, timer = null;
-    slider.addEventListener("pointerdown", () => { before = slider.value; down = true; store.hold(); }, true);
+    let before = null,
+        down = false,
+        timer = null;
+    slider.addEventListener(
+        "pointerdown",
+        () => {
+            before = slider.value;
+            down = true;
+            store.hold();
+        },
+        true,
+    );
     slider.addEventListener("pointercancel", () => {
         if (before !== null && slider.value !== before) {
             slider.value = before;
@@ -33,30 +43,61 @@ export function slider_for(store, attributes, move) {
 }
 
 /* read(answer): its number as solved; write(number): another one; text(number): what it means, for who hears it. */
-export function make_knob(store, { name, label, from, to, scale, unit = "", read, write, text, ends, step = 400, digits = 3, whole = false, title }) {
-    const log = scale === "log", up = (v) => (log ? Math.log(v) : v), down = (v) => (log ? Math.exp(v) : v);
+export function make_knob(
+    store,
+    { name, label, from, to, scale, unit = "", read, write, text, ends, step = 400, digits = 3, whole = false, title },
+) {
+    const log = scale === "log",
+        up = (v) => (log ? Math.log(v) : v),
+        down = (v) => (log ? Math.exp(v) : v);
     const tidy = (v) => (whole ? Math.round(v) : Number(v.toPrecision(digits)));
     const id = `dial-${name}-${++count}`;
-    const slider = slider_for(store, { min: up(from), max: up(to), step: (up(to) - up(from)) / step, "aria-label": label, "data-dial": name },
-        (v) => write(tidy(down(v))));
-    const field = html("input", { type: "text", id, inputmode: "decimal", title, onchange: () => {
-        const value = Number(with_point(field.value));
-        if (Number.isFinite(value) && value >= (log ? 1e-300 : -Infinity)) write(value);
-        else sync(last);
-    } });
+    const slider = slider_for(
+        store,
+        { min: up(from), max: up(to), step: (up(to) - up(from)) / step, "aria-label": label, "data-dial": name },
+        (v) => write(tidy(down(v))),
+    );
+    const field = html("input", {
+        type: "text",
+        id,
+        inputmode: "decimal",
+        title,
+        onchange: () => {
+            const value = Number(with_point(field.value));
+            if (Number.isFinite(value) && value >= (log ? 1e-300 : -Infinity)) write(value);
+            else sync(last);
+        },
+    });
     let last = null;
     function sync(answer) {
         if (!answer) return;
         last = answer;
-        const value = read(answer), shown = Number.isFinite(value) ? value : 0;
-        if (document.activeElement !== slider || !store.holding) slider.value = up(Math.max(log ? from : -Infinity, shown));
-        if (document.activeElement !== field) field.value = String(Number((Math.abs(shown) < 1e-12 ? 0 : shown).toPrecision(4)));
+        const value = read(answer),
+            shown = Number.isFinite(value) ? value : 0;
+        if (document.activeElement !== slider || !store.holding)
+            slider.value = up(Math.max(log ? from : -Infinity, shown));
+        if (document.activeElement !== field)
+            field.value = String(Number((Math.abs(shown) < 1e-12 ? 0 : shown).toPrecision(4)));
         slider.setAttribute("aria-valuetext", text ? text(shown) : `${show(shown)} ${unit}`);
     }
     return {
-        node: html("div", { class: "dial" }, html("label", { for: id }, label), html("span", { class: "field" }, field, unit && html("span", { class: "unit" }, unit)), slider,
-            ends && html("span", { class: "ends", "aria-hidden": "true" }, html("span", {}, ends[0]), html("span", {}, ends[1]))),
-        sync, slider, field,
+        node: html(
+            "div",
+            { class: "dial" },
+            html("label", { for: id }, label),
+            html("span", { class: "field" }, field, unit && html("span", { class: "unit" }, unit)),
+            slider,
+            ends &&
+                html(
+                    "span",
+                    { class: "ends", "aria-hidden": "true" },
+                    html("span", {}, ends[0]),
+                    html("span", {}, ends[1]),
+                ),
+        ),
+        sync,
+        slider,
+        field,
     };
 }
 let count = 0;

@@ -4,7 +4,7 @@
  * The offsets at the surface are those of the solution: the sum of the column shift from the leading edge on is the
  * accumulated slip, creepage times way less that slip is the strain.  How they die away with the depth is drawn. */
 
-const SPACES = 26; /* between the lines, in the window */
+const spaces_in = (wide) => (wide < 480 ? 18 : 26); /* between the lines, in the window */
 const ASIDE = [1.42, 1.45]; /* the window in half-widths, to each side */
 
 const last = (list) => list[list.length - 1];
@@ -20,21 +20,26 @@ export function fit_lens({ columns, numbers }) {
     return { window, press: 1.15 * Math.max(...columns.p), slip: round_125((0.042 * wide) / most) };
 }
 export function round_125(x) {
-    const power = 10 ** Math.floor(Math.log10(x)), part = x / power;
+    const power = 10 ** Math.floor(Math.log10(x)),
+        part = x / power;
     return (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10) * power;
 }
 /* Whether a scale is still good enough to keep: nothing jumps without need. */
 export function lens_still_fits(fit, { columns, numbers }) {
-    const wide = fit.window[1] - fit.window[0], contact = numbers.contact_to - numbers.contact_from;
-    const inside = numbers.contact_from > fit.window[0] + 0.06 * wide && numbers.contact_to < fit.window[1] - 0.06 * wide;
-    const way = offsets_of({ columns, numbers }), most = (fit.slip * Math.max(way.slip_end, 0.55 * way.strain_end)) / wide;
+    const wide = fit.window[1] - fit.window[0],
+        contact = numbers.contact_to - numbers.contact_from;
+    const inside =
+        numbers.contact_from > fit.window[0] + 0.06 * wide && numbers.contact_to < fit.window[1] - 0.06 * wide;
+    const way = offsets_of({ columns, numbers }),
+        most = (fit.slip * Math.max(way.slip_end, 0.55 * way.strain_end)) / wide;
     const high = Math.max(...columns.p) / fit.press;
     return inside && contact > 0.3 * wide && high > 0.35 && high <= 1 && most < 0.1 && (most > 0.012 || fit.slip > 500);
 }
 
 /* Accumulated slip and strain of the material at x, in mm; material moves from the leading edge, at +x, to -x. */
 export function offsets_of({ columns: c, numbers: n }) {
-    const ends = [], slip = [];
+    const ends = [],
+        slip = [];
     let sum = 0;
     for (let i = c.x.length - 1; i >= 0; i--) {
         if (c.zone[i] === 0) continue;
@@ -42,22 +47,34 @@ export function offsets_of({ columns: c, numbers: n }) {
         slip.push(sum);
         sum += c.shift?.[i] || 0;
     }
-    const from = n.contact_from, to = n.contact_to, creep = n.creepage || 0;
+    const from = n.contact_from,
+        to = n.contact_to,
+        creep = n.creepage || 0;
     const slip_at = (x) => {
         if (!ends.length || x >= to) return 0;
         if (x <= from) return sum;
         let k = 1;
         while (k < ends.length && ends[k] > x) k++;
-        const x1 = ends[k - 1], x0 = k < ends.length ? ends[k] : from, s1 = slip[k - 1], s0 = k < ends.length ? slip[k] : sum;
+        const x1 = ends[k - 1],
+            x0 = k < ends.length ? ends[k] : from,
+            s1 = slip[k - 1],
+            s0 = k < ends.length ? slip[k] : sum;
         return x1 > x0 ? s1 + ((s0 - s1) * (x1 - x)) / (x1 - x0) : s1;
     };
     const strain_at = (x) => (x >= to ? 0 : x <= from ? 0 : creep * (to - x) - slip_at(x));
-    return { slip_at, strain_at, slip_end: Math.abs(sum), strain_end: Math.max(...ends.map((x) => Math.abs(strain_at(x))), 0), strain_last: creep * (to - from) - sum };
+    return {
+        slip_at,
+        strain_at,
+        slip_end: Math.abs(sum),
+        strain_end: Math.max(...ends.map((x) => Math.abs(strain_at(x))), 0),
+        strain_last: creep * (to - from) - sum,
+    };
 }
 
 /* The zone of the material at x, 0 outside. */
 function zone_at({ columns: c }, x) {
-    let low = 0, high = c.x.length - 1;
+    let low = 0,
+        high = c.x.length - 1;
     if (x < c.x[0] - c.h[0] / 2 || x > last(c.x) + last(c.h) / 2) return 0;
     while (low < high) {
         const middle = (low + high) >> 1;
@@ -70,7 +87,8 @@ function zone_at({ columns: c }, x) {
 /* Surfaces of both bodies over x, in mm: of a coarser solution over the whole window, stretched with the contact.
  * share: what of the approach body B takes. */
 function surfaces(shape, answer, share) {
-    const { x, gap, un } = shape.columns, scale = answer.numbers.half_width / shape.numbers.half_width;
+    const { x, gap, un } = shape.columns,
+        scale = answer.numbers.half_width / shape.numbers.half_width;
     const grow = (answer.numbers.approach || 1) / (shape.numbers.approach || 1);
     const deep = Math.min(...un);
     const between = (list, at) => {
@@ -93,23 +111,36 @@ function surfaces(shape, answer, share) {
 export function draw_lens(pen, box, scene) {
     const { answer, shape, share, fit, way, ghost, words } = scene;
     const { columns: c, numbers: n } = answer;
-    const [x0, x1] = fit.window, per = box.w / (x1 - x0);
+    const [x0, x1] = fit.window,
+        per = box.w / (x1 - x0),
+        spaces = spaces_in(box.w);
     const X = (x) => box.x + (x - x0) * per;
-    const middle = box.y + box.h * 0.55, depth = Math.min(box.h * 0.36, 0.22 * box.w + 30);
+    const middle = box.y + box.h * 0.55,
+        depth = Math.min(box.h * 0.36, 0.22 * box.w + 30);
     const touching = n.contact_to > n.contact_from;
     const heights = shape ? surfaces(shape, answer, share) : () => ({ upper: 0, lower: 0 });
     const sag = Math.max(1e-12, heights(x0).upper - heights((x0 + x1) / 2).upper, heights((x0 + x1) / 2).upper * 2);
-    const lift = round_125((0.11 * box.h) / (sag * per)), level = heights(n.contact_from || 0).lower;
+    const lift = round_125((0.11 * box.h) / (sag * per)),
+        level = heights(n.contact_from || 0).lower;
     const surface = (x) => {
         const at = heights(x);
         return [middle - (at.upper - level) * lift * per, middle - (at.lower - level) * lift * per];
     };
     const grid = Array.from({ length: 97 }, (_, k) => x0 + ((x1 - x0) * k) / 96);
-    const upper = grid.map((x) => [X(x), surface(x)[0]]), lower = grid.map((x) => [X(x), surface(x)[1]]);
+    const upper = grid.map((x) => [X(x), surface(x)[0]]),
+        lower = grid.map((x) => [X(x), surface(x)[1]]);
     const small = scene.large ? 15 : box.w < 480 ? 11 : 13;
 
     pen.clip(box.x, box.y, box.w, box.h, 14, () => {
-        pen.shape([[box.x, box.y], [box.x + box.w, box.y], [box.x + box.w, box.y + box.h], [box.x, box.y + box.h]], { fill: "lens-gap" });
+        pen.shape(
+            [
+                [box.x, box.y],
+                [box.x + box.w, box.y],
+                [box.x + box.w, box.y + box.h],
+                [box.x, box.y + box.h],
+            ],
+            { fill: "lens-gap" },
+        );
         pen.shape([[box.x, box.y], ...upper, [box.x + box.w, box.y]], { fill: "body-a" });
         pen.shape([[box.x, box.y + box.h], ...lower, [box.x + box.w, box.y + box.h]], { fill: "body-b" });
         if (touching) draw_pressure();
@@ -125,39 +156,64 @@ export function draw_lens(pen, box, scene) {
     draw_words();
 
     function draw_pressure() {
-        const tall = 0.4 * box.h, inside = [...c.x.keys()].filter((i) => c.zone[i] > 0);
-        const curve = (columns, from, to, list) => [[X(from), surface(from)[0]], ...list.map((i) => [X(columns.x[i]), surface(columns.x[i])[0] - (columns.p[i] / fit.press) * tall]), [X(to), surface(to)[0]]];
-        const base = grid.filter((x) => x > n.contact_from && x < n.contact_to).map((x) => [X(x), surface(x)[0]]).reverse();
+        const tall = 0.4 * box.h,
+            inside = [...c.x.keys()].filter((i) => c.zone[i] > 0);
+        const curve = (columns, from, to, list) => [
+            [X(from), surface(from)[0]],
+            ...list.map((i) => [X(columns.x[i]), surface(columns.x[i])[0] - (columns.p[i] / fit.press) * tall]),
+            [X(to), surface(to)[0]],
+        ];
+        const base = grid
+            .filter((x) => x > n.contact_from && x < n.contact_to)
+            .map((x) => [X(x), surface(x)[0]])
+            .reverse();
         const points = curve(c, n.contact_from, n.contact_to, inside);
         pen.shape([...points, ...base], { fill: "pressure", alpha: 0.16 });
         pen.shape(points, { stroke: "pressure", width: 1.4, alpha: 0.55 });
         if (ghost && ghost.numbers.contact_to > ghost.numbers.contact_from) {
-            const g = ghost.columns, list = [...g.x.keys()].filter((i) => g.zone[i] > 0);
-            pen.shape(curve(g, ghost.numbers.contact_from, ghost.numbers.contact_to, list), { stroke: "pressure", width: 1.2, dash: [3, 5], alpha: 0.6 });
+            const g = ghost.columns,
+                list = [...g.x.keys()].filter((i) => g.zone[i] > 0);
+            pen.shape(curve(g, ghost.numbers.contact_from, ghost.numbers.contact_to, list), {
+                stroke: "pressure",
+                width: 1.2,
+                dash: [3, 5],
+                alpha: 0.6,
+            });
         }
     }
     function draw_lines() {
-        const space = (x1 - x0) / SPACES, phase = ((way % space) + space) % space;
-        const { slip_at, strain_at, slip_end, strain_last } = offsets_of(answer), sign = n.creepage < 0 ? -1 : 1;
-        const groups = { outside: [], stick: [], slip: [] }, dots = { outside: [], stick: [], slip: [] };
-        for (let k = -2; k <= SPACES + 2; k++) {
+        const space = (x1 - x0) / spaces,
+            phase = ((way % space) + space) % space;
+        const { slip_at, strain_at, slip_end, strain_last } = offsets_of(answer),
+            sign = n.creepage < 0 ? -1 : 1;
+        const groups = { outside: [], stick: [], slip: [] },
+            dots = { outside: [], stick: [], slip: [] };
+        for (let k = -2; k <= spaces + 2; k++) {
             const x = x0 + k * space + (space - phase);
             const zone = touching && x > n.contact_from && x < n.contact_to ? zone_at(answer, x) : 0;
-            let slip = touching ? slip_at(x) : 0, strain = touching ? strain_at(x) : 0;
+            let slip = touching ? slip_at(x) : 0,
+                strain = touching ? strain_at(x) : 0;
             if (touching && x <= n.contact_from) {
                 const fade = Math.exp((x - n.contact_from) / (0.12 * (x1 - x0)));
                 slip = sign * slip_end;
                 strain = strain_last * fade;
             }
             const group = zone === 0 ? "outside" : zone === 1 ? "stick" : "slip";
-            const near = (fit.slip * slip) / 2, far = (fit.slip * (slip + strain)) / 2;
+            const near = (fit.slip * slip) / 2,
+                far = (fit.slip * (slip + strain)) / 2;
             const [ya, yb] = surface(x);
-            const half = (y, side) => Array.from({ length: 8 }, (_, j) => {
-                const t = j / 7, down = t * depth, fade = Math.exp(-3.2 * t);
-                return [X(x + side * (far + (near - far) * fade)), y - side * (down + (group === "slip" ? 3 : 0))];
-            });
+            const half = (y, side) =>
+                Array.from({ length: 8 }, (_, j) => {
+                    const t = j / 7,
+                        down = t * depth,
+                        fade = Math.exp(-3.2 * t);
+                    return [X(x + side * (far + (near - far) * fade)), y - side * (down + (group === "slip" ? 3 : 0))];
+                });
             groups[group].push(half(ya, 1), half(yb, -1));
-            const ends = [[X(x + near), ya - (group === "slip" ? 3 : 0)], [X(x - near), yb + (group === "slip" ? 3 : 0)]];
+            const ends = [
+                [X(x + near), ya - (group === "slip" ? 3 : 0)],
+                [X(x - near), yb + (group === "slip" ? 3 : 0)],
+            ];
             dots[group].push(...(group === "stick" ? [[X(x), (ya + yb) / 2]] : ends));
         }
         pen.strokes(groups.outside, { stroke: "soft", width: 1.3, alpha: 0.5 });
@@ -165,7 +221,16 @@ export function draw_lens(pen, box, scene) {
         pen.strokes(groups.slip, { stroke: "slip", width: 2.2, dash: [7, 4] });
         for (const [x, y] of dots.outside) pen.circle(x, y, 2.4, { fill: "soft", alpha: 0.7 });
         for (const [x, y] of dots.slip) pen.circle(x, y, 3.6, { fill: "slip" });
-        for (const [x, y] of dots.stick) pen.shape([[x - 4, y], [x, y - 5.5], [x + 4, y], [x, y + 5.5]], { fill: "stick" });
+        for (const [x, y] of dots.stick)
+            pen.shape(
+                [
+                    [x - 4, y],
+                    [x, y - 5.5],
+                    [x + 4, y],
+                    [x, y + 5.5],
+                ],
+                { fill: "stick" },
+            );
     }
     /* The zones along the contact: what sticks is a whole band with ticks, what slips is hatched. */
     function draw_band() {
@@ -178,35 +243,71 @@ export function draw_lens(pen, box, scene) {
         }
     }
     function band(from, to, zone) {
-        const count = Math.max(2, Math.round(((to - from) * per) / 6)), y = (x) => (surface(x)[0] + surface(x)[1]) / 2;
-        const points = Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count).map((x) => [X(x), y(x)]);
-        const sticks = zone === 1, colour = sticks ? "stick" : "slip";
+        const count = Math.max(2, Math.round(((to - from) * per) / 6)),
+            y = (x) => (surface(x)[0] + surface(x)[1]) / 2;
+        const points = Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count).map((x) => [
+            X(x),
+            y(x),
+        ]);
+        const sticks = zone === 1,
+            colour = sticks ? "stick" : "slip";
         pen.shape(points, { stroke: "lens-gap", width: sticks ? 3 : 9 });
         pen.shape(points, { stroke: colour, width: sticks ? 4 : 1.5 });
-        pen.strokes(points.filter((_, k) => sticks ? k % 4 === 2 : true).map(([px, py]) => sticks ? [[px, py - 5], [px, py + 5]] : [[px - 3, py + 5], [px + 3, py - 5]]), { stroke: colour, width: 1.6 });
+        pen.strokes(
+            points
+                .filter((_, k) => (sticks ? k % 4 === 2 : true))
+                .map(([px, py]) =>
+                    sticks
+                        ? [
+                              [px, py - 5],
+                              [px, py + 5],
+                          ]
+                        : [
+                              [px - 3, py + 5],
+                              [px + 3, py - 5],
+                          ],
+                ),
+            { stroke: colour, width: 1.6 },
+        );
     }
     function draw_friction() {
-        const most = Math.max(...[...c.q].map(Math.abs)), scale = (0.9 * box.w) / SPACES / Math.max(0.12 * fit.press, most);
+        const most = Math.max(...[...c.q].map(Math.abs)),
+            scale = (0.9 * box.w) / spaces / Math.max(0.12 * fit.press, most);
         const arrows = [];
         const step = (n.contact_to - n.contact_from) / 15;
         for (let k = 0; k < 15; k++) {
             const x = n.contact_from + (k + 0.5) * step;
             let i = 0;
             while (i < c.x.length - 1 && c.x[i] + c.h[i] / 2 < x) i++;
-            const long = c.q[i] * scale, y = surface(x)[0] - 15;
+            const long = c.q[i] * scale,
+                y = surface(x)[0] - 15;
             if (Math.abs(long) < 2.5) continue;
-            const at = X(x) + 0, head = Math.sign(long) * Math.min(5, Math.abs(long) * 0.6);
-            arrows.push([[at - long / 2, y], [at + long / 2, y]], [[at + long / 2 - head, y - 3.5], [at + long / 2, y], [at + long / 2 - head, y + 3.5]]);
+            const at = X(x) + 0,
+                head = Math.sign(long) * Math.min(5, Math.abs(long) * 0.6);
+            arrows.push(
+                [
+                    [at - long / 2, y],
+                    [at + long / 2, y],
+                ],
+                [
+                    [at + long / 2 - head, y - 3.5],
+                    [at + long / 2, y],
+                    [at + long / 2 - head, y + 3.5],
+                ],
+            );
         }
         pen.strokes(arrows, { stroke: "lens-gap", width: 5, alpha: 0.7 });
         pen.strokes(arrows, { stroke: "rub", width: 2.2 });
     }
     function draw_words() {
-        const right = box.x + box.w - 12, foot = box.y + box.h - 12;
+        const right = box.x + box.w - 12,
+            foot = box.y + box.h - 12;
         pen.text(right, box.y + small + 9, words.wide, { fill: "soft", size: small, anchor: "end" });
         pen.text(box.x + 12, box.y + small + 9, words.press, { fill: "soft", size: small });
-        pen.text(right, foot, words.moves, { fill: "soft", size: small, anchor: "end" });
+        pen.text(right, foot, words.moves, { fill: "soft", size: small, anchor: "end", halo: "body-b" });
         if (!touching) return;
+        if (box.w > 560 && Math.max(...c.q.map(Math.abs)) > 1e-6 * fit.press)
+            pen.text(box.x + 12, foot, words.friction, { fill: "rub", size: small, halo: "body-b" });
         const runs = { stick: [Infinity, -Infinity], slip: [Infinity, -Infinity] };
         c.x.forEach((x, i) => {
             if (!c.zone[i]) return;
@@ -217,9 +318,18 @@ export function draw_lens(pen, box, scene) {
         const at = middle + depth * 0.9 + small + 4;
         for (const kind of ["stick", "slip"])
             if (X(runs[kind][1]) - X(runs[kind][0]) > 44)
-                pen.text(X((runs[kind][0] + runs[kind][1]) / 2), Math.min(at, foot - small - 8), words[kind], { fill: kind, size: small + 4, weight: 650, anchor: "middle", halo: "body-b" });
+                pen.text(
+                    X((runs[kind][0] + runs[kind][1]) / 2),
+                    Math.min(at, foot - small - (box.w < 480 ? 12 : 8)),
+                    words[kind],
+                    { fill: kind, size: small + 4, weight: 650, anchor: "middle", halo: "body-b" },
+                );
         if (box.w > 560) {
-            pen.text(Math.min(right, X(n.contact_to) + 14), middle + depth + 4, words.enters, { fill: "soft", size: small, halo: "body-b" });
+            pen.text(Math.min(right, X(n.contact_to) + 14), middle + depth + 4, words.enters, {
+                fill: "soft",
+                size: small,
+                halo: "body-b",
+            });
         }
     }
     const border = n.stick > 0 ? n.stick_from : n.contact_to;

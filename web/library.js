@@ -1,17 +1,23 @@
 /* rollbem/api.h in JavaScript: the library as WebAssembly, with numbers, text and arrays. */
 
-const NO_SUCH_FILE = 44, BAD_DESCRIPTOR = 8;
+const NO_SUCH_FILE = 44,
+    BAD_DESCRIPTOR = 8;
 
 /* What the C library asks of a system: a clock, and the files that the page hands it, by name in
  * a folder of their own. */
 function system_calls(module, memory, files) {
-    const FOLDER = 3, OPENED = 4, NOT_SUPPORTED = 58, REGULAR = 4, DIRECTORY = 3;
-    const view = () => new DataView(memory().buffer), bytes = () => new Uint8Array(memory().buffer);
+    const FOLDER = 3,
+        OPENED = 4,
+        NOT_SUPPORTED = 58,
+        REGULAR = 4,
+        DIRECTORY = 3;
+    const view = () => new DataView(memory().buffer),
+        bytes = () => new Uint8Array(memory().buffer);
     const text = (at, length) => new TextDecoder().decode(bytes().subarray(at, at + length));
     const opened = [];
     const file = (fd) => opened[fd - OPENED];
     const known = {
-        clock_time_get: (id, precision, at) => {
+        clock_time_get: (_id, _precision, at) => {
             view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
             return 0;
         },
@@ -27,7 +33,7 @@ function system_calls(module, memory, files) {
             view().setUint32(at + 4, 1, true);
             return 0;
         },
-        fd_prestat_dir_name: (fd, at) => {
+        fd_prestat_dir_name: (_fd, at) => {
             bytes()[at] = "/".charCodeAt(0);
             return 0;
         },
@@ -46,14 +52,15 @@ function system_calls(module, memory, files) {
             view().setBigUint64(at + 32, BigInt(file(fd).all.length), true);
             return 0;
         },
-        path_open: (fd, how, path, length, flags, rights, inherited, more, at) => {
+        path_open: (_fd, _how, path, length, _flags, _rights, _inherited, _more, at) => {
             const all = files.get(text(path, length));
             if (!all) return NO_SUCH_FILE;
             view().setUint32(at, OPENED + opened.push({ all, at: 0 }) - 1, true);
             return 0;
         },
         fd_read: (fd, vectors, count, at) => {
-            const from = file(fd), start = from?.at;
+            const from = file(fd),
+                start = from?.at;
             if (!from) return BAD_DESCRIPTOR;
             for (let k = 0; k < count; k++) {
                 const part = from.all.subarray(from.at, from.at + view().getUint32(vectors + 8 * k + 4, true));
@@ -75,7 +82,9 @@ function system_calls(module, memory, files) {
             while (opened.length && !opened.at(-1)) opened.pop();
             return 0;
         },
-        proc_exit: (code) => { throw new Error(`the library ended with ${code}`); },
+        proc_exit: (code) => {
+            throw new Error(`the library ended with ${code}`);
+        },
     };
     const calls = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module))
@@ -84,12 +93,17 @@ function system_calls(module, memory, files) {
 }
 
 export async function load_library(bytes) {
-    const module = await WebAssembly.compile(bytes), files = new Map();
-    let c;
-    const instance = await WebAssembly.instantiate(module, system_calls(module, () => c.memory, files));
+    const module = await WebAssembly.compile(bytes),
+        files = new Map();
+    let c = null;
+    const instance = await WebAssembly.instantiate(
+        module,
+        system_calls(module, () => c.memory, files),
+    );
     c = instance.exports;
     c._initialize?.();
-    const room = c.malloc(4096), counts = c.malloc(8);
+    const room = c.malloc(4096),
+        counts = c.malloc(8);
 
     function with_text(words, call) {
         const at = words.map((word) => {
@@ -109,22 +123,43 @@ export async function load_library(bytes) {
     }
 
     class Case {
-        constructor() { this.at = c.rb_api_create(); }
-        free() { c.rb_api_free(this.at); }
-        set(name, text) { return with_text([name, String(text)], (n, t) => c.rb_api_set(this.at, n, t)); }
-        resolve() { return c.rb_api_resolve(this.at); }
-        solve() { return c.rb_api_solve(this.at); }
-        curve(from, to, points) { return c.rb_api_curve(this.at, from, to, points); }
-        newton() { return c.rb_api_newton(this.at); }
-        pivots() { return c.rb_api_pivots(this.at); }
-        maxima(depth) { return c.rb_api_stress_maxima(this.at, depth); }
+        constructor() {
+            this.at = c.rb_api_create();
+        }
+        free() {
+            c.rb_api_free(this.at);
+        }
+        set(name, text) {
+            return with_text([name, String(text)], (n, t) => c.rb_api_set(this.at, n, t));
+        }
+        resolve() {
+            return c.rb_api_resolve(this.at);
+        }
+        solve() {
+            return c.rb_api_solve(this.at);
+        }
+        curve(from, to, points) {
+            return c.rb_api_curve(this.at, from, to, points);
+        }
+        newton() {
+            return c.rb_api_newton(this.at);
+        }
+        pivots() {
+            return c.rb_api_pivots(this.at);
+        }
+        maxima(depth) {
+            return c.rb_api_stress_maxima(this.at, depth);
+        }
         /* What must be known to read the solution rightly. */
         get notes() {
             const found = [];
-            for (let k = 0, text; (text = text_at(c.rb_api_note(this.at, k, room, 4096))) !== null; k++) found.push(text);
+            for (let k = 0, text; (text = text_at(c.rb_api_note(this.at, k, room, 4096))) !== null; k++)
+                found.push(text);
             return found;
         }
-        stress(nx, ny, depth) { return c.rb_api_stress(this.at, nx, ny, depth); }
+        stress(nx, ny, depth) {
+            return c.rb_api_stress(this.at, nx, ny, depth);
+        }
         guess(zones) {
             const at = c.malloc(4 * zones.length);
             new Int32Array(c.memory.buffer).set(zones, at / 4);
@@ -132,11 +167,21 @@ export async function load_library(bytes) {
             c.free(at);
             return status;
         }
-        get message() { return text_at(c.rb_api_message(this.at)); }
-        word(name) { return with_text([name], (n) => text_at(c.rb_api_word(this.at, n))); }
-        number(name) { return with_text([name], (n) => c.rb_api_number(this.at, n)); }
-        value(name) { return with_text([name], (n) => text_at(c.rb_api_value(this.at, n, room, 4096))); }
-        variable(k) { return text_at(c.rb_api_variable(this.at, k, room, 4096)); }
+        get message() {
+            return text_at(c.rb_api_message(this.at));
+        }
+        word(name) {
+            return with_text([name], (n) => text_at(c.rb_api_word(this.at, n)));
+        }
+        number(name) {
+            return with_text([name], (n) => c.rb_api_number(this.at, n));
+        }
+        value(name) {
+            return with_text([name], (n) => text_at(c.rb_api_value(this.at, n, room, 4096)));
+        }
+        variable(k) {
+            return text_at(c.rb_api_variable(this.at, k, room, 4096));
+        }
         /* { rows, columns, at: Float64Array } of its own, or null. */
         array(name) {
             const place = with_text([name], (n) => c.rb_api_array(this.at, n, counts, counts + 4));
@@ -154,9 +199,15 @@ export async function load_library(bytes) {
     }
     const options = rows_of(
         ["name", "section", "kind", "unit", "expected", "from", "to", "choices", "word", "default", "excludes", "help"],
-        (k, field) => with_text([field], (f) => text_at(c.rb_api_option(k, f, room, 4096))));
-    const results = Object.fromEntries(["number", "column", "step", "point"].map((table) => [table,
-        rows_of(["name", "unit", "kind", "meaning"],
-            (k, field) => with_text([table, field], (t, f) => text_at(c.rb_api_result(t, k, f, room, 4096))))]));
+        (k, field) => with_text([field], (f) => text_at(c.rb_api_option(k, f, room, 4096))),
+    );
+    const results = Object.fromEntries(
+        ["number", "column", "step", "point"].map((table) => [
+            table,
+            rows_of(["name", "unit", "kind", "meaning"], (k, field) =>
+                with_text([table, field], (t, f) => text_at(c.rb_api_result(t, k, f, room, 4096))),
+            ),
+        ]),
+    );
     return { Case, options, results, files };
 }

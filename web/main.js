@@ -17,28 +17,67 @@ const at = (id) => document.getElementById(id);
 
 /* In the order of the page.  "cracks" comes between "below" and "step" when the library has them. */
 const CHAPTERS = [
-    ["hero", hero_view], ["press", press_view], ["brake", brake_view], ["soft", soft_view], ["below", below_view], ["step", step_view], ["roll", roll_view], ["bench", bench_view],
+    ["hero", hero_view],
+    ["press", press_view],
+    ["brake", brake_view],
+    ["soft", soft_view],
+    ["below", below_view],
+    ["step", step_view],
+    ["roll", roll_view],
+    ["bench", bench_view],
 ];
 /* The words of links of earlier pages. */
 const VIEWS_OF_LINKS = { contact: "bench", take: "bench" };
 
+/* What went wrong where nobody catches it; for the page's tests. */
+const faults = [];
+window.addEventListener("error", (event) => faults.push(event.error?.stack ?? event.message));
+window.addEventListener("unhandledrejection", (event) => faults.push(event.reason?.stack ?? String(event.reason)));
+
 async function main() {
     at("footer").textContent = say(words.footer, { version: VERSION });
     at("headline-before").textContent = words.loading;
-    const views = {}, near = new Set(), stale = new Set();
-    let solver = null, current = "hero", drawing = false, embed = false, link_given = null, link_note = "";
+    const views = {},
+        near = new Set(),
+        stale = new Set();
+    let solver = null,
+        current = "hero",
+        drawing = false,
+        embed = false,
+        link_given = null,
+        link_note = "";
 
     const address = (state) => write_link(state.cases.main, current, state.drawn, embed);
-    const store = make_store({ cases: { main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, ...CHAPTER_CASES }, drawn: null },
-        { link: address, changed: solve_cases, restored: () => ask_views(() => true), shown: draw_soon, released: () => ask_views((view) => view.fine) });
+    const store = make_store(
+        {
+            cases: { main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, ...CHAPTER_CASES },
+            drawn: null,
+        },
+        {
+            link: address,
+            changed: solve_cases,
+            restored: () => ask_views(() => true),
+            shown: draw_soon,
+            released: () => ask_views((view) => view.fine),
+        },
+    );
     const opened_with = store.state;
 
     const page = {
-        store, words,
-        get given() { return store.case("main"); },
-        get answer() { return store.solved.main ?? null; },
-        get drawn() { return store.state.drawn; },
-        set drawn(value) { store.set_drawn(value); },
+        store,
+        words,
+        get given() {
+            return store.case("main");
+        },
+        get answer() {
+            return store.solved.main ?? null;
+        },
+        get drawn() {
+            return store.state.drawn;
+        },
+        set drawn(value) {
+            store.set_drawn(value);
+        },
         change(given) {
             link_note = "";
             store.set("main", given);
@@ -48,10 +87,32 @@ async function main() {
         ask: (request) => solver.ask(request),
         ask_view: (name) => ask_views((view) => view === views[name]),
         large: () => document.documentElement.classList.contains("large"),
-        tell, open_file, open,
-        history_buttons: () => html("span", { class: "row history" },
-            ...[["undo", "↶", () => store.undo()], ["redo", "↷", () => store.redo()], ["reset", "⟲", () => store.reset(opened_with)]].map(([name, sign, act]) =>
-                html("button", { type: "button", class: "button sign", "data-history": name, "aria-label": words.history[name], title: words.history[name], onclick: act }, sign))),
+        tell,
+        open_file,
+        open,
+        history_buttons: () =>
+            html(
+                "span",
+                { class: "row history" },
+                ...[
+                    ["undo", "↶", () => store.undo()],
+                    ["redo", "↷", () => store.redo()],
+                    ["reset", "⟲", () => store.reset(opened_with)],
+                ].map(([name, sign, act]) =>
+                    html(
+                        "button",
+                        {
+                            type: "button",
+                            class: "button sign",
+                            "data-history": name,
+                            "aria-label": words.history[name],
+                            title: words.history[name],
+                            onclick: act,
+                        },
+                        sign,
+                    ),
+                ),
+            ),
     };
     page.take_along = (picture, file, canvas) => take_along(page, picture, file, canvas);
 
@@ -71,21 +132,28 @@ async function main() {
         if (!solver) return;
         for (const [name, view] of Object.entries(views)) {
             if (!which(view)) continue;
-            if (!near.has(view)) { stale.add(view); continue; }
+            if (!near.has(view)) {
+                stale.add(view);
+                continue;
+            }
             stale.delete(view);
-            for (const request of view.wants?.() ?? []) solver.ask({ slot: `${request.kind} ${name}`, ...request, view: name });
+            for (const request of view.wants?.() ?? [])
+                solver.ask({ slot: `${request.kind} ${name}`, ...request, view: name });
         }
     }
     function come_near(view) {
         near.add(view);
         const cases = view.uses.filter((name) => stale.has(name) || !store.answers[name]);
         cases.forEach((name) => stale.delete(name));
-        if (solver) for (const name of cases) if (!solver.waits(`solve ${name}`)) solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
+        if (solver)
+            for (const name of cases)
+                if (!solver.waits(`solve ${name}`))
+                    solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
         if (stale.has(view)) ask_views((other) => other === view);
         draw_soon();
     }
     function take(answer, request, newer) {
-        if (answer.broken) console.error(answer.refused);
+        if (answer.broken) faults.push(answer.refused);
         if (answer.kind !== "solve") return views[request.view]?.take(answer, request);
         if (answer.refused && newer) return;
         if (request.case === "main" && request.given === link_given && answer.refused) {
@@ -95,7 +163,14 @@ async function main() {
             return;
         }
         store.answer(request.case, { ...answer, given: request.given });
-        if (request.case === "main") tell(answer.refused ? say(words.refused, { why: answer.refused }) : answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : link_note);
+        if (request.case === "main")
+            tell(
+                answer.refused
+                    ? say(words.refused, { why: answer.refused })
+                    : answer.unsolved
+                      ? say(words.unsolved, { why: answer.unsolved })
+                      : link_note,
+            );
         for (const view of near) if (view.uses.includes(request.case)) view.solved?.(request.case);
     }
 
@@ -122,34 +197,63 @@ async function main() {
     /* ---- The chapters ---- */
 
     function build(name, make) {
-        const view = (views[name] = make(words, page)), { title, number } = words.chapters[name];
-        const node = html("section", { id: `at-${name}`, class: `chapter ${name}`, "aria-label": title, tabindex: -1 },
-            name !== "hero" && html("h2", {}, number && html("span", { class: "count" }, number), title), view.node);
+        const view = (views[name] = make(words, page)),
+            { title, number } = words.chapters[name];
+        const node = html(
+            "section",
+            { id: `at-${name}`, class: `chapter ${name}`, "aria-label": title, tabindex: -1 },
+            name !== "hero" && html("h2", {}, number && html("span", { class: "count" }, number), title),
+            view.node,
+        );
         at("story").append(node);
         view.section = node;
         stale.add(view);
-        at("chapters").append(html("a", { href: `#view=${name}`, "data-view": name, onclick: (event) => { event.preventDefault(); open(name); } }, words.chapters[name].short));
+        at("chapters").append(
+            html(
+                "a",
+                {
+                    href: `#view=${name}`,
+                    "data-view": name,
+                    onclick: (event) => {
+                        event.preventDefault();
+                        open(name);
+                    },
+                },
+                words.chapters[name].short,
+            ),
+        );
         nearness.observe(node);
         place.observe(node);
     }
-    const nearness = new IntersectionObserver((entries) => {
-        for (const { target, isIntersecting } of entries) {
-            const view = Object.values(views).find((other) => other.section === target);
-            if (isIntersecting) { if (!near.has(view)) come_near(view); }
-            else { near.delete(view); view.leave?.(); }
-        }
-    }, { rootMargin: "250px 0px" });
+    const nearness = new IntersectionObserver(
+        (entries) => {
+            for (const { target, isIntersecting } of entries) {
+                const view = Object.values(views).find((other) => other.section === target);
+                if (isIntersecting) {
+                    if (!near.has(view)) come_near(view);
+                } else {
+                    near.delete(view);
+                    view.leave?.();
+                }
+            }
+        },
+        { rootMargin: "250px 0px" },
+    );
     /* The chapter in the middle of the window is the one of the links. */
-    const place = new IntersectionObserver((entries) => {
-        for (const { target, isIntersecting } of entries) {
-            if (!isIntersecting) continue;
-            current = target.id.slice(3);
-            for (const link of at("chapters").children) link.setAttribute("aria-current", link.dataset.view === current ? "true" : "false");
-            const here = at("chapters").querySelector("[aria-current=true]");
-            if (here) at("chapters").scrollTo({ left: here.offsetLeft - 40 });
-            store.rewrite();
-        }
-    }, { rootMargin: "-45% 0px -50% 0px" });
+    const place = new IntersectionObserver(
+        (entries) => {
+            for (const { target, isIntersecting } of entries) {
+                if (!isIntersecting) continue;
+                current = target.id.slice(3);
+                for (const link of at("chapters").children)
+                    link.setAttribute("aria-current", link.dataset.view === current ? "true" : "false");
+                const here = at("chapters").querySelector("[aria-current=true]");
+                if (here) at("chapters").scrollTo({ left: here.offsetLeft - 40 });
+                store.rewrite();
+            }
+        },
+        { rootMargin: "-45% 0px -50% 0px" },
+    );
     function open(name) {
         const view = views[VIEWS_OF_LINKS[name] ?? name] ?? views.hero;
         view.section.scrollIntoView({ block: "start" });
@@ -164,8 +268,9 @@ async function main() {
     const names = [...CHAPTERS.map(([name]) => name), ...Object.keys(VIEWS_OF_LINKS)];
     function follow_link() {
         let link = null;
-        try { link = read_link(location.hash, names); }
-        catch (error) {
+        try {
+            link = read_link(location.hash, names);
+        } catch (error) {
             link_note = say(words.link_broken, { why: error.message });
             tell(link_note);
         }
@@ -175,20 +280,36 @@ async function main() {
         link_note = "";
         link_given = link.given;
         current = link.view;
-        store.replace({ ...store.state, cases: { ...store.state.cases, ...(link.given && { main: link.given }) }, drawn: link.drawn });
+        store.replace({
+            ...store.state,
+            cases: { ...store.state.cases, ...(link.given && { main: link.given }) },
+            drawn: link.drawn,
+        });
         return true;
     }
     async function open_file(file) {
-        try { page.change(read_case_file(await file.text())); }
-        catch (error) { tell(say(words.file_broken, { file: file.name, why: error.message })); }
+        try {
+            page.change(read_case_file(await file.text()));
+        } catch (error) {
+            tell(say(words.file_broken, { file: file.name, why: error.message }));
+        }
     }
     window.addEventListener("dragover", (event) => event.preventDefault());
-    window.addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) open_file(event.dataTransfer.files[0]); });
+    window.addEventListener("drop", (event) => {
+        event.preventDefault();
+        if (event.dataTransfer.files[0]) open_file(event.dataTransfer.files[0]);
+    });
     window.addEventListener("keydown", (event) => {
         const typing = event.target.matches?.("input[type=text], textarea");
         if (!(event.ctrlKey || event.metaKey) || typing) return;
-        if (event.key === "z" && !event.shiftKey) { event.preventDefault(); store.undo(); }
-        if (event.key === "y" || (event.key === "z" && event.shiftKey) || event.key === "Z") { event.preventDefault(); store.redo(); }
+        if (event.key === "z" && !event.shiftKey) {
+            event.preventDefault();
+            store.undo();
+        }
+        if (event.key === "y" || (event.key === "z" && event.shiftKey) || event.key === "Z") {
+            event.preventDefault();
+            store.redo();
+        }
     });
     let width = innerWidth;
     window.addEventListener("resize", () => {
@@ -205,24 +326,47 @@ async function main() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw_soon);
     at("full").setAttribute("aria-label", words.full_screen);
     at("full").title = words.full_screen;
-    at("full").addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.()));
+    at("full").addEventListener("click", () =>
+        document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.(),
+    );
     at("chapters").setAttribute("aria-label", words.chapters_label);
     at("signs").setAttribute("aria-label", words.signs);
-    at("signs").append(html("button", { type: "button", class: "button", onclick: () => at("signs").close() }, words.close));
+    at("signs").append(
+        html("button", { type: "button", class: "button", onclick: () => at("signs").close() }, words.close),
+    );
     at("skip").textContent = words.skip;
-    at("skip").addEventListener("click", (event) => { event.preventDefault(); open("bench"); });
+    at("skip").addEventListener("click", (event) => {
+        event.preventDefault();
+        open("bench");
+    });
 
     /* ---- What takes long says so ---- */
 
-    at("busy").append(html("span", {}, words.solving), html("button", { type: "button", class: "button", onclick: () => solver.cancel(words.cancelled) }, words.cancel));
-    setInterval(() => { at("busy").hidden = !(solver?.working() > 600); }, 200);
+    at("busy").append(
+        html("span", {}, words.solving),
+        html(
+            "button",
+            { type: "button", class: "button", onclick: () => solver.cancel(words.cancelled) },
+            words.cancel,
+        ),
+    );
+    setInterval(() => {
+        at("busy").hidden = !(solver?.working() > 600);
+    }, 200);
 
     /* ---- Begin ---- */
 
     const linked = follow_link();
-    try { solver = await start_solver(WASM, WORKER, take); }
-    catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
-    Object.assign(page, { options: solver.options, results: solver.results, units: Object.fromEntries(solver.results.number.map((row) => [row.name, row.unit])) });
+    try {
+        solver = await start_solver(WASM, WORKER, take);
+    } catch (error) {
+        return tell(say(words.no_wasm, { why: error.message }));
+    }
+    Object.assign(page, {
+        options: solver.options,
+        results: solver.results,
+        units: Object.fromEntries(solver.results.number.map((row) => [row.name, row.unit])),
+    });
     at("headline-before").remove();
     solver.ask({ kind: "solve", slot: "solve main", case: "main", given: page.given });
     const begin = linked ? current : "hero";
@@ -236,15 +380,37 @@ async function main() {
     store.rewrite();
     if (begin !== "hero") open(begin);
 
-    const idle = () => solver.idle() && !drawing && !store.holding && !Object.values(views).some((view) => near.has(view) && view.busy?.());
-    window.rollbem = { page, store, views, solver, open, idle, time_moves, near: (name) => near.has(views[name]), preset: (name) => page.change({ ...PRESETS[name] }) };
+    const idle = () =>
+        solver.idle() &&
+        !drawing &&
+        !store.holding &&
+        !Object.values(views).some((view) => near.has(view) && view.busy?.());
+    window.rollbem = {
+        page,
+        store,
+        faults,
+        views,
+        solver,
+        open,
+        idle,
+        time_moves,
+        near: (name) => near.has(views[name]),
+        preset: (name) => page.change({ ...PRESETS[name] }),
+    };
 
     /* For its tests: milliseconds from a move to its picture, sorted; each move is a value of its own. */
     async function time_moves(option, start, count) {
-        const times = [], channel = new MessageChannel(), turn = () => new Promise((resolve) => { channel.port1.onmessage = resolve; channel.port2.postMessage(0); });
+        const times = [],
+            channel = new MessageChannel(),
+            turn = () =>
+                new Promise((resolve) => {
+                    channel.port1.onmessage = resolve;
+                    channel.port2.postMessage(0);
+                });
         store.hold(); /* as a hand that moves a slider */
         for (let k = 1; k <= count; k++) {
-            const began = performance.now(), before = page.answer;
+            const began = performance.now(),
+                before = page.answer;
             page.change({ ...page.given, [option]: String(Number((start * (1 + 0.002 * k)).toPrecision(6))) });
             while (page.answer === before) await turn();
             draw_now();
@@ -256,8 +422,9 @@ async function main() {
     }
 }
 
-const until = (holds) => new Promise((resolve) => {
-    const look = () => (holds() ? resolve() : setTimeout(look, 8));
-    look();
-});
+const until = (holds) =>
+    new Promise((resolve) => {
+        const look = () => (holds() ? resolve() : setTimeout(look, 8));
+        look();
+    });
 main();

@@ -89,29 +89,40 @@ export function canvas_pen(canvas, width, height, palette) {
 export function svg_pen(width, height, palette) {
     const out = [];
     let clips = 0;
-    const safe = (text) => String(text).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
+    const safe = (text) =>
+        String(text).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
     const number = (v) => Number(v.toFixed(2));
     const d = (points) => points.map(([x, y], k) => `${k ? "L" : "M"}${number(x)} ${number(y)}`).join("");
     const look = ({ fill, stroke, width: wide = 1.5, dash, alpha = 1 }) =>
         `fill="${fill ? safe(palette(fill)) : "none"}"` +
-        (stroke ? ` stroke="${safe(palette(stroke))}" stroke-width="${wide}" stroke-linejoin="round" stroke-linecap="round"` : "") +
+        (stroke
+            ? ` stroke="${safe(palette(stroke))}" stroke-width="${wide}" stroke-linejoin="round" stroke-linecap="round"`
+            : "") +
         (dash?.length ? ` stroke-dasharray="${dash.join(" ")}"` : "") +
         (alpha < 1 ? ` opacity="${alpha}"` : "");
     return {
         shape: (points, style) => out.push(`<path d="${d(points)}${style.fill ? "Z" : ""}" ${look(style)}/>`),
         strokes: (lines, style) => out.push(`<path d="${lines.map(d).join("")}" ${look(style)}/>`),
-        circle: (x, y, r, style) => out.push(`<circle cx="${number(x)}" cy="${number(y)}" r="${number(r)}" ${look(style)}/>`),
+        circle: (x, y, r, style) =>
+            out.push(`<circle cx="${number(x)}" cy="${number(y)}" r="${number(r)}" ${look(style)}/>`),
         text(x, y, words, { fill = "ink", size = 13, weight = 400, anchor = "start", halo } = {}) {
-            const around = halo ? ` stroke="${safe(palette(halo))}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"` : "";
-            out.push(`<text x="${number(x)}" y="${number(y)}" font-size="${size}" font-weight="${weight}" text-anchor="${anchor}" fill="${safe(palette(fill))}"${around}>${safe(words)}</text>`);
+            const around = halo
+                ? ` stroke="${safe(palette(halo))}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"`
+                : "";
+            out.push(
+                `<text x="${number(x)}" y="${number(y)}" font-size="${size}" font-weight="${weight}" text-anchor="${anchor}" fill="${safe(palette(fill))}"${around}>${safe(words)}</text>`,
+            );
         },
         clip(x, y, w, h, radius, draw) {
             const id = `clip${++clips}`;
-            out.push(`<clipPath id="${id}"><rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}"/></clipPath><g clip-path="url(#${id})">`);
+            out.push(
+                `<clipPath id="${id}"><rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}"/></clipPath><g clip-path="url(#${id})">`,
+            );
             draw();
             out.push("</g>");
         },
-        frame: (x, y, w, h, radius, style) => out.push(`<rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}" ${look(style)}/>`),
+        frame: (x, y, w, h, radius, style) =>
+            out.push(`<rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}" ${look(style)}/>`),
         end: () =>
             `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="${safe(FONT)}">` +
             `<rect width="100%" height="100%" fill="${safe(palette("paper"))}"/>${out.join("")}</svg>`,

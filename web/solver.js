@@ -13,7 +13,10 @@ async function start_worker(wasm, script) {
 /* One request at work at a time.  take(answer, request, newer): newer, another one of its slot waits. */
 function line_up(wasm, script, take) {
     const waiting = new Map();
-    let worker = null, busy = null, since = 0, last = 0;
+    let worker = null,
+        busy = null,
+        since = 0,
+        last = 0;
     const begin = async () => {
         const started = await start_worker(wasm, script);
         worker = started.worker;
@@ -60,14 +63,18 @@ function line_up(wasm, script, take) {
 /* packed: the library, gzip in base64. */
 export async function start_solver(packed, worker_source, take) {
     const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
-    const wasm = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+    const wasm = await new Response(
+        new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
+    ).arrayBuffer();
     const script = URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" }));
     const lines = [line_up(wasm, script, take), line_up(wasm, script, take)];
     const { options, results } = await lines[0].begin();
     const second = lines[1].begin();
     const line_of = (request) => lines[request.kind === "solve" ? 0 : 1];
     return {
-        options, results, second,
+        options,
+        results,
+        second,
         ask: (request) => line_of(request).ask(request),
         idle: () => lines.every((line) => line.idle()),
         waits: (slot) => lines.some((line) => line.waits(slot)),

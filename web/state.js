@@ -1,18 +1,61 @@
 /* The case of the page: options as text, as the library reads them; its link and its case file. */
 
 export const PRESETS = {
-    rail: { support: "halfplane", "support-b": "halfplane", similar: "yes", formulation: "steady", radius: "460", young: "210000", poisson: "0.3",
-        mu: "0.3", load: "12500", "creep-ratio": "0.5", "contact-elements": "60" },
-    stiff: { support: "hub", "hub-ratio": "0.5", formulation: "steady", radius: "100", young: "10", poisson: "0.45", mu: "0.6", load: "20",
-        "force-ratio": "-0.6", mesh: "uniform", "contact-elements": "40" },
-    roll: { support: "hub", "hub-ratio": "0.6", "cover-thickness": "12", "core-young": "210000", "core-poisson": "0.3", "young-b": "210000", "poisson-b": "0.3", "radius-b": "100",
-        formulation: "steady", radius: "150", young: "8", poisson: "0.48", mu: "0.25", load: "25", "creep-ratio": "0.9", mesh: "uniform", "contact-elements": "40" },
+    rail: {
+        support: "halfplane",
+        "support-b": "halfplane",
+        similar: "yes",
+        formulation: "steady",
+        radius: "460",
+        young: "210000",
+        poisson: "0.3",
+        mu: "0.3",
+        load: "12500",
+        "creep-ratio": "0.5",
+        "contact-elements": "60",
+    },
+    stiff: {
+        support: "hub",
+        "hub-ratio": "0.5",
+        formulation: "steady",
+        radius: "100",
+        young: "10",
+        poisson: "0.45",
+        mu: "0.6",
+        load: "20",
+        "force-ratio": "-0.6",
+        mesh: "uniform",
+        "contact-elements": "40",
+    },
+    roll: {
+        support: "hub",
+        "hub-ratio": "0.6",
+        "cover-thickness": "12",
+        "core-young": "210000",
+        "core-poisson": "0.3",
+        "young-b": "210000",
+        "poisson-b": "0.3",
+        "radius-b": "100",
+        formulation: "steady",
+        radius: "150",
+        young: "8",
+        poisson: "0.48",
+        mu: "0.25",
+        load: "25",
+        "creep-ratio": "0.9",
+        mesh: "uniform",
+        "contact-elements": "40",
+    },
     addi: { mu: "0.3", mesh: "uniform", "contact-elements": "40", shift: "2" },
 };
 export const NORMAL = ["load", "approach", "half-width"];
-export const TANGENTIAL = { static: ["force-ratio", "force", "shift"], steady: ["creep-ratio", "creep", "force-ratio", "force"] };
+export const TANGENTIAL = {
+    static: ["force-ratio", "force", "shift"],
+    steady: ["creep-ratio", "creep", "force-ratio", "force"],
+};
 export const ALL_TANGENTIAL = ["creep-ratio", "creep", "force-ratio", "force", "shift"];
-const LONGEST = 4000, LONGEST_FILE = 20000;
+const LONGEST = 4000,
+    LONGEST_FILE = 20000;
 
 /* A number as an option takes it. */
 export const plain = (x) => String(Number(x.toPrecision(6)));
@@ -45,7 +88,8 @@ export function with_support(given, support) {
 
 /* Without friction there is no friction to be a part of: the drive becomes a creepage, or a shift at rest. */
 export function with_mu(given, mu, numbers) {
-    const next = { ...given, mu: String(mu) }, held_now = held(given, ALL_TANGENTIAL);
+    const next = { ...given, mu: String(mu) },
+        held_now = held(given, ALL_TANGENTIAL);
     if (Number(mu) > 0 || !held_now || ["creep", "shift"].includes(held_now)) return next;
     if (formulation_of(given) === "static") return hold(next, ALL_TANGENTIAL, "shift", "0");
     const creep = numbers?.creepage;
@@ -53,7 +97,8 @@ export function with_mu(given, mu, numbers) {
 }
 
 /* Which of three grounds is given: rigid, of the same material, another elastic one. */
-export const ground_of = (given) => "similar" in given && given.similar !== "no" ? "similar" : "young-b" in given ? "other" : "rigid";
+export const ground_of = (given) =>
+    "similar" in given && given.similar !== "no" ? "similar" : "young-b" in given ? "other" : "rigid";
 /* What of the approach the ground takes, for drawing only: as two half-planes share it. */
 export function share_of_ground(given, values) {
     const soft = (young, poisson) => (1 - Number(poisson) ** 2) / Number(young);
@@ -64,23 +109,40 @@ export function share_of_ground(given, values) {
 }
 
 /* "0,3" of a German or French keyboard; a list of numbers keeps its commas. */
-export const with_point = (text) => (/^\s*[-+]?\d*,\d+(e[-+]?\d+)?\s*[^\d,.]*$/i.test(text) ? text.replace(",", ".") : text).trim();
+export const with_point = (text) =>
+    (/^\s*[-+]?\d*,\d+(e[-+]?\d+)?\s*[^\d,.]*$/i.test(text) ? text.replace(",", ".") : text).trim();
 
 /* What is drawn by hand over the way: { what, distance, values }, what a column of a history. */
 export const DRAWN = { mu: ["mu"], load: NORMAL, force_ratio: ALL_TANGENTIAL, creep_ratio: ALL_TANGENTIAL };
 const MOST_DRAWN = 60;
 
 function read_drawn(text) {
-    const [what, distance, ...values] = text.split(" "), numbers = values.map(Number);
-    if (!(what in DRAWN) || !(Number(distance) > 0) || numbers.length < 2 || numbers.length > MOST_DRAWN || !numbers.every(Number.isFinite))
+    const [what, distance, ...values] = text.split(" "),
+        numbers = values.map(Number);
+    if (
+        !(what in DRAWN) ||
+        !(Number(distance) > 0) ||
+        numbers.length < 2 ||
+        numbers.length > MOST_DRAWN ||
+        !numbers.every(Number.isFinite)
+    )
         throw new Error(`drawn=${text.slice(0, 40)}`);
     return { what, distance: Number(distance), values: numbers };
 }
-export const table_of_drawn = ({ what, distance, values }) => `distance\t${what}\n`
-    + values.map((v, k) => `${Number((distance * k / (values.length - 1)).toPrecision(6))}\t${v}\n`).join("");
+export const table_of_drawn = ({ what, distance, values }) =>
+    `distance\t${what}\n` +
+    values.map((v, k) => `${Number(((distance * k) / (values.length - 1)).toPrecision(6))}\t${v}\n`).join("");
 
 export function write_link(given, view, drawn, embed = false) {
-    return "#" + new URLSearchParams({ ...given, ...(drawn && { drawn: [drawn.what, drawn.distance, ...drawn.values].join(" ") }), view, ...(embed && { embed: "hero" }) }).toString();
+    return (
+        "#" +
+        new URLSearchParams({
+            ...given,
+            ...(drawn && { drawn: [drawn.what, drawn.distance, ...drawn.values].join(" ") }),
+            view,
+            ...(embed && { embed: "hero" }),
+        }).toString()
+    );
 }
 
 /* { given, view, drawn, embed } of a fragment; null: there is none.  Names and values are the library's
@@ -102,7 +164,11 @@ export function read_case_file(text) {
     if (text.length > LONGEST_FILE) throw new Error(`${text.length} characters, more than ${LONGEST_FILE}`);
     const given = {};
     text.split(/\r?\n/).forEach((line, k) => {
-        const bare = line.replace(/^\uFEFF/, "").replace(/(^|\s)[;#].*/, "").trim(), pair = /^([\w-]+)\s*[=:]\s*(.*)$/.exec(bare);
+        const bare = line
+                .replace(/^\uFEFF/, "")
+                .replace(/(^|\s)[;#].*/, "")
+                .trim(),
+            pair = /^([\w-]+)\s*[=:]\s*(.*)$/.exec(bare);
         if (!bare || /^\[.*\]$/.test(bare)) return;
         if (!pair) throw new Error(`line ${k + 1}: expected name = value`);
         if (pair[1] in given) throw new Error(`line ${k + 1}: '${pair[1]}' is given twice`);

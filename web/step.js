@@ -1,119 +1,330 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
-import { card, chart, html, player, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
+import { card, chart, html, player, show, stairs, stroke, svg, width_of } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
 import { say } from "./words.js";
 
 /* "Element 3 is pressed until element 2 touches." */
 export function sentence_of(words, a, k) {
-    if (k === 0) return `${words.pivot_start} ${say(words.sentence, { enter: words.enters.z0, leave: say(words.leaves[parse(a.names[a["pivot.leaving"].at[0]]).kind], parse(a.names[a["pivot.leaving"].at[0]])) })}`;
-    const enters = parse(a.names[a["pivot.entering"].at[k]]), leaves = parse(a.names[a["pivot.leaving"].at[k]]);
+    if (k === 0)
+        return `${words.pivot_start} ${say(words.sentence, { enter: words.enters.z0, leave: say(words.leaves[parse(a.names[a["pivot.leaving"].at[0]]).kind], parse(a.names[a["pivot.leaving"].at[0]])) })}`;
+    const enters = parse(a.names[a["pivot.entering"].at[k]]),
+        leaves = parse(a.names[a["pivot.leaving"].at[k]]);
     const same = enters.i === leaves.i && words.same_element[`${enters.kind} ${leaves.kind}`];
     if (same) return say(same, enters) + ".";
-    return say(words.sentence, { enter: say(words.enters[enters.kind], enters), leave: say(words.leaves[leaves.kind], leaves) });
+    return say(words.sentence, {
+        enter: say(words.enters[enters.kind], enters),
+        leave: say(words.leaves[leaves.kind], leaves),
+    });
 }
 
 /* Basic kinds of each element after pivot k: a set of names like "p", "lambda+". */
 function basis_of(a, k, n) {
-    const { rows, at } = a["pivot.basis"], of = Array.from({ length: n }, () => new Set());
+    const { rows, at } = a["pivot.basis"],
+        of = Array.from({ length: n }, () => new Set());
     for (let i = 0; i < rows; i++) {
         const { kind, i: element } = parse(a.names[at[i + rows * k]]);
         if (kind in { gap: 1, p: 1, "lambda+": 1, "lambda-": 1, "gamma+": 1, "gamma-": 1 }) of[element - 1].add(kind);
     }
     return of;
 }
-const zone_of = (kinds) => !kinds.has("p") ? 0 : kinds.has("lambda+") ? 2 : kinds.has("lambda-") ? 3 : 1;
+const zone_of = (kinds) => (!kinds.has("p") ? 0 : kinds.has("lambda+") ? 2 : kinds.has("lambda-") ? 3 : 1);
 
 /* In words where there is room. */
-const zone_word = (words, z, n) => n > 9 || innerWidth < 640 ? words.zones_signs[z] : words.zones_short[z];
+const zone_word = (words, z, n) => (n > 9 || innerWidth < 640 ? words.zones_signs[z] : words.zones_short[z]);
 
-const strip = (words, zones, label) => html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${zones.length},1fr);align-items:center`, role: "img",
-    "aria-label": `${label}: ${zones.map((z) => words.zones_short[z]).join(", ")}` }, html("span", { class: "head", style: "text-align:left" }, label),
-    zones.map((z, i) => html("span", { class: `zone${z}`, title: words.zones[z] }, zone_word(words, z, zones.length))));
+const strip = (words, zones, label) =>
+    html(
+        "div",
+        {
+            class: "cells",
+            style: `grid-template-columns:6.5rem repeat(${zones.length},1fr);align-items:center`,
+            role: "img",
+            "aria-label": `${label}: ${zones.map((z) => words.zones_short[z]).join(", ")}`,
+        },
+        html("span", { class: "head", style: "text-align:left" }, label),
+        zones.map((z, _i) =>
+            html("span", { class: `zone${z}`, title: words.zones[z] }, zone_word(words, z, zones.length)),
+        ),
+    );
 
 function basis_grid(words, kinds) {
-    const pairs = [["gap", "p"], ["lambda+", "gamma+"], ["lambda-", "gamma-"]];
-    const cells = pairs.flatMap((pair, r) => [html("span", { class: "head", style: "text-align:left" }, words.basis_rows[r]),
-        ...kinds.map((set) => { const basic = pair.filter((kind) => set.has(kind));
-            return html("span", { style: `background:var(--grid)${basic.includes("p") || basic.some((b) => b.startsWith("lambda")) ? ";background:var(--press);color:var(--card)" : ""}` }, basic.map((b) => words.basis[b]).join(" ") || words.neither); })]);
-    const numbers = [html("span", { class: "head" }), ...kinds.map((set, i) => html("span", { class: "head" }, i + 1))];
-    return html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${kinds.length},1fr)`, role: "img", "aria-label": words.basis_now }, numbers, cells);
+    const pairs = [
+        ["gap", "p"],
+        ["lambda+", "gamma+"],
+        ["lambda-", "gamma-"],
+    ];
+    const cells = pairs.flatMap((pair, r) => [
+        html("span", { class: "head", style: "text-align:left" }, words.basis_rows[r]),
+        ...kinds.map((set) => {
+            const basic = pair.filter((kind) => set.has(kind));
+            return html(
+                "span",
+                {
+                    style: `background:var(--grid)${basic.includes("p") || basic.some((b) => b.startsWith("lambda")) ? ";background:var(--press);color:var(--card)" : ""}`,
+                },
+                basic.map((b) => words.basis[b]).join(" ") || words.neither,
+            );
+        }),
+    ]);
+    const numbers = [
+        html("span", { class: "head" }),
+        ...kinds.map((_set, i) => html("span", { class: "head" }, i + 1)),
+    ];
+    return html(
+        "div",
+        {
+            class: "cells",
+            style: `grid-template-columns:6.5rem repeat(${kinds.length},1fr)`,
+            role: "img",
+            "aria-label": words.basis_now,
+        },
+        numbers,
+        cells,
+    );
 }
 
 /* The zones that each step of Newton's method assumes; those that differ from the step before are marked. */
 function newton_strips(words, a) {
     const zone = a["newton.zone"];
     if (!zone) return [];
-    const n = zone.rows, of = (k) => [...zone.at.subarray(n * k, n * k + n)];
-    const all = Array.from({ length: zone.columns }, (_, k) => of(k)), changed = (k) => k === 0 || all[k].some((z, i) => z !== all[k - 1][i]);
-    return [html("h4", {}, words.newton_title), html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
+    const n = zone.rows,
+        of = (k) => [...zone.at.subarray(n * k, n * k + n)];
+    const all = Array.from({ length: zone.columns }, (_, k) => of(k)),
+        changed = (k) => k === 0 || all[k].some((z, i) => z !== all[k - 1][i]);
+    return [
+        html("h4", {}, words.newton_title),
+        html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
         ...all.flatMap((zones, k) => {
             if (!changed(k)) return []; /* pressure and friction in turn: these zones hold */
             const row = strip(words, zones, say(words.newton_step, { k: k + 1 }));
             if (k > 0) zones.forEach((z, i) => z !== all[k - 1][i] && row.children[i + 1].classList.add("changed"));
             return [row];
-        })];
+        }),
+    ];
 }
 
 function bars(host, words, { ends, p, q, mu, top, label }) {
-    const width = width_of(host), x = [ends[0], ends[p.length]];
-    const plot = chart({ width, height: 230, x, y: [-mu * top * 1.15, top * 1.08], x_label: words.x_axis, y_label: words.mpa, label });
-    const bound = (sign) => svg("path", { d: stairs(ends, [...p].map((v) => sign * mu * v), plot.X, plot.Y), style: stroke("--soft", 1.3, "stroke-dasharray:2 4") });
-    plot.root.append(...[...p].map((v, i) => svg("rect", { x: plot.X(ends[i]) + 1, width: Math.max(1, plot.X(ends[i + 1]) - plot.X(ends[i]) - 2), y: Math.min(plot.Y(v), plot.Y(0)), height: Math.abs(plot.Y(v) - plot.Y(0)), style: "fill:var(--press-fill);stroke:var(--press);stroke-width:1.2" })),
-        bound(1), bound(-1), svg("path", { d: stairs(ends, [...q], plot.X, plot.Y), style: stroke("--rub", 3) }));
+    const width = width_of(host),
+        x = [ends[0], ends[p.length]];
+    const plot = chart({
+        width,
+        height: 230,
+        x,
+        y: [-mu * top * 1.15, top * 1.08],
+        x_label: words.x_axis,
+        y_label: words.mpa,
+        label,
+    });
+    const bound = (sign) =>
+        svg("path", {
+            d: stairs(
+                ends,
+                [...p].map((v) => sign * mu * v),
+                plot.X,
+                plot.Y,
+            ),
+            style: stroke("--soft", 1.3, "stroke-dasharray:2 4"),
+        });
+    plot.root.append(
+        ...[...p].map((v, i) =>
+            svg("rect", {
+                x: plot.X(ends[i]) + 1,
+                width: Math.max(1, plot.X(ends[i + 1]) - plot.X(ends[i]) - 2),
+                y: Math.min(plot.Y(v), plot.Y(0)),
+                height: Math.abs(plot.Y(v) - plot.Y(0)),
+                style: "fill:var(--press-fill);stroke:var(--press);stroke-width:1.2",
+            }),
+        ),
+        bound(1),
+        bound(-1),
+        svg("path", { d: stairs(ends, [...q], plot.X, plot.Y), style: stroke("--rub", 3) }),
+    );
     return plot.root;
 }
 
 function ratio_test(words, a, k) {
-    const size = a["pivot.before"].rows, at = (name, i) => a[name].at[i + size * k], chosen = a["pivot.row"].at[k];
+    const size = a["pivot.before"].rows,
+        at = (name, i) => a[name].at[i + size * k],
+        chosen = a["pivot.row"].at[k];
     const basic = (i) => a.names[k === 0 ? i : a["pivot.basis"].at[i + size * (k - 1)]];
-    let rows = Array.from({ length: size }, (_, i) => ({ i, value: at("pivot.before", i), change: at("pivot.column", i) }));
-    rows = k === 0 ? rows.filter(({ value }) => value < 0).map((row) => ({ ...row, ratio: -row.value })).sort((x, y) => y.ratio - x.ratio)
-        : rows.filter(({ change }) => change < 0).map((row) => ({ ...row, ratio: -row.value / row.change })).sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
+    let rows = Array.from({ length: size }, (_, i) => ({
+        i,
+        value: at("pivot.before", i),
+        change: at("pivot.column", i),
+    }));
+    rows =
+        k === 0
+            ? rows
+                  .filter(({ value }) => value < 0)
+                  .map((row) => ({ ...row, ratio: -row.value }))
+                  .sort((x, y) => y.ratio - x.ratio)
+            : rows
+                  .filter(({ change }) => change < 0)
+                  .map((row) => ({ ...row, ratio: -row.value / row.change }))
+                  .sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
     const shown = rows.slice(0, 7);
     if (!shown.some(({ i }) => i === chosen)) shown.splice(6, 1, rows.find(({ i }) => i === chosen) ?? shown[6]);
     /* The bar of the one that stops it is full: the others would need longer. */
     const first = shown.find((row) => row?.i === chosen)?.ratio ?? 1;
-    const race = ({ ratio }) => (k === 0 ? Math.round((100 * ratio) / (first || 1)) : ratio > 0 ? Math.max(2, Math.round((100 * first) / ratio)) : 100);
+    const race = ({ ratio }) =>
+        k === 0
+            ? Math.round((100 * ratio) / (first || 1))
+            : ratio > 0
+              ? Math.max(2, Math.round((100 * first) / ratio))
+              : 100;
     const head = [words.ratio_variable, words.step.race, words.ratio_value, words.ratio_change, words.ratio_ratio];
-    return [html("p", { class: "note" }, k === 0 ? words.ratio_first : say(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) })),
-        html("table", {}, html("thead", {}, html("tr", {}, head.map((text, c) => html("th", { scope: "col", class: c > 1 ? "number" : "" }, text)))),
-            html("tbody", {}, shown.filter(Boolean).map((row) => html("tr", { class: row.i === chosen ? "chosen" : "" }, html("td", {}, pretty(words, basic(row.i)) + (row.i === chosen ? " ←" : "")),
-                html("td", { class: "race" }, html("i", { style: `width:${race(row)}%` })), [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3)))))))];
+    return [
+        html(
+            "p",
+            { class: "note" },
+            k === 0
+                ? words.ratio_first
+                : say(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) }),
+        ),
+        html(
+            "table",
+            {},
+            html(
+                "thead",
+                {},
+                html(
+                    "tr",
+                    {},
+                    head.map((text, c) => html("th", { scope: "col", class: c > 1 ? "number" : "" }, text)),
+                ),
+            ),
+            html(
+                "tbody",
+                {},
+                shown.filter(Boolean).map((row) =>
+                    html(
+                        "tr",
+                        { class: row.i === chosen ? "chosen" : "" },
+                        html("td", {}, pretty(words, basic(row.i)) + (row.i === chosen ? " ←" : "")),
+                        html("td", { class: "race" }, html("i", { style: `width:${race(row)}%` })),
+                        [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3))),
+                    ),
+                ),
+            ),
+        ),
+    ];
 }
 
 /* What a guess violates, in words; tolerances of rounding only. */
 export function assess(words, { p, q, gap, shift }, zones, mu) {
-    const most = Math.max(...[...p].map(Math.abs)), tol = 1e-9 * most, wide = 1e-9 * Math.max(...[...gap].map(Math.abs)), far = 1e-9 * Math.max(...[...shift].map(Math.abs));
+    const most = Math.max(...[...p].map(Math.abs)),
+        tol = 1e-9 * most,
+        wide = 1e-9 * Math.max(...[...gap].map(Math.abs)),
+        far = 1e-9 * Math.max(...[...shift].map(Math.abs));
     return zones.flatMap((z, k) => {
         const i = k + 1;
         if (z === 0) return gap[k] < -wide ? [say(words.guess_overlap, { i, gap: show(-gap[k], 3) })] : [];
         if (p[k] < -tol) return [say(words.guess_pull, { i, p: show(p[k], 3) })];
-        if (z === 1) return Math.abs(q[k]) > mu * p[k] + tol ? [say(words.guess_friction, { i, q: show(Math.abs(q[k]), 3), bound: show(mu * p[k], 3) })] : [];
+        if (z === 1)
+            return Math.abs(q[k]) > mu * p[k] + tol
+                ? [say(words.guess_friction, { i, q: show(Math.abs(q[k]), 3), bound: show(mu * p[k], 3) })]
+                : [];
         return (z === 2 ? shift[k] < -far : shift[k] > far) ? [say(words.guess_direction, { i })] : [];
     });
 }
 
 /* How many elements are few enough that each can be looked at, and how many where the case has more. */
-const FEWEST = 4, MOST = 16, USUAL = 8;
+const FEWEST = 4,
+    MOST = 16,
+    USUAL = 8;
 
 export function step_view(words, page) {
     const { store } = page;
-    let data = null, zones = [], elements = USUAL, of_case = null, asked = null, wanted = null;
-    const title = html("h3"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
-    const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div"), newton = html("div", { class: "stack", style: "gap:.35rem" });
-    const count = html("input", { type: "range", id: "step-elements", min: FEWEST, max: MOST, value: elements, oninput: () => { elements = Number(count.value); page.ask_view("step"); } });
-    const frames = player(words, { label: words.pivots, see: frame, milliseconds: 1400, describe: (k, n) => say(words.pivot_count, { k: k + 1, n }) });
-    const paint = html("div"), guess_picture = html("figure"), verdict = html("div", { "aria-live": "polite" });
-    const button = (text, act, more = "") => html("button", { type: "button", class: `button ${more}`, onclick: act }, text);
+    let data = null,
+        zones = [],
+        elements = USUAL,
+        of_case = null,
+        asked = null,
+        wanted = null;
+    const title = html("h3"),
+        matrix_host = html("div"),
+        sentence = html("p", { class: "sentence", "aria-live": "polite" });
+    const strips = html("div", { class: "stack", style: "gap:.35rem" }),
+        picture = html("figure"),
+        z0 = html("p", { class: "note" }),
+        ratios = html("div"),
+        newton = html("div", { class: "stack", style: "gap:.35rem" });
+    const count = html("input", {
+        type: "range",
+        id: "step-elements",
+        min: FEWEST,
+        max: MOST,
+        value: elements,
+        oninput: () => {
+            elements = Number(count.value);
+            page.ask_view("step");
+        },
+    });
+    const frames = player(words, {
+        label: words.pivots,
+        see: frame,
+        milliseconds: 1400,
+        describe: (k, n) => say(words.pivot_count, { k: k + 1, n }),
+    });
+    const paint = html("div"),
+        guess_picture = html("figure"),
+        verdict = html("div", { "aria-live": "polite" });
+    const button = (text, act, more = "") =>
+        html("button", { type: "button", class: `button ${more}`, onclick: act }, text);
     const counted = html("p", { class: "big-number" });
-    const node = html("div", { class: "stack" },
+    const node = html(
+        "div",
+        { class: "stack" },
         html("p", { class: "question" }, words.step.question),
-        html("section", { class: "card" }, title, html("p", {}, words.guess_note), html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count), paint,
-            html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture),
+        html(
+            "section",
+            { class: "card" },
+            title,
+            html("p", {}, words.guess_note),
+            html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count),
+            paint,
+            html(
+                "div",
+                { class: "row", style: "margin:.7rem 0" },
+                button(words.guess_check, check, "main"),
+                button(words.guess_clear, () => repaint(zones.fill(0))),
+                button(words.guess_answer, () => {
+                    repaint(solution());
+                    check();
+                }),
+            ),
+            verdict,
+            guess_picture,
+        ),
         html("div", { class: "tale" }, counted, html("p", {}, words.step.how)),
-        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h4", {}, words.ratio_title), ratios)), newton),
-        html("details", { class: "card", ontoggle: (event) => { matrices_open = event.target.open; show_matrices(); } }, html("summary", {}, words.matrices), html("p", {}, words.step_intro), matrix_host));
-    let matrices_open = false, matrices_of = null;
+        card(
+            words.pivots,
+            frames.node,
+            sentence,
+            html(
+                "div",
+                { class: "pair" },
+                html("div", {}, strips, picture, z0),
+                html("div", {}, html("h4", {}, words.ratio_title), ratios),
+            ),
+            newton,
+        ),
+        html(
+            "details",
+            {
+                class: "card",
+                ontoggle: (event) => {
+                    matrices_open = event.target.open;
+                    show_matrices();
+                },
+            },
+            html("summary", {}, words.matrices),
+            html("p", {}, words.step_intro),
+            matrix_host,
+        ),
+    );
+    let matrices_open = false,
+        matrices_of = null;
     function show_matrices() {
         if (!matrices_open || !data || matrices_of === data) return;
         matrices_of = data;
@@ -129,7 +340,13 @@ export function step_view(words, page) {
     }
     function given() {
         follow_case();
-        const few = { ...page.given, mesh: "uniform", solver: "lemke", "lcp-form": "pivoted", "contact-elements": String(elements) };
+        const few = {
+            ...page.given,
+            mesh: "uniform",
+            solver: "lemke",
+            "lcp-form": "pivoted",
+            "contact-elements": String(elements),
+        };
         if ((few.support ?? "arc") !== "halfplane") few["outer-elements"] ??= "24";
         if ((few.support ?? "arc") === "halfplane") delete few["outer-elements"];
         const { contact_from: from, contact_to: to } = page.answer?.numbers ?? {};
@@ -137,41 +354,122 @@ export function step_view(words, page) {
         if (few.formulation === "transient") few.formulation = "steady";
         return few;
     }
-    const mu = () => Number(data.values.mu.split(",")[0]), solution = () => [...data.columns.zone];
+    const mu = () => Number(data.values.mu.split(",")[0]),
+        solution = () => [...data.columns.zone];
     const top = () => Math.max(...data["pivot.p"].at);
 
     function frame(k) {
         if (!data) return;
-        const n = data["pivot.p"].rows, kinds = basis_of(data, k, n);
+        const n = data["pivot.p"].rows,
+            kinds = basis_of(data, k, n);
         sentence.innerHTML = sentence_of(words, data, k).replace(/(\d+|z₀)(?![^<]*>)/g, "<b>$1</b>");
-        strips.replaceChildren(basis_grid(words, kinds), strip(words, kinds.map(zone_of), words.basis_now), strip(words, solution(), words.solution_zones));
+        strips.replaceChildren(
+            basis_grid(words, kinds),
+            strip(words, kinds.map(zone_of), words.basis_now),
+            strip(words, solution(), words.solution_zones),
+        );
         const part = (name) => data[name].at.subarray(n * k, n * k + n);
-        picture.replaceChildren(bars(picture, words, { ends: data.ends.at, p: part("pivot.p"), q: part("pivot.q"), mu: mu(), top: top(), label: say(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }) }));
-        z0.textContent = say(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) + (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
+        picture.replaceChildren(
+            bars(picture, words, {
+                ends: data.ends.at,
+                p: part("pivot.p"),
+                q: part("pivot.q"),
+                mu: mu(),
+                top: top(),
+                label: say(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }),
+            }),
+        );
+        z0.textContent =
+            say(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) +
+            (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
         ratios.replaceChildren(...ratio_test(words, data, k));
     }
     function repaint(next) {
         zones = [...next];
         const focus = [...paint.querySelectorAll("button")].indexOf(document.activeElement);
-        paint.replaceChildren(html("div", { class: "cells", style: `grid-template-columns:repeat(${zones.length},minmax(0,1fr))` }, zones.map((z, i) => html("button", { type: "button", class: `zone${z}`,
-            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }), onclick: () => { zones[i] = (zones[i] + 1) % 4; repaint(zones); } }, i + 1, html("br"), zone_word(words, z, zones.length)))));
+        paint.replaceChildren(
+            html(
+                "div",
+                { class: "cells", style: `grid-template-columns:repeat(${zones.length},minmax(0,1fr))` },
+                zones.map((z, i) =>
+                    html(
+                        "button",
+                        {
+                            type: "button",
+                            class: `zone${z}`,
+                            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }),
+                            onclick: () => {
+                                zones[i] = (zones[i] + 1) % 4;
+                                repaint(zones);
+                            },
+                        },
+                        i + 1,
+                        html("br"),
+                        zone_word(words, z, zones.length),
+                    ),
+                ),
+            ),
+        );
         if (focus >= 0) paint.querySelectorAll("button")[focus]?.focus();
         verdict.replaceChildren();
         guess_picture.replaceChildren();
     }
-    function check() { asked = [...zones]; page.ask({ kind: "guess", slot: "guess step", view: "step", given: wanted, zones: asked }); }
+    function check() {
+        asked = [...zones];
+        page.ask({ kind: "guess", slot: "guess step", view: "step", given: wanted, zones: asked });
+    }
     function judged(answer) {
-        if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })));
-        const part = (name) => answer[`guess.${name}`].at, wrong = assess(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
-        verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong[wrong.length === 1 ? "one" : "other"], { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
-        guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));
+        if (answer.refused)
+            return verdict.replaceChildren(
+                html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })),
+            );
+        const part = (name) => answer[`guess.${name}`].at,
+            wrong = assess(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
+        verdict.replaceChildren(
+            html(
+                "p",
+                { class: wrong.length ? "bad" : "good" },
+                wrong.length
+                    ? say(words.guess_wrong[wrong.length === 1 ? "one" : "other"], { n: wrong.length })
+                    : words.guess_right,
+            ),
+            html(
+                "ul",
+                { class: "verdict" },
+                wrong.map((text) => html("li", {}, text)),
+            ),
+        );
+        guess_picture.replaceChildren(
+            bars(guess_picture, words, {
+                ends: answer.ends.at,
+                p: part("p"),
+                q: part("q"),
+                mu: mu(),
+                top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1,
+                label: words.guess_title,
+            }),
+        );
     }
     let drawn_at = 0;
-    return { node, player: frames, uses: ["main"], fine: true, data: () => data, leave: () => frames.stop(),
+    return {
+        node,
+        player: frames,
+        uses: ["main"],
+        fine: true,
+        data: () => data,
+        leave: () => frames.stop(),
         wants: () => (store.holding || store.trouble("main") ? [] : [{ kind: "pivots", given: (wanted = given()) }]),
         /* The elements of the strip are around the contact of the solution. */
-        solved() { page.ask_view("step"); },
-        render() { count_ways(); if (data && width_of(picture) !== drawn_at) { drawn_at = width_of(picture); frame(frames.at); } },
+        solved() {
+            page.ask_view("step");
+        },
+        render() {
+            count_ways();
+            if (data && width_of(picture) !== drawn_at) {
+                drawn_at = width_of(picture);
+                frame(frames.at);
+            }
+        },
         take(answer) {
             if (answer.kind === "guess") return judged(answer);
             if (answer.refused) return failed(answer.refused);
@@ -180,20 +478,30 @@ export function step_view(words, page) {
             title.textContent = say(words.step_title, { n });
             show_matrices();
             newton.replaceChildren(...newton_strips(words, data));
-            if (zones.length !== n) repaint(Array(n).fill(0)); else repaint(zones);
+            if (zones.length !== n) repaint(Array(n).fill(0));
+            else repaint(zones);
             frames.set(data["pivot.z0"].columns, 0);
-        } };
+        },
+    };
     function failed(why) {
         data = null;
         title.textContent = say(words.refused, { why });
-        for (const host of [strips, picture, ratios, newton, matrix_host, paint, verdict, guess_picture]) host.replaceChildren();
+        for (const host of [strips, picture, ratios, newton, matrix_host, paint, verdict, guess_picture])
+            host.replaceChildren();
         sentence.textContent = z0.textContent = "";
     }
     /* 3^n, in words, beside the exchanges that the library needed. */
     function count_ways() {
-        const a = page.answer, n = a?.columns.x.length;
+        const a = page.answer,
+            n = a?.columns.x.length;
         if (!n) return;
-        const log = n * Math.log10(3), digits = Math.floor(log) + 1;
-        counted.textContent = say(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, { n, lead: Math.floor(10 ** (log - digits + 2)), more: digits - 2, pivots: a.numbers.iterations });
+        const log = n * Math.log10(3),
+            digits = Math.floor(log) + 1;
+        counted.textContent = say(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, {
+            n,
+            lead: Math.floor(10 ** (log - digits + 2)),
+            more: digits - 2,
+            pivots: a.numbers.iterations,
+        });
     }
 }

@@ -6,15 +6,25 @@ const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 /* state: { cases: { main, press, ... }, drawn }.  link(state): the address of a state.  changed(names): cases to
  * be solved anew; restored(): after undo, redo and Back; released(): after a hand has let go; shown(): after every change. */
 export function make_store(first, { link, changed, restored, shown, released }) {
-    let state = first, kept = first, index = 0, top = 0, timer = null;
+    let state = first,
+        kept = first,
+        index = 0,
+        top = 0,
+        timer = null;
     const store = {
-        answers: {}, /* of each case: what the library says, or { refused } */
-        solved: {}, /* the last answer that was not refused */
-        ghosts: {}, /* the answers before the hand took hold */
+        answers: {} /* of each case: what the library says, or { refused } */,
+        solved: {} /* the last answer that was not refused */,
+        ghosts: {} /* the answers before the hand took hold */,
         holding: false,
-        get state() { return state; },
-        get can_undo() { return index > 0; },
-        get can_redo() { return index < top; },
+        get state() {
+            return state;
+        },
+        get can_undo() {
+            return index > 0;
+        },
+        get can_redo() {
+            return index < top;
+        },
         case: (name) => state.cases[name],
 
         /* A hand takes hold of something: states until release() are one step for undo. */
@@ -51,8 +61,12 @@ export function make_store(first, { link, changed, restored, shown, released }) 
             write("pushState");
             shown();
         },
-        undo() { if (store.can_undo) history.back(); },
-        redo() { if (store.can_redo) history.forward(); },
+        undo() {
+            if (store.can_undo) history.back();
+        },
+        redo() {
+            if (store.can_redo) history.forward();
+        },
         reset(to) {
             if (same(state, to)) return;
             store.ghosts = {};
@@ -71,11 +85,18 @@ export function make_store(first, { link, changed, restored, shown, released }) 
             shown();
         },
         trouble: (name) => store.answers[name]?.refused ?? store.answers[name]?.unsolved ?? "",
-        rewrite() { clearTimeout(timer); timer = setTimeout(() => write("replaceState"), 250); },
+        rewrite() {
+            clearTimeout(timer);
+            timer = setTimeout(() => write("replaceState"), 250);
+        },
     };
     function write(how) {
         clearTimeout(timer);
-        try { history[how]({ rollbem: true, state, index }, "", link(state)); } catch { /* a frame without an address */ }
+        try {
+            history[how]({ rollbem: true, state, index }, "", link(state));
+        } catch {
+            /* a frame without an address */
+        }
     }
     function take_state(to) {
         const names = Object.keys(to.cases).filter((name) => !same(to.cases[name], state.cases[name]));
@@ -85,15 +106,16 @@ export function make_store(first, { link, changed, restored, shown, released }) 
         shown();
     }
     /* Back, Forward and links that are typed; of the latter the page makes a state. */
-    store.listen = (follow_link) => window.addEventListener("popstate", (event) => {
-        if (!event.state?.rollbem) {
-            top = ++index;
-            return follow_link();
-        }
-        index = event.state.index;
-        store.ghosts = {};
-        kept = event.state.state;
-        take_state(kept);
-    });
+    store.listen = (follow_link) =>
+        window.addEventListener("popstate", (event) => {
+            if (!event.state?.rollbem) {
+                top = ++index;
+                return follow_link();
+            }
+            index = event.state.index;
+            store.ghosts = {};
+            kept = event.state.state;
+            take_state(kept);
+        });
     return store;
 }

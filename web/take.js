@@ -4,46 +4,114 @@ import { tractions_picture } from "./contact.js";
 import { write_link } from "./state.js";
 import { say } from "./words.js";
 
-export const command_of = (given, options) => "rollbem " + options.filter((o) => o.name in given && o.kind !== "group")
-    .map((o) => o.kind === "flag" ? (given[o.name] === "yes" ? `--${o.name}` : "") : /^[\w.+-]+$/.test(given[o.name]) ? `--${o.name} ${given[o.name]}` : `--${o.name} '${given[o.name].replaceAll("'", "'\\''")}'`).filter(Boolean).join(" ");
+export const command_of = (given, options) =>
+    "rollbem " +
+    options
+        .filter((o) => o.name in given && o.kind !== "group")
+        .map((o) =>
+            o.kind === "flag"
+                ? given[o.name] === "yes"
+                    ? `--${o.name}`
+                    : ""
+                : /^[\w.+-]+$/.test(given[o.name])
+                  ? `--${o.name} ${given[o.name]}`
+                  : `--${o.name} '${given[o.name].replaceAll("'", "'\\''")}'`,
+        )
+        .filter(Boolean)
+        .join(" ");
 
-export const ini_of = (given, options) => options.filter((o) => o.kind === "group").map((group) => {
-    const rows = options.filter((o) => o.section === group.name && o.kind !== "group" && o.name in given);
-    return rows.length ? `[${group.name}]\n${rows.map((o) => `${o.name} = ${given[o.name]}`).join("\n")}\n` : "";
-}).filter(Boolean).join("\n");
+export const ini_of = (given, options) =>
+    options
+        .filter((o) => o.kind === "group")
+        .map((group) => {
+            const rows = options.filter((o) => o.section === group.name && o.kind !== "group" && o.name in given);
+            return rows.length
+                ? `[${group.name}]\n${rows.map((o) => `${o.name} = ${given[o.name]}`).join("\n")}\n`
+                : "";
+        })
+        .filter(Boolean)
+        .join("\n");
 
-const column_name = (r) => r.unit ? `${r.name}_${r.unit}` : r.name;
-export const table_of = (columns, results) => [results.map(column_name).join("\t"),
-    ...[...columns.x].map((x, i) => results.map((r) => columns[r.name][i]).join("\t"))].join("\n") + "\n";
+const column_name = (r) => (r.unit ? `${r.name}_${r.unit}` : r.name);
+export const table_of = (columns, results) =>
+    [
+        results.map(column_name).join("\t"),
+        ...[...columns.x].map((_x, i) => results.map((r) => columns[r.name][i]).join("\t")),
+    ].join("\n") + "\n";
 
 /* As the program's --json has them, without what only the program has (input_hash, seconds). */
 export function json_of(words, answer, given, options, results) {
-    const number = (x) => (Number.isFinite(x) ? x : null), kind = Object.fromEntries(options.map((o) => [o.name, o.kind]));
-    const input = (name, text) => (kind[name] === "flag" ? text === "yes" : (kind[name] === "number" || kind[name] === "integer") && Number.isFinite(Number(text)) ? Number(text) : text);
+    const number = (x) => (Number.isFinite(x) ? x : null),
+        kind = Object.fromEntries(options.map((o) => [o.name, o.kind]));
+    const input = (name, text) =>
+        kind[name] === "flag"
+            ? text === "yes"
+            : (kind[name] === "number" || kind[name] === "integer") && Number.isFinite(Number(text))
+              ? Number(text)
+              : text;
     const { status, formulation, solver, "lcp-form": lcp_form } = answer.words;
-    return JSON.stringify({ schema: "rollbem/1", version: VERSION, command: command_of(given, options), conventions: words.conventions, notes: answer.notes, units: words.json_units,
-        inputs: Object.fromEntries(Object.entries(given).map(([name, text]) => [name, input(name, text)])),
-        summary: { status, formulation, solver, lcp_form, ...Object.fromEntries(results.number.filter((r) => r.kind !== "seconds").map((r) => [r.name, number(answer.numbers[r.name])])) },
-        table: Object.fromEntries(results.column.map((r) => [column_name(r), [...answer.columns[r.name]].map(number)])) }, null, 1);
+    return JSON.stringify(
+        {
+            schema: "rollbem/1",
+            version: VERSION,
+            command: command_of(given, options),
+            conventions: words.conventions,
+            notes: answer.notes,
+            units: words.json_units,
+            inputs: Object.fromEntries(Object.entries(given).map(([name, text]) => [name, input(name, text)])),
+            summary: {
+                status,
+                formulation,
+                solver,
+                lcp_form,
+                ...Object.fromEntries(
+                    results.number
+                        .filter((r) => r.kind !== "seconds")
+                        .map((r) => [r.name, number(answer.numbers[r.name])]),
+                ),
+            },
+            table: Object.fromEntries(
+                results.column.map((r) => [column_name(r), [...answer.columns[r.name]].map(number)]),
+            ),
+        },
+        null,
+        1,
+    );
 }
 
 export const python_of = (given, options) => {
     const kind = Object.fromEntries(options.map((o) => [o.name, o.kind]));
-    const value = (name, text) => (kind[name] === "flag" ? (text === "no" ? "False" : "True") : Number.isFinite(Number(text)) && /number|integer/.test(kind[name]) ? text : JSON.stringify(text));
-    return `import rollbem\n\ns = rollbem.solve(${Object.entries(given).map(([name, text]) => `${name.replaceAll("-", "_")}=${value(name, text)}`).join(", ")})\nprint(s.normal_load, s.tangential_load, s.notes)\ns.plot().savefig("tractions.png")\n`;
+    const value = (name, text) =>
+        kind[name] === "flag"
+            ? text === "no"
+                ? "False"
+                : "True"
+            : Number.isFinite(Number(text)) && /number|integer/.test(kind[name])
+              ? text
+              : JSON.stringify(text);
+    return `import rollbem\n\ns = rollbem.solve(${Object.entries(given)
+        .map(([name, text]) => `${name.replaceAll("-", "_")}=${value(name, text)}`)
+        .join(", ")})\nprint(s.normal_load, s.tangential_load, s.notes)\ns.plot().savefig("tractions.png")\n`;
 };
 
 /* A picture of the page as a file by itself. */
 export function svg_text(root) {
-    const style = getComputedStyle(document.documentElement), copy = root.cloneNode(true);
+    const style = getComputedStyle(document.documentElement),
+        copy = root.cloneNode(true);
     copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    copy.insertAdjacentHTML("afterbegin", `<rect width="100%" height="100%" fill="var(--card)"/><style>text{font:13px sans-serif;fill:var(--ink)}text.soft{fill:var(--soft)}</style>`);
-    return new XMLSerializer().serializeToString(copy).replace(/var\((--[\w-]+)\)/g, (all, name) => style.getPropertyValue(name).trim());
+    copy.insertAdjacentHTML(
+        "afterbegin",
+        `<rect width="100%" height="100%" fill="var(--card)"/><style>text{font:13px sans-serif;fill:var(--ink)}text.soft{fill:var(--soft)}</style>`,
+    );
+    return new XMLSerializer()
+        .serializeToString(copy)
+        .replace(/var\((--[\w-]+)\)/g, (_all, name) => style.getPropertyValue(name).trim());
 }
 
 /* The same in points, twice as dense as on the screen. */
 async function png_of(text) {
-    const image = new Image(), [, width, height] = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(text);
+    const image = new Image(),
+        [, width, height] = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(text);
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
     await image.decode();
     const canvas = html("canvas", { width: 2 * width, height: 2 * height });
@@ -53,10 +121,15 @@ async function png_of(text) {
 
 const CLIP_SECONDS = 5;
 async function clip_of(canvas) {
-    const type = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((t) => MediaRecorder.isTypeSupported(t));
-    const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 6e6 }), parts = [];
+    const type = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((t) =>
+        MediaRecorder.isTypeSupported(t),
+    );
+    const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 6e6 }),
+        parts = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
-    const ended = new Promise((resolve) => { recorder.onstop = resolve; });
+    const ended = new Promise((resolve) => {
+        recorder.onstop = resolve;
+    });
     recorder.start();
     await new Promise((resolve) => setTimeout(resolve, 1000 * CLIP_SECONDS));
     recorder.stop();
@@ -67,8 +140,9 @@ async function clip_of(canvas) {
 const can_clip = () => typeof MediaRecorder !== "undefined" && "captureStream" in HTMLCanvasElement.prototype;
 
 async function copy_text(text) {
-    try { await navigator.clipboard.writeText(text); }
-    catch {
+    try {
+        await navigator.clipboard.writeText(text);
+    } catch {
         const area = html("textarea", { class: "unseen" });
         area.value = text;
         document.body.append(area);
@@ -81,21 +155,74 @@ async function copy_text(text) {
 /* A menu beside a figure: its picture as a file, its case as text.  picture(): the text of an SVG file;
  * canvas(): what a clip is taken from, if it moves; given(): the case that the figure shows. */
 export function take_along(page, picture, name, canvas, given = () => page.given) {
-    const { words, options } = page, w = words.take;
+    const { words, options } = page,
+        w = words.take;
     const said = html("span", { class: "note", role: "status" });
-    const copies = { command: () => command_of(given(), options), ini: () => ini_of(given(), options), python: () => python_of(given(), options),
-        link: () => location.href.split("#")[0] + write_link(given(), "hero", null), embed: () => `<iframe src="${(location.href.split("#")[0] + write_link(given(), "hero", null, true)).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>` };
-    const button = (text, act) => html("button", { type: "button", class: "button", onclick: async () => {
-        said.textContent = "";
-        try { said.textContent = (await act()) ?? ""; }
-        catch (error) { said.textContent = say(w.failed, { why: error.message }); }
-    } }, text);
-    const menu = html("details", { class: "menu" }, html("summary", { class: "button" }, w.title), html("div", { class: "sheet" },
-        html("div", { class: "row" }, button("PNG", async () => save(`${name}.png`, await png_of(picture()), "image/png")), button("SVG", () => save(`${name}.svg`, picture(), "image/svg+xml")),
-            canvas && can_clip() && button(w.clip, async () => { said.textContent = say(w.recording, { seconds: CLIP_SECONDS }); save(`${name}.webm`, await clip_of(canvas()), "video/webm"); return w.saved; })),
-        html("div", { class: "row" }, Object.entries(copies).map(([key, text]) => button(w[key], async () => { await copy_text(text()); return words.copied; }))),
-        html("p", { class: "note" }, w.lesson), said));
-    menu.addEventListener("keydown", (event) => { if (event.key === "Escape") { menu.open = false; menu.firstChild.focus(); } });
+    const copies = {
+        command: () => command_of(given(), options),
+        ini: () => ini_of(given(), options),
+        python: () => python_of(given(), options),
+        link: () => location.href.split("#")[0] + write_link(given(), "hero", null),
+        embed: () =>
+            `<iframe src="${(location.href.split("#")[0] + write_link(given(), "hero", null, true)).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>`,
+    };
+    const button = (text, act) =>
+        html(
+            "button",
+            {
+                type: "button",
+                class: "button",
+                onclick: async () => {
+                    said.textContent = "";
+                    try {
+                        said.textContent = (await act()) ?? "";
+                    } catch (error) {
+                        said.textContent = say(w.failed, { why: error.message });
+                    }
+                },
+            },
+            text,
+        );
+    const menu = html(
+        "details",
+        { class: "menu" },
+        html("summary", { class: "button" }, w.title),
+        html(
+            "div",
+            { class: "sheet" },
+            html(
+                "div",
+                { class: "row" },
+                button("PNG", async () => save(`${name}.png`, await png_of(picture()), "image/png")),
+                button("SVG", () => save(`${name}.svg`, picture(), "image/svg+xml")),
+                canvas &&
+                    can_clip() &&
+                    button(w.clip, async () => {
+                        said.textContent = say(w.recording, { seconds: CLIP_SECONDS });
+                        save(`${name}.webm`, await clip_of(canvas()), "video/webm");
+                        return w.saved;
+                    }),
+            ),
+            html(
+                "div",
+                { class: "row" },
+                Object.entries(copies).map(([key, text]) =>
+                    button(w[key], async () => {
+                        await copy_text(text());
+                        return words.copied;
+                    }),
+                ),
+            ),
+            html("p", { class: "note" }, w.lesson),
+            said,
+        ),
+    );
+    menu.addEventListener("keydown", (event) => {
+        if (event.key === "Escape") {
+            menu.open = false;
+            menu.firstChild.focus();
+        }
+    });
     return menu;
 }
 
@@ -107,16 +234,50 @@ function save(name, text, type) {
 
 /* A text to copy, and to save where it has a file name. */
 export function text_card(words, key, text, file, type) {
-    const area = html("textarea", { readonly: true, "aria-label": words[`take_${key}`], "data-take": key, wrap: text.includes("\t") ? "off" : "soft", rows: text.split("\n").length > 3 ? 9 : 3, style: text.split("\n").length > 3 ? "" : "min-height:4.5rem" });
+    const area = html("textarea", {
+        readonly: true,
+        "aria-label": words[`take_${key}`],
+        "data-take": key,
+        wrap: text.includes("\t") ? "off" : "soft",
+        rows: text.split("\n").length > 3 ? 9 : 3,
+        style: text.split("\n").length > 3 ? "" : "min-height:4.5rem",
+    });
     area.value = text;
-    const copy = html("button", { type: "button", class: "button", onclick: async () => {
-        area.select();
-        try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
-        copy.textContent = words.copied;
-        setTimeout(() => { copy.textContent = words.copy; }, 1200);
-    } }, words.copy);
-    return card(words[`take_${key}`], area, html("div", { class: "row", style: "margin-top:.5rem" }, copy,
-        file && html("button", { type: "button", class: "button", onclick: () => save(file, text, type) }, words.download)));
+    const copy = html(
+        "button",
+        {
+            type: "button",
+            class: "button",
+            onclick: async () => {
+                area.select();
+                try {
+                    await navigator.clipboard.writeText(text);
+                } catch {
+                    document.execCommand("copy");
+                }
+                copy.textContent = words.copied;
+                setTimeout(() => {
+                    copy.textContent = words.copy;
+                }, 1200);
+            },
+        },
+        words.copy,
+    );
+    return card(
+        words[`take_${key}`],
+        area,
+        html(
+            "div",
+            { class: "row", style: "margin-top:.5rem" },
+            copy,
+            file &&
+                html(
+                    "button",
+                    { type: "button", class: "button", onclick: () => save(file, text, type) },
+                    words.download,
+                ),
+        ),
+    );
 }
 
 export function take_view(words, page) {
@@ -126,13 +287,28 @@ export function take_view(words, page) {
         const a = page.answer;
         if (!a || (a === drawn_for && node.firstChild)) return;
         drawn_for = a;
-        const given = a.given, columns = page.results.column.filter((r) => a.columns[r.name]); /* some belong to some cases */
+        const given = a.given,
+            columns = page.results.column.filter((r) => a.columns[r.name]); /* some belong to some cases */
         const picture = () => svg_text(tractions_picture(document.body, words, a, { width: 900, name: "file" }));
-        node.replaceChildren(text_card(words, "command", command_of(given, page.options)), text_card(words, "link", location.href.split("#")[0] + write_link(given, "bench", page.drawn)),
-            html("div", { class: "trio" }, text_card(words, "ini", ini_of(given, page.options), "case.ini", "text/plain"),
-                text_card(words, "table", table_of(a.columns, columns), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(words, a, given, page.options, { ...page.results, column: columns }), "case.json", "application/json"),
-                text_card(words, "python", python_of(given, page.options), "case.py", "text/x-python")),
-            html("div", { class: "row" }, take_along(page, picture, "tractions", null)));
+        node.replaceChildren(
+            text_card(words, "command", command_of(given, page.options)),
+            text_card(words, "link", location.href.split("#")[0] + write_link(given, "bench", page.drawn)),
+            html(
+                "div",
+                { class: "trio" },
+                text_card(words, "ini", ini_of(given, page.options), "case.ini", "text/plain"),
+                text_card(words, "table", table_of(a.columns, columns), "table.tsv", "text/tab-separated-values"),
+                text_card(
+                    words,
+                    "json",
+                    json_of(words, a, given, page.options, { ...page.results, column: columns }),
+                    "case.json",
+                    "application/json",
+                ),
+                text_card(words, "python", python_of(given, page.options), "case.py", "text/x-python"),
+            ),
+            html("div", { class: "row" }, take_along(page, picture, "tractions", null)),
+        );
     }
     return { node, draw };
 }

@@ -1,72 +1,135 @@
 /* Tests of the page: node web/test.mjs [build], with verdicts as tests/run reads them.  The library as WebAssembly answers as the
  * program does; then the page itself in a headless Chromium. */
 import { spawnSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import {
+    copyFileSync,
+    existsSync,
+    mkdirSync,
+    mkdtempSync,
+    readFileSync,
+    readdirSync,
+    rmSync,
+    writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { open_page } from "./chromium.mjs";
+import { crawl } from "./crawl.mjs";
+import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
-import { PRESETS, ground_of, hold, share_of_ground, with_mu, with_point, with_support } from "./state.js";
+import { PRESETS, ground_of, share_of_ground, with_mu, with_point, with_support } from "./state.js";
 import { ticks, zone_colours } from "./draw.js";
 import { load_library } from "./library.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
 import { words } from "./words.js";
 import { answer } from "./worker.js";
 
-const build = process.argv[2] ?? "build", program = resolve(`${build}/rollbem`);
-let passed = 0, failed = 0;
+const build = process.argv[2] ?? "build",
+    program = resolve(`${build}/rollbem`);
+let passed = 0,
+    failed = 0;
 
 async function test(name, body) {
     const start = performance.now();
-    try { await body(); passed++; console.log(`[       OK ] ${name} (${Math.round(performance.now() - start)} ms)`); }
-    catch (error) { failed++; console.log(`[  FAILED  ] ${name}: ${error.message}`); }
+    try {
+        await body();
+        passed++;
+        console.log(`[       OK ] ${name} (${Math.round(performance.now() - start)} ms)`);
+    } catch (error) {
+        failed++;
+        console.log(`[  FAILED  ] ${name}: ${error.message}`);
+    }
 }
-function check(holds, text) { if (!holds) throw new Error(text); }
+function check(holds, text) {
+    if (!holds) throw new Error(text);
+}
 function check_close(got, want, tol, what) {
     if (!Number.isFinite(want)) return check(!Number.isFinite(got), `${what}: got ${got}, the program has none`);
-    check(Math.abs(got - want) <= tol, `${what}: got ${got}, want ${want}, difference ${Math.abs(got - want)} > ${tol}`);
+    check(
+        Math.abs(got - want) <= tol,
+        `${what}: got ${got}, want ${want}, difference ${Math.abs(got - want)} > ${tol}`,
+    );
 }
 
 /* ---- The library ------------------------------------------------------------------- */
 
-const file = resolve(`${build}/rollbem.html`), url = pathToFileURL(file).href, text_of_page = readFileSync(file, "utf8");
+const file = resolve(`${build}/rollbem.html`),
+    url = pathToFileURL(file).href,
+    text_of_page = readFileSync(file, "utf8");
 const library = await load_library(gunzipSync(Buffer.from(/^const WASM = "(.*)";$/m.exec(text_of_page)[1], "base64")));
-const given_of = (ini) => Object.fromEntries(readFileSync(ini, "utf8").split("\n").map((line) => /^([\w-]+)\s*=\s*([^;]*)/.exec(line)).filter(Boolean).map(([, name, text]) => [name, text.trim()]));
-const words_of = (given) => Object.entries(given).flatMap(([name, text]) => library.options.find((o) => o.name === name)?.kind === "flag" ? [`--${name}`] : [`--${name}`, text]);
-const run = (args, cwd) => spawnSync(program, args, { cwd, encoding: "utf8", env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
+const given_of = (ini) =>
+    Object.fromEntries(
+        readFileSync(ini, "utf8")
+            .split("\n")
+            .map((line) => /^([\w-]+)\s*=\s*([^;]*)/.exec(line))
+            .filter(Boolean)
+            .map(([, name, text]) => [name, text.trim()]),
+    );
+const words_of = (given) =>
+    Object.entries(given).flatMap(([name, text]) =>
+        library.options.find((o) => o.name === name)?.kind === "flag" ? [`--${name}`] : [`--${name}`, text],
+    );
+const run = (args, cwd) =>
+    spawnSync(program, args, { cwd, encoding: "utf8", env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
 
 /* Every number that is no count of work, time or rounding, and p and q of every element. */
-const LEFT_OUT = ["iterations", "residual", "residual_gap", "residual_slip", "residual_friction", "load_error", "support_balance", "slip_violations"];
+const LEFT_OUT = [
+    "iterations",
+    "residual",
+    "residual_gap",
+    "residual_slip",
+    "residual_friction",
+    "load_error",
+    "support_balance",
+    "slip_violations",
+];
 function flatten(json) {
     const all = {};
     for (const [name, value] of Object.entries(json)) {
-        if (value && typeof value === "object" && !Array.isArray(value)) for (const [inner, v] of Object.entries(flatten(value))) all[inner] ??= v; else all[name] ??= value;
+        if (value && typeof value === "object" && !Array.isArray(value))
+            for (const [inner, v] of Object.entries(flatten(value))) all[inner] ??= v;
+        else all[name] ??= value;
     }
     return all;
 }
 function compare(given, tol, files = {}) {
     const folder = mkdtempSync(join(tmpdir(), "page-"));
     for (const [name, text] of Object.entries(files)) writeFileSync(join(folder, name), text);
-    const got = answer(library, { kind: "roll", given, files }), ran = run(["--json", "--quiet", ...words_of(given)], folder);
+    const got = answer(library, { kind: "roll", given, files }),
+        ran = run(["--json", "--quiet", ...words_of(given)], folder);
     rmSync(folder, { recursive: true });
     check(!got.refused, got.refused);
     const want = flatten({ ...JSON.parse(ran.stdout), inputs: null });
     let compared = 0;
     for (const { name, kind, unit } of library.results.number) {
         if (kind === "seconds" || LEFT_OUT.includes(name) || !(name in want)) continue;
-        const scale = unit === "N" ? want.normal_load * want.half_width : unit === "N/mm" ? want.normal_load : /ratio/.test(name) ? 1 : /creepage/.test(name) ? 1e-3
-            : /half_width|stick_|contact_(from|to)/.test(name) ? want.half_width : /shift/.test(name) ? Math.abs(want.approach) : 0;
+        const scale =
+            unit === "N"
+                ? want.normal_load * want.half_width
+                : unit === "N/mm"
+                  ? want.normal_load
+                  : /ratio/.test(name)
+                    ? 1
+                    : /creepage/.test(name)
+                      ? 1e-3
+                      : /half_width|stick_|contact_(from|to)/.test(name)
+                        ? want.half_width
+                        : /shift/.test(name)
+                          ? Math.abs(want.approach)
+                          : 0;
         check_close(got.numbers[name], want[name] ?? NaN, tol * Math.max(Math.abs(want[name]), scale), name);
         compared++;
     }
     check(compared > 12, `only ${compared} numbers compared`);
     for (const name of ["p", "q"])
-        want[`${name}_MPa`].forEach((v, i) => check_close(got.columns[name][i], v, tol * got.numbers.max_pressure, `${name}, row ${i + 1}`));
+        want[`${name}_MPa`].forEach((v, i) =>
+            check_close(got.columns[name][i], v, tol * got.numbers.max_pressure, `${name}, row ${i + 1}`),
+        );
     return got;
 }
 
@@ -74,98 +137,248 @@ function compare(given, tol, files = {}) {
 const FITTED = 1e-6;
 for (const folder of readdirSync("examples"))
     for (const file of readdirSync(`examples/${folder}`, { recursive: true }).filter((f) => f.endsWith(".ini"))) {
-        const given = given_of(`examples/${folder}/${file}`), named = ["history", "irregularity", "accuracy", "error"].filter((name) => name in given && given[name] !== "no");
-        if (named.length || /[/.]/.test(given.gap ?? "")) { console.log(`  left   examples/${folder}/${file}: ${named} is not in the page`); continue; }
+        const given = given_of(`examples/${folder}/${file}`),
+            named = ["history", "irregularity", "accuracy", "error"].filter(
+                (name) => name in given && given[name] !== "no",
+            );
+        if (named.length || /[/.]/.test(given.gap ?? "")) {
+            console.log(`  left   examples/${folder}/${file}: ${named} is not in the page`);
+            continue;
+        }
         const fitted = given.mesh === "fitted" || (given.formulation === "steady" && !given.mesh && !given.zone);
         await test(`the program's numbers: examples/${folder}/${file}`, () => compare(given, fitted ? FITTED : 1e-9));
     }
-const rail = { support: "halfplane", "support-b": "halfplane", similar: "yes", formulation: "steady", radius: "460", young: "210000", poisson: "0.3", mesh: "uniform" };
-for (const more of [{ load: "1000", mu: "0.3", "creep-ratio": "0.5" }, { load: "1000", mu: "0.3", "force-ratio": "-0.9" }, { approach: "0.03", mu: "0.1", creep: "0.0004", zone: "3" },
-    { "half-width": "2", mu: "0.5", "creep-ratio": "-0.7" }, { load: "1000", mu: "0.3", formulation: "static", "force-ratio": "0.5" }, { support: "hub", load: "1000", mu: "0.3", "creep-ratio": "0.3", "contact-elements": "20" },
-    { approach: "0.03", mu: "0.1", creep: "0.0004" }, { formulation: "transient", load: "1000", mu: "0.3", "creep-ratio": "0.5", distance: "2", "contact-elements": "24" }])
+const rail = {
+    support: "halfplane",
+    "support-b": "halfplane",
+    similar: "yes",
+    formulation: "steady",
+    radius: "460",
+    young: "210000",
+    poisson: "0.3",
+    mesh: "uniform",
+};
+for (const more of [
+    { load: "1000", mu: "0.3", "creep-ratio": "0.5" },
+    { load: "1000", mu: "0.3", "force-ratio": "-0.9" },
+    { approach: "0.03", mu: "0.1", creep: "0.0004", zone: "3" },
+    { "half-width": "2", mu: "0.5", "creep-ratio": "-0.7" },
+    { load: "1000", mu: "0.3", formulation: "static", "force-ratio": "0.5" },
+    { support: "hub", load: "1000", mu: "0.3", "creep-ratio": "0.3", "contact-elements": "20" },
+    { approach: "0.03", mu: "0.1", creep: "0.0004" },
+    {
+        formulation: "transient",
+        load: "1000",
+        mu: "0.3",
+        "creep-ratio": "0.5",
+        distance: "2",
+        "contact-elements": "24",
+    },
+])
     await test(`the program's numbers: ${JSON.stringify(more)}`, () => compare({ ...rail, ...more }, 1e-9));
 
 /* What slips or yields has its friction at the bound that is drawn, and every zone of the table a colour and its words. */
-for (const more of [{ "yield-stress": "60", hardening: "100000" }, { "yield-stress": "100", hardening: "-1000" }, { "mu-fall": "0.1", "friction-law": "exponential", "slip-scale": "500", speed: "45000" }])
+for (const more of [
+    { "yield-stress": "60", hardening: "100000" },
+    { "yield-stress": "100", hardening: "-1000" },
+    { "mu-fall": "0.1", "friction-law": "exponential", "slip-scale": "500", speed: "45000" },
+])
     await test(`bounds and zones: ${JSON.stringify(more)}`, () => {
-        const got = compare({ ...rail, load: "12500", mu: "0.3", "creep-ratio": "0.8", ...more }, 1e-8), { q, zone } = got.columns, bounds = bounds_of(got);
-        check([...zone].some((z) => z === ("yield-stress" in more ? 4 : 2)), "no such zone");
-        bounds.forEach((bound, i) => zone[i] > 1 ? check_close(Math.abs(q[i]), bound, 1e-8 * got.numbers.max_pressure, `bound, row ${i + 1}`) : check(Math.abs(q[i]) <= bound + 1e-9 * got.numbers.max_pressure, `row ${i + 1} beyond its bound`));
-        for (const list of [zone_colours, words.zones, words.zones_signs, words.zones_short]) check(list.length > Math.max(...zone), "a zone without a name");
+        const got = compare({ ...rail, load: "12500", mu: "0.3", "creep-ratio": "0.8", ...more }, 1e-8),
+            { q, zone } = got.columns,
+            bounds = bounds_of(got);
+        check(
+            [...zone].some((z) => z === ("yield-stress" in more ? 4 : 2)),
+            "no such zone",
+        );
+        bounds.forEach((bound, i) =>
+            zone[i] > 1
+                ? check_close(Math.abs(q[i]), bound, 1e-8 * got.numbers.max_pressure, `bound, row ${i + 1}`)
+                : check(Math.abs(q[i]) <= bound + 1e-9 * got.numbers.max_pressure, `row ${i + 1} beyond its bound`),
+        );
+        for (const list of [zone_colours, words.zones, words.zones_signs, words.zones_short])
+            check(list.length > Math.max(...zone), "a zone without a name");
     });
-const drawn = [{ what: "mu", values: [0.3, 0.1, 0.4] }, { what: "load", values: [1000, 1500, 600] }, { what: "force_ratio", values: [0, -0.5, 0.5, 0] }, { what: "creep_ratio", values: [0, 0.8, -0.4] }];
+const drawn = [
+    { what: "mu", values: [0.3, 0.1, 0.4] },
+    { what: "load", values: [1000, 1500, 600] },
+    { what: "force_ratio", values: [0, -0.5, 0.5, 0] },
+    { what: "creep_ratio", values: [0, 0.8, -0.4] },
+];
 for (const { what, values } of drawn)
     await test(`the program's numbers: ${what} drawn by hand`, () => {
-        const { load, mu, ...rest } = { ...rail, load: "1000", mu: "0.3", formulation: "transient", "contact-elements": "24", history: "drawn.tsv" };
-        compare({ ...rest, ...(what === "load" || what === "mu" ? { "creep-ratio": "0.5" } : {}), ...(what === "load" ? {} : { load }), ...(what === "mu" ? {} : { mu }) }, 1e-9, { "drawn.tsv": table_of_drawn({ what, distance: 2, values }) });
+        const { load, mu, ...rest } = {
+            ...rail,
+            load: "1000",
+            mu: "0.3",
+            formulation: "transient",
+            "contact-elements": "24",
+            history: "drawn.tsv",
+        };
+        compare(
+            {
+                ...rest,
+                ...(what === "load" || what === "mu" ? { "creep-ratio": "0.5" } : {}),
+                ...(what === "load" ? {} : { load }),
+                ...(what === "mu" ? {} : { mu }),
+            },
+            1e-9,
+            { "drawn.tsv": table_of_drawn({ what, distance: 2, values }) },
+        );
     });
 await test("a file that is not there, and one that is no table", () => {
     const given = { ...rail, load: "1000", mu: "0.3", formulation: "transient", history: "drawn.tsv" };
     check(/drawn.tsv/.test(answer(library, { kind: "roll", given }).refused), "no file, no word");
-    check(/drawn.tsv:2/.test(answer(library, { kind: "roll", given, files: { "drawn.tsv": "distance load\n0 <b>\n" } }).refused), "the line is not named");
+    check(
+        /drawn.tsv:2/.test(
+            answer(library, { kind: "roll", given, files: { "drawn.tsv": "distance load\n0 <b>\n" } }).refused,
+        ),
+        "the line is not named",
+    );
 });
 await test("links and case files are read as they are written", () => {
-    const state = { given: { mu: "0.3", "creep-ratio": "0.5" }, view: "roll", drawn: { what: "load", distance: 5, values: [1, 2.5] } };
-    check(JSON.stringify(read_link(write_link(state.given, state.view, state.drawn), ["hero", "roll"])) === JSON.stringify({ given: state.given, view: "roll", drawn: state.drawn, embed: false }), "the link");
-    check(JSON.stringify(read_case_file("[friction]\r\nmu = 0.3 ; a comment\n# another\n\ncreep-ratio: 0.5\n")) === JSON.stringify(state.given), "the file");
+    const state = {
+        given: { mu: "0.3", "creep-ratio": "0.5" },
+        view: "roll",
+        drawn: { what: "load", distance: 5, values: [1, 2.5] },
+    };
+    check(
+        JSON.stringify(read_link(write_link(state.given, state.view, state.drawn), ["hero", "roll"])) ===
+            JSON.stringify({ given: state.given, view: "roll", drawn: state.drawn, embed: false }),
+        "the link",
+    );
+    check(
+        JSON.stringify(read_case_file("[friction]\r\nmu = 0.3 ; a comment\n# another\n\ncreep-ratio: 0.5\n")) ===
+            JSON.stringify(state.given),
+        "the file",
+    );
     for (const text of ["", "mu", "mu = 1\nmu = 2", "x".repeat(30000), "\u0000\u0001"]) {
         let said = "";
-        try { read_case_file(text); } catch (error) { said = error.message; }
+        try {
+            read_case_file(text);
+        } catch (error) {
+            said = error.message;
+        }
         check(said, `${JSON.stringify(text.slice(0, 20))} is taken for a case`);
     }
 });
 await test("every axis has two numbers at least", () => {
     for (let width = 0.1; width < 100; width *= 1.07)
-        for (const [from, to] of [[0, width], [-width / 2, width / 2], [-width / 3, width]])
-            for (const about of [3, 4, 5]) check(ticks(from, to, about).length >= 2, `${from} to ${to}: ${ticks(from, to, about)}`);
+        for (const [from, to] of [
+            [0, width],
+            [-width / 2, width / 2],
+            [-width / 3, width],
+        ])
+            for (const about of [3, 4, 5])
+                check(ticks(from, to, about).length >= 2, `${from} to ${to}: ${ticks(from, to, about)}`);
 });
-for (const given of [{ mu: "-1" }, { mu: "x" }, { "contact-elements": "2" }, { support: "wall" }, { load: "1", approach: "1" }, { formulation: "steady" }, { poisson: "0.7" }, { creep: "1e400" },
-    { support: "halfplane", "hub-ratio": "0.4" }, { formulation: "steady", shift: "1" }, { similar: "yes", "young-b": "3" }])
+for (const given of [
+    { mu: "-1" },
+    { mu: "x" },
+    { "contact-elements": "2" },
+    { support: "wall" },
+    { load: "1", approach: "1" },
+    { formulation: "steady" },
+    { poisson: "0.7" },
+    { creep: "1e400" },
+    { support: "halfplane", "hub-ratio": "0.4" },
+    { formulation: "steady", shift: "1" },
+    { similar: "yes", "young-b": "3" },
+])
     await test(`the program's refusal: ${JSON.stringify(given)}`, () => {
-        const ran = run(["--quiet", ...words_of(given)]), got = answer(library, { kind: "solve", given });
+        const ran = run(["--quiet", ...words_of(given)]),
+            got = answer(library, { kind: "solve", given });
         if (ran.status === 0) return check(!got.refused, `the program solves it, the page says: ${got.refused}`);
         check(got.refused, "the page solves it");
         check(ran.stderr.includes(got.refused), `got '${got.refused}', the program says '${ran.stderr.trim()}'`);
     });
 await test("a wheel that relaxes is not in the page", () => {
-    const given = { support: "hub", load: "100", formulation: "steady", "creep-ratio": "0.3", "relaxation-time": "0.01", "relaxation-ratio": "1", speed: "100" };
+    const given = {
+        support: "hub",
+        load: "100",
+        formulation: "steady",
+        "creep-ratio": "0.3",
+        "relaxation-time": "0.01",
+        "relaxation-ratio": "1",
+        speed: "100",
+    };
     check(run(["--quiet", ...words_of(given)]).status === 0, "the program does not solve it");
-    check(/a wheel that relaxes is not in the page: use the program/.test(answer(library, { kind: "solve", given }).refused), "it is not refused");
+    check(
+        /a wheel that relaxes is not in the page: use the program/.test(
+            answer(library, { kind: "solve", given }).refused,
+        ),
+        "it is not refused",
+    );
 });
-await test("a size that the page does not take", () => check(/use the program/.test(answer(library, { kind: "solve", given: { "contact-elements": "5000" } }).refused), "it is solved"));
+await test("a size that the page does not take", () =>
+    check(
+        /use the program/.test(answer(library, { kind: "solve", given: { "contact-elements": "5000" } }).refused),
+        "it is solved",
+    ));
 
 /* ---- What the page makes of it ------------------------------------------------------ */
 
-const TANGENTIALS = ["creep-ratio", "creep", "force-ratio", "force", "shift"];
+const _TANGENTIALS = ["creep-ratio", "creep", "force-ratio", "force", "shift"];
 const solve = (given) => answer(library, { kind: "solve", given });
 await test("headlines follow the state", () => {
-    const of = (more) => { const given = { ...PRESETS.rail, ...more }, got = solve(given); return headline_of(words, got.refused ? null : got, got.refused, given); };
+    const of = (more) => {
+        const given = { ...PRESETS.rail, ...more },
+            got = solve(given);
+        return headline_of(words, got.refused ? null : got, got.refused, given);
+    };
     for (const [more, kind, text] of [
-        [{}, "partial", "Half of this contact is slipping, and the wheel still rolls."], [{ "creep-ratio": "0" }, "free", "It rolls freely. Nothing slips."], [{ "creep-ratio": "0.08" }, "touch", "A touch on the brake: 8 % of the contact slips."],
-        [{ "creep-ratio": "0.95" }, "nearly", "One more push and it skids."], [{ "creep-ratio": "1.2" }, "skid", "Now it skids."], [{ "creep-ratio": "-1.2" }, "skid", "Now it spins."], [{ "creep-ratio": "-0.5" }, "partial", "Accelerating: half of this contact"],
-        [{ load: "-1" }, "unsolved", "No solution here: --load"], [{ "creep-ratio": "0.25" }, "partial", "A quarter of this contact"]]) {
+        [{}, "partial", "Half of this contact is slipping, and the wheel still rolls."],
+        [{ "creep-ratio": "0" }, "free", "It rolls freely. Nothing slips."],
+        [{ "creep-ratio": "0.08" }, "touch", "A touch on the brake: 8 % of the contact slips."],
+        [{ "creep-ratio": "0.95" }, "nearly", "One more push and it skids."],
+        [{ "creep-ratio": "1.2" }, "skid", "Now it skids."],
+        [{ "creep-ratio": "-1.2" }, "skid", "Now it spins."],
+        [{ "creep-ratio": "-0.5" }, "partial", "Accelerating: half of this contact"],
+        [{ load: "-1" }, "unsolved", "No solution here: --load"],
+        [{ "creep-ratio": "0.25" }, "partial", "A quarter of this contact"],
+    ]) {
         const got = of(more);
-        check(got.kind === kind && got.text.toLowerCase().includes(text.toLowerCase()), `${JSON.stringify(more)}: ${got.kind}, ${got.text}`);
+        check(
+            got.kind === kind && got.text.toLowerCase().includes(text.toLowerCase()),
+            `${JSON.stringify(more)}: ${got.kind}, ${got.text}`,
+        );
     }
 });
 await test("the lines of the lens: slip is the sum of shift, and where it sticks there is none", () => {
-    const got = solve(PRESETS.rail), { slip_at, strain_at, slip_end } = offsets_of(got), n = got.numbers;
+    const got = solve(PRESETS.rail),
+        { slip_at, strain_at, slip_end } = offsets_of(got),
+        n = got.numbers;
     check(slip_at(n.contact_to) === 0 && slip_at(n.stick_from + 0.1) === 0, "it slips where it sticks");
     check_close(slip_at(n.contact_from), slip_end, 1e-12, "slip at the trailing edge");
     check_close(slip_share(got), 0.5, 1e-3, "half of it slips");
     /* creepage times way is slip and strain together; the strain of both ends of the stick strip is that of the creepage */
-    check_close(strain_at(n.stick_from + 1e-9), n.creepage * (n.contact_to - n.stick_from), 1e-6, "strain where slip begins");
+    check_close(
+        strain_at(n.stick_from + 1e-9),
+        n.creepage * (n.contact_to - n.stick_from),
+        1e-6,
+        "strain where slip begins",
+    );
     check(Math.abs(slip_at(n.contact_from) / slip_at((n.contact_from + n.stick_from) / 2)) > 1.5, "slip does not grow");
     const fit = fit_lens(got);
-    check(fit.window[0] < n.contact_from && fit.window[1] > n.contact_to && fit.press > n.max_pressure, JSON.stringify(fit));
+    check(
+        fit.window[0] < n.contact_from && fit.window[1] > n.contact_to && fit.press > n.max_pressure,
+        JSON.stringify(fit),
+    );
 });
 await test("another quantity that is held takes over at its value, also at zero", () => {
-    const free = solve({ ...PRESETS.rail, "creep-ratio": "0" }).numbers, half = solve(PRESETS.rail).numbers;
-    for (const name of ["creep", "force", "force-ratio", "creep-ratio"]) check(value_to_hold(name, free) === "0", `${name}: ${value_to_hold(name, free)}`);
+    const free = solve({ ...PRESETS.rail, "creep-ratio": "0" }).numbers,
+        half = solve(PRESETS.rail).numbers;
+    for (const name of ["creep", "force", "force-ratio", "creep-ratio"])
+        check(value_to_hold(name, free) === "0", `${name}: ${value_to_hold(name, free)}`);
     for (const formulation of ["static", "steady"]) {
         let given = { ...PRESETS.rail };
         for (const to of [formulation, "static", "steady"]) given = with_motion(given, to, solve(given).numbers);
-        check_close(solve(given).numbers.force_ratio, half.force_ratio, 1e-5, "friction, from rolling to rest and back");
+        check_close(
+            solve(given).numbers.force_ratio,
+            half.force_ratio,
+            1e-5,
+            "friction, from rolling to rest and back",
+        );
     }
 });
 await test("another support drops what has no meaning there, from everywhere to everywhere", () => {
@@ -178,7 +391,12 @@ await test("another support drops what has no meaning there, from everywhere to 
 });
 await test("without friction the drive becomes a creepage", () => {
     for (const [name, preset] of Object.entries(PRESETS)) {
-        const given = with_mu({ ...preset, "contact-elements": "8" }, 0, solve({ ...preset, "contact-elements": "8" }).numbers), got = solve(given);
+        const given = with_mu(
+                { ...preset, "contact-elements": "8" },
+                0,
+                solve({ ...preset, "contact-elements": "8" }).numbers,
+            ),
+            got = solve(given);
         check(!got.refused, `${name}: ${got.refused}`);
     }
 });
@@ -186,31 +404,69 @@ await test("three grounds, and what of the approach each takes", () => {
     const other = { ...PRESETS.rail, similar: undefined, "young-b": "70000", "poisson-b": "0.33" };
     delete other.similar;
     const got = solve(other);
-    check(!got.refused && ground_of(other) === "other" && ground_of(PRESETS.rail) === "similar" && ground_of(PRESETS.stiff) === "rigid", `${got.refused}`);
+    check(
+        !got.refused &&
+            ground_of(other) === "other" &&
+            ground_of(PRESETS.rail) === "similar" &&
+            ground_of(PRESETS.stiff) === "rigid",
+        `${got.refused}`,
+    );
     check_close(share_of_ground(other, got.values), 0.745, 2e-3, "the softer ground's share");
 });
 await test("numbers of German and French keyboards", () => {
-    for (const [text, want] of [["0,3", "0.3"], ["210GPa", "210GPa"], ["2,1e5", "2.1e5"], ["0.3,0.2", "0.3,0.2"], ["-0,5", "-0.5"], ["12,5 kN/mm", "12.5 kN/mm"]]) check(with_point(text) === want, `${text}: ${with_point(text)}`);
+    for (const [text, want] of [
+        ["0,3", "0.3"],
+        ["210GPa", "210GPa"],
+        ["2,1e5", "2.1e5"],
+        ["0.3,0.2", "0.3,0.2"],
+        ["-0,5", "-0.5"],
+        ["12,5 kN/mm", "12.5 kN/mm"],
+    ])
+        check(with_point(text) === want, `${text}: ${with_point(text)}`);
 });
 await test("rounding of zero is zero", () => {
-    check(tidy_number("tangential_load", { tangential_load: 2.57e-16, normal_load: 1000 }) === 0, "a friction force of 2.57e-16");
-    check(tidy_number("tangential_load", { tangential_load: 1e-3, normal_load: 1000 }) === 1e-3, "a friction force of 1e-3");
+    check(
+        tidy_number("tangential_load", { tangential_load: 2.57e-16, normal_load: 1000 }) === 0,
+        "a friction force of 2.57e-16",
+    );
+    check(
+        tidy_number("tangential_load", { tangential_load: 1e-3, normal_load: 1000 }) === 1e-3,
+        "a friction force of 1e-3",
+    );
 });
 await test("axes stay where they still fit", () => {
-    const before = solve(PRESETS.rail), axes = axes_of(before);
-    for (const [more, fits] of [[{ "creep-ratio": "1" }, true], [{ load: "11000" }, true], [{ load: "50000" }, false], [{ load: "100" }, false]]) check(axes_still_fit(axes, solve({ ...PRESETS.rail, ...more })) === fits, JSON.stringify(more));
+    const before = solve(PRESETS.rail),
+        axes = axes_of(before);
+    for (const [more, fits] of [
+        [{ "creep-ratio": "1" }, true],
+        [{ load: "11000" }, true],
+        [{ load: "50000" }, false],
+        [{ load: "100" }, false],
+    ])
+        check(axes_still_fit(axes, solve({ ...PRESETS.rail, ...more })) === fits, JSON.stringify(more));
 });
 await test("the largest stress is the library's, not the grid's", () => {
-    const got = answer(library, { kind: "stress", given: PRESETS.rail, nx: 5, ny: 4, depth: 0, maxima: true }), want = JSON.parse(run(["stress", "--json", "--quiet", ...words_of(PRESETS.rail)]).stdout).maxima;
-    const value = JSON.stringify(want.max_shear).match(/[\d.e+-]+/g).map(Number);
-    check(value.some((v) => Math.abs(v / got["maxima.max_shear"].at[0] - 1) < FITTED), `${got["maxima.max_shear"].at[0]}, the program has ${JSON.stringify(want.max_shear)}`);
+    const got = answer(library, { kind: "stress", given: PRESETS.rail, nx: 5, ny: 4, depth: 0, maxima: true }),
+        want = JSON.parse(run(["stress", "--json", "--quiet", ...words_of(PRESETS.rail)]).stdout).maxima;
+    const value = JSON.stringify(want.max_shear)
+        .match(/[\d.e+-]+/g)
+        .map(Number);
+    check(
+        value.some((v) => Math.abs(v / got["maxima.max_shear"].at[0] - 1) < FITTED),
+        `${got["maxima.max_shear"].at[0]}, the program has ${JSON.stringify(want.max_shear)}`,
+    );
 });
 await test("Carter's tractions are the library's", () => {
-    const got = answer(library, { kind: "closed", given: PRESETS.rail }), worst = Math.max(...got["closed.q"].at.map((q, i) => Math.abs(q - got.columns.q[i])));
+    const got = answer(library, { kind: "closed", given: PRESETS.rail }),
+        worst = Math.max(...got["closed.q"].at.map((q, i) => Math.abs(q - got.columns.q[i])));
     check(worst < 0.02 * got.numbers.max_pressure, `off by ${worst}`);
-    check(answer(library, { kind: "closed", given: PRESETS.stiff })["closed.q"] === null, "Carter for a wheel on a hub");
+    check(
+        answer(library, { kind: "closed", given: PRESETS.stiff })["closed.q"] === null,
+        "Carter for a wheel on a hub",
+    );
 });
-await test("notes of the library reach the page", () => check(/linear elasticity/.test(solve({ ...PRESETS.stiff, load: "2000" }).notes.join()), "no note on the strain"));
+await test("notes of the library reach the page", () =>
+    check(/linear elasticity/.test(solve({ ...PRESETS.stiff, load: "1000" }).notes.join()), "no note on the strain"));
 
 /* ---- The page ---------------------------------------------------------------------- */
 
@@ -222,11 +478,30 @@ await test("one file below 700 kB that names no other", () => {
 /* axe-core finds contrasts that are too weak, missing names and broken roles.  It comes from the npm
  * registry as web/package-lock.json names it, into the build folder; null: it cannot be had. */
 function axe_source() {
-    const folder = `${build}/page/npm`, source = `${folder}/node_modules/axe-core/axe.min.js`;
+    const folder = `${build}/page/npm`,
+        source = `${folder}/node_modules/axe-core/axe.min.js`;
     mkdirSync(folder, { recursive: true });
     for (const file of ["package.json", "package-lock.json"]) copyFileSync(`web/${file}`, `${folder}/${file}`);
-    if (!existsSync(source)) spawnSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=0", "--fetch-timeout=20000"], { cwd: folder, timeout: 60e3 });
+    if (!existsSync(source))
+        spawnSync(
+            "npm",
+            ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=0", "--fetch-timeout=20000"],
+            { cwd: folder, timeout: 60e3 },
+        );
     return existsSync(source) ? readFileSync(source, "utf8") : null;
+}
+
+/* A part of all choices, sliders' ends and views; all of them with ROLLBEM_TEST_ALL. */
+async function crawled(browser, page) {
+    const all = Boolean(process.env.ROLLBEM_TEST_ALL);
+    await test(`crawled: choices, sliders' ends, views in ${browser}`, async () => {
+        const { states, wrong } = await page.run(
+            `(${crawl})(${JSON.stringify({ stride: all ? 1 : 331, from: 5, views: VIEWS, seconds: all ? 5000 : 8 })})`,
+        );
+        check(states >= 1, `${states} states`);
+        check(!wrong.length, `${wrong.length} of ${states} states: ${wrong.slice(0, 8).join("; ")}`);
+        console.log(`         ${states} states in ${browser}`);
+    });
 }
 
 const IDLE = "window.rollbem && rollbem.page.answer && rollbem.idle()";
@@ -237,15 +512,29 @@ async function views(page) {
     async function same_as_the_program() {
         await page.run("rollbem.open('bench')");
         await settled();
-        const { given, numbers, shown } = await page.run("({ given: rollbem.page.given, numbers: rollbem.page.answer.numbers, shown: Object.fromEntries([...document.querySelectorAll('[data-number]')].map((e) => [e.dataset.number, e.firstChild.textContent])) })");
+        const { given, numbers, shown } = await page.run(
+            "({ given: rollbem.page.given, numbers: rollbem.page.answer.numbers, shown: Object.fromEntries([...document.querySelectorAll('[data-number]')].map((e) => [e.dataset.number, e.firstChild.textContent])) })",
+        );
         const want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...words_of(given)]).stdout), inputs: null });
         for (const name of ["normal_load", "tangential_load", "max_pressure", "approach", "half_width"]) {
-            check_close(numbers[name], want[name], FITTED * Math.max(Math.abs(want[name]), /load/.test(name) ? want.normal_load : 0), name);
-            if (Math.abs(want[name]) > 1 && want[name] < 1e5) check(shown[name].replace("−", "-") === String(Number(want[name].toPrecision(4))), `${name} shown: ${shown[name]}, the program has ${want[name]}`);
+            check_close(
+                numbers[name],
+                want[name],
+                FITTED * Math.max(Math.abs(want[name]), /load/.test(name) ? want.normal_load : 0),
+                name,
+            );
+            if (Math.abs(want[name]) > 1 && want[name] < 1e5)
+                check(
+                    shown[name].replace("−", "-") === String(Number(want[name].toPrecision(4))),
+                    `${name} shown: ${shown[name]}, the program has ${want[name]}`,
+                );
         }
     }
     /* Events are taken, a frame is drawn, and nothing is left to solve. */
-    const settled = async () => { await page.run("new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)))"); await page.until(IDLE); };
+    const settled = async () => {
+        await page.run("new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)))");
+        await page.until(IDLE);
+    };
     await test("the page solves and shows the program's numbers", async () => {
         await page.until(IDLE);
         await same_as_the_program();
@@ -254,78 +543,144 @@ async function views(page) {
         await page.run("rollbem.open('take')");
         await settled();
         const command = await page.run("document.querySelector('[data-take=command]').value");
-        const want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...command.split(" ").slice(1)]).stdout), inputs: null });
-        check_close(await number("tangential_load"), want.tangential_load, FITTED * Math.abs(want.tangential_load), "Q");
+        const want = flatten({
+            ...JSON.parse(run(["--json", "--quiet", ...command.split(" ").slice(1)]).stdout),
+            inputs: null,
+        });
+        check_close(
+            await number("tangential_load"),
+            want.tangential_load,
+            FITTED * Math.abs(want.tangential_load),
+            "Q",
+        );
     });
     for (const preset of ["rail", "roll", "stiff", "addi"])
         await test(`every control moved: ${preset}`, async () => {
             await page.run(`rollbem.open('bench'); rollbem.preset('${preset}')`);
             await settled();
-            check(await page.run("document.getElementById('message').hidden"), await page.run("document.getElementById('message').textContent"));
-            const knobs = await page.run("[...document.querySelectorAll('#controls [data-knob]')].map((k) => k.dataset.knob)");
+            check(
+                await page.run("document.getElementById('message').hidden"),
+                await page.run("document.getElementById('message').textContent"),
+            );
+            const knobs = await page.run(
+                "[...document.querySelectorAll('#controls [data-knob]')].map((k) => k.dataset.knob)",
+            );
             check(knobs.length >= 7, `${knobs.length} sliders`);
             for (const knob of knobs) {
                 const before = await page.run(`rollbem.page.given['${knob}'] ?? rollbem.page.answer.values['${knob}']`);
-                await page.run(`{ const k = document.querySelector('[data-knob="${knob}"]'); k.value = Number(k.value) - 12 * Number(k.step); k.dispatchEvent(new Event("input")); k.dispatchEvent(new Event("change")); }`);
+                await page.run(
+                    `{ const k = document.querySelector('[data-knob="${knob}"]'); k.value = Number(k.value) - 12 * Number(k.step); k.dispatchEvent(new Event("input")); k.dispatchEvent(new Event("change")); }`,
+                );
                 await settled();
                 const after = await page.run(`rollbem.page.given['${knob}']`);
                 check(after !== before, `${knob} stayed at ${before}`);
-                check(await page.run("document.getElementById('message').hidden"), `${knob} = ${after}: ${await page.run("document.getElementById('message').textContent")}`);
+                check(
+                    await page.run("document.getElementById('message').hidden"),
+                    `${knob} = ${after}: ${await page.run("document.getElementById('message').textContent")}`,
+                );
             }
             await same_as_the_program();
         });
     await test("every choice taken", async () => {
         await page.run("rollbem.preset('rail')");
         await settled();
-        const choices = await page.run("[...document.querySelectorAll('#controls input[type=radio]')].map((r) => [r.name, r.value])");
+        const choices = await page.run(
+            "[...document.querySelectorAll('#controls input[type=radio]')].map((r) => [r.name, r.value])",
+        );
         for (const [name, value] of choices) {
-            await page.run(`rollbem.preset('rail'); document.querySelector('#controls input[name="${name}"][value="${value}"]')?.click()`);
+            await page.run(
+                `rollbem.preset('rail'); document.querySelector('#controls input[name="${name}"][value="${value}"]')?.click()`,
+            );
             await settled();
-            check(await page.run("document.getElementById('message').hidden"), `${name} ${value}: ${await page.run("document.getElementById('message').textContent")}`);
+            check(
+                await page.run("document.getElementById('message').hidden"),
+                `${name} ${value}: ${await page.run("document.getElementById('message').textContent")}`,
+            );
         }
     });
     await test("the point of the creep curve moved by keys", async () => {
         await page.run("rollbem.preset('rail')");
         await settled();
         const before = await number("force_ratio");
-        await page.run("document.querySelector('[data-handle=bench]').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true }))");
+        await page.run(
+            "document.querySelector('[data-handle=bench]').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true }))",
+        );
         await settled();
         check_close(await number("force_ratio"), before + 0.02, 6e-4, "Q/(mu P)");
     });
-    for (const [preset, matrices] of [["rail", 2], ["stiff", 6]])
+    for (const [preset, matrices] of [
+        ["rail", 2],
+        ["stiff", 6],
+    ])
         await test(`Lemke stepped to the end, zones guessed: ${preset}`, async () => {
-            await page.run(`rollbem.preset('${preset}'); rollbem.open('step'); document.querySelector("#at-step details").open = true`);
+            await page.run(
+                `rollbem.preset('${preset}'); rollbem.open('step'); document.querySelector("#at-step details").open = true`,
+            );
             await settled();
-            check(await page.run("document.querySelectorAll('#at-step canvas').length") === matrices, "matrices");
-            const count = await page.run("rollbem.views.step.player.count"), click = (text) => page.run(`[...document.querySelectorAll('#at-step button')].find((b) => b.textContent === '${text}').click()`);
+            check((await page.run("document.querySelectorAll('#at-step canvas').length")) === matrices, "matrices");
+            const count = await page.run("rollbem.views.step.player.count"),
+                click = (text) =>
+                    page.run(
+                        `[...document.querySelectorAll('#at-step button')].find((b) => b.textContent === '${text}').click()`,
+                    );
             for (let k = 0; k < count; k++) {
                 const sentence = await page.run("document.querySelector('.sentence').textContent");
-                check(/ until .+\.$|touches\.$/.test(sentence) && !/[{}]|undefined/.test(sentence), `pivot ${k + 1}: ${sentence}`);
+                check(
+                    / until .+\.$|touches\.$/.test(sentence) && !/[{}]|undefined/.test(sentence),
+                    `pivot ${k + 1}: ${sentence}`,
+                );
                 await click("Next");
             }
-            check(/the problem is solved/.test(await page.run("document.querySelector('.sentence').textContent")), "the last pivot");
-            const same = await page.run("(([now, want]) => now === want)([...document.querySelectorAll('#at-step .cells[aria-label*=\"zones\"], #at-step .cells[aria-label*=\"basis after this pivot:\"]')].map((s) => s.getAttribute('aria-label').replace(/^.*?:/, '')))");
+            check(
+                /the problem is solved/.test(await page.run("document.querySelector('.sentence').textContent")),
+                "the last pivot",
+            );
+            const same = await page.run(
+                "(([now, want]) => now === want)([...document.querySelectorAll('#at-step .cells[aria-label*=\"zones\"], #at-step .cells[aria-label*=\"basis after this pivot:\"]')].map((s) => s.getAttribute('aria-label').replace(/^.*?:/, '')))",
+            );
             check(same, "the zones of the last basis are those of the solution");
-            const newton = await page.run("(([zones, want]) => [zones.slice(-want.length).join(' '), want.join(' ')])([[...rollbem.views.step.data()['newton.zone'].at], [...rollbem.views.step.data().columns.zone]])");
+            const newton = await page.run(
+                "(([zones, want]) => [zones.slice(-want.length).join(' '), want.join(' ')])([[...rollbem.views.step.data()['newton.zone'].at], [...rollbem.views.step.data().columns.zone]])",
+            );
             check(newton[0] === newton[1], `Newton's last zones are ${newton[0]}, those of the solution ${newton[1]}`);
-            const told = await page.run("[...document.querySelectorAll('#at-step canvas')].map((c) => { const box = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + 0.3 * box.width, clientY: box.top + 0.6 * box.height, bubbles: true })); return c.closest('figure').querySelector('p').textContent; })");
-            for (const text of told) check(/\] = /.test(text) && !/[{}]|undefined|NaN/.test(text), `a block is explained as: ${text}`);
+            const told = await page.run(
+                "[...document.querySelectorAll('#at-step canvas')].map((c) => { const box = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + 0.3 * box.width, clientY: box.top + 0.6 * box.height, bubbles: true })); return c.closest('figure').querySelector('p').textContent; })",
+            );
+            for (const text of told)
+                check(/\] = /.test(text) && !/[{}]|undefined|NaN/.test(text), `a block is explained as: ${text}`);
             await click("Check");
             await settled();
-            check(await page.run("document.querySelector('#at-step .verdict, #at-step .bad') !== null"), "no verdict on a wrong guess");
+            check(
+                await page.run("document.querySelector('#at-step .verdict, #at-step .bad') !== null"),
+                "no verdict on a wrong guess",
+            );
             const why = await page.run("document.querySelector('#at-step .bad')?.textContent ?? ''");
             check(!/singular/.test(why) || /a given load needs elements that touch/.test(why), `the verdict: ${why}`);
             await click("Show the answer");
             await settled();
-            check(await page.run("document.querySelector('#at-step .good') !== null"), `the answer: ${await page.run("document.querySelector('#at-step .verdict')?.textContent")}`);
+            check(
+                await page.run("document.querySelector('#at-step .good') !== null"),
+                `the answer: ${await page.run("document.querySelector('#at-step .verdict')?.textContent")}`,
+            );
         });
     await test("Step through takes the elements of the case where they are few, else those of its slider", async () => {
-        const link = (n) => page.run(`location.hash = "#support=halfplane&load=100&mu=0.3&contact-elements=${n}&view=step"`);
-        const slide = (n) => page.run(`{ const s = document.getElementById('step-elements'); s.value = ${n}; s.dispatchEvent(new Event("input")); s.dispatchEvent(new Event("change")); }`);
-        for (const [what, move, want] of [["a link of 11", () => link(11), 11], ["its slider", () => slide(6), 6], ["a link of 60", () => link(60), 6], ["a link of 4", () => link(4), 4]]) {
+        const link = (n) =>
+            page.run(`location.hash = "#support=halfplane&load=100&mu=0.3&contact-elements=${n}&view=step"`);
+        const slide = (n) =>
+            page.run(
+                `{ const s = document.getElementById('step-elements'); s.value = ${n}; s.dispatchEvent(new Event("input")); s.dispatchEvent(new Event("change")); }`,
+            );
+        for (const [what, move, want] of [
+            ["a link of 11", () => link(11), 11],
+            ["its slider", () => slide(6), 6],
+            ["a link of 60", () => link(60), 6],
+            ["a link of 4", () => link(4), 4],
+        ]) {
             await move();
             await settled();
-            const got = await page.run("[rollbem.views.step.data()['pivot.p'].rows, Number(document.getElementById('step-elements').value)].join()");
+            const got = await page.run(
+                "[rollbem.views.step.data()['pivot.p'].rows, Number(document.getElementById('step-elements').value)].join()",
+            );
             check(got === `${want},${want}`, `${what}: elements, slider are ${got}`);
         }
     });
@@ -336,36 +691,74 @@ async function views(page) {
         await page.run("rollbem.views.press.answer('16')");
         await settled();
         check(/Yes, 15.9\d* mm.*99\d MPa/.test(await text_of("#at-press .answer")), await text_of("#at-press .answer"));
-        await page.run("[...document.querySelectorAll('#at-press button')].find((b) => b.textContent === 'Twice the load').click()");
+        await page.run(
+            "[...document.querySelectorAll('#at-press button')].find((b) => b.textContent === 'Twice the load').click()",
+        );
         await settled();
-        check(/^2 times the load: the strip is 1.41 times as wide, and the pressure 1.41/.test(await text_of("#at-press .after .note")), await text_of("#at-press .after .note"));
+        check(
+            /^2 times the load: the strip is 1.41 times as wide, and the pressure 1.41/.test(
+                await text_of("#at-press .after .note"),
+            ),
+            await text_of("#at-press .after .note"),
+        );
         await page.run("rollbem.open('brake')");
         await settled();
         await page.run("for (let k = 0; k < 8; k++) rollbem.views.brake.paint(k, 1); rollbem.views.brake.see()");
         await settled();
         check(/^16 of 16 right/.test(await text_of("#at-brake .answer")), await text_of("#at-brake .answer"));
-        check(/50 % of the strip slips and 75 % of the friction/.test(await page.run("document.querySelector('#at-brake').textContent")), "the state");
+        check(
+            /50 % of the strip slips and 75 % of the friction/.test(
+                await page.run("document.querySelector('#at-brake').textContent"),
+            ),
+            "the state",
+        );
         const before = await page.run("document.querySelector('#at-brake path.q').getAttribute('d')");
         await page.run("rollbem.store.set('brake', { ...rollbem.store.case('brake'), load: '2000', radius: '200' })");
         await settled();
-        const numbers = (d) => d.match(/[\d.]+/g).map(Number), after = numbers(await page.run("document.querySelector('#at-brake path.q').getAttribute('d')"));
+        const numbers = (d) => d.match(/[\d.]+/g).map(Number),
+            after = numbers(await page.run("document.querySelector('#at-brake path.q').getAttribute('d')"));
         const moved = Math.max(...numbers(before).map((v, k) => Math.abs(v - after[k])));
-        check(moved < 1.5 && /scales only/.test(await page.run("document.querySelector('#at-brake').textContent")), `the curve moved by ${moved} px`);
+        check(
+            moved < 1.5 && /scales only/.test(await page.run("document.querySelector('#at-brake').textContent")),
+            `the curve moved by ${moved} px`,
+        );
         await page.run("rollbem.open('soft')");
         await settled();
         await page.run("rollbem.views.soft.answer('larger')");
         await settled();
-        check(/^Yes. It turns as if it were larger, by 3.[89]/.test(await text_of("#at-soft .answer")), await text_of("#at-soft .answer"));
-        check(/rolling costs a moment of 0?\.?[1-9]|rolling costs a moment of \d/.test(await page.run("document.querySelector('#at-soft').textContent")), "the resistance");
+        check(
+            /^Yes. It turns as if it were larger, by 3.[89]/.test(await text_of("#at-soft .answer")),
+            await text_of("#at-soft .answer"),
+        );
+        check(
+            /rolling costs a moment of 0?\.?[1-9]|rolling costs a moment of \d/.test(
+                await page.run("document.querySelector('#at-soft').textContent"),
+            ),
+            "the resistance",
+        );
         await page.run("rollbem.preset('rail'); rollbem.open('below'); rollbem.views.below.reveal()");
         await settled();
-        const table = await page.run("[...document.querySelectorAll('.skids tbody tr')].map((r) => [...r.children].map((c) => c.textContent).join(' '))");
-        for (const want of ["rolls freely 0.79 a 0.3 p₀", "0.1 0.74 a 0.305 p₀", "0.2 0.6 a 0.319 p₀", "0.3 0.38 a 0.345 p₀", "0.4 at the surface 0.4 p₀"]) check(table.includes(want), `${want} is not in ${table.join("; ")}`);
+        const table = await page.run(
+            "[...document.querySelectorAll('.skids tbody tr')].map((r) => [...r.children].map((c) => c.textContent).join(' '))",
+        );
+        for (const want of [
+            "rolls freely 0.79 a 0.3 p₀",
+            "0.1 0.74 a 0.305 p₀",
+            "0.2 0.6 a 0.319 p₀",
+            "0.3 0.38 a 0.345 p₀",
+            "0.4 at the surface 0.4 p₀",
+        ])
+            check(table.includes(want), `${want} is not in ${table.join("; ")}`);
     });
     await test("hands on the hero, by keys: brake, turn, press", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");
         await settled();
-        const key = async (hand, name) => { await page.run(`document.querySelector('.hand.${hand}').dispatchEvent(new KeyboardEvent('keydown', { key: '${name}', bubbles: true, cancelable: true }))`); await settled(); };
+        const key = async (hand, name) => {
+            await page.run(
+                `document.querySelector('.hand.${hand}').dispatchEvent(new KeyboardEvent('keydown', { key: '${name}', bubbles: true, cancelable: true }))`,
+            );
+            await settled();
+        };
         await key("border", "ArrowRight");
         check_close(await number("creep_ratio"), 0.52, 1e-9, "the border");
         await key("rim", "ArrowLeft");
@@ -378,61 +771,119 @@ async function views(page) {
         const s = () => page.run("rollbem.page.given['creep-ratio'] ?? null");
         await page.run("rollbem.preset('rail')");
         await settled();
-        for (const value of ["0.1", "0.2", "0.3"]) { await page.run(`rollbem.page.change({ ...rollbem.page.given, "creep-ratio": "${value}" })`); await settled(); }
-        const press = async (act, want) => { await page.run(act); await page.until(`rollbem.page.given['creep-ratio'] === '${want}'`, 5); await settled(); check(await s() === want, `${act}: ${await s()}`); };
+        for (const value of ["0.1", "0.2", "0.3"]) {
+            await page.run(`rollbem.page.change({ ...rollbem.page.given, "creep-ratio": "${value}" })`);
+            await settled();
+        }
+        const press = async (act, want) => {
+            await page.run(act);
+            await page.until(`rollbem.page.given['creep-ratio'] === '${want}'`, 5);
+            await settled();
+            check((await s()) === want, `${act}: ${await s()}`);
+        };
         await press("document.querySelector('[data-history=undo]').click()", "0.2");
-        await press("window.dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, cancelable: true }))", "0.1");
-        await press("window.dispatchEvent(new KeyboardEvent('keydown', { key: 'y', ctrlKey: true, cancelable: true }))", "0.2");
+        await press(
+            "window.dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, cancelable: true }))",
+            "0.1",
+        );
+        await press(
+            "window.dispatchEvent(new KeyboardEvent('keydown', { key: 'y', ctrlKey: true, cancelable: true }))",
+            "0.2",
+        );
         await press("history.back()", "0.1");
-        check(Math.abs(await number("creep_ratio") - 0.1) < 1e-12, "the answer is another state's");
+        check(Math.abs((await number("creep_ratio")) - 0.1) < 1e-12, "the answer is another state's");
         await press("document.querySelector('[data-history=reset]').click()", "0.5");
         await press("history.back()", "0.1");
         /* a stroke of a slider is one step */
-        await page.run("{ const k = document.querySelector('[data-dial=creep-ratio]'); for (const v of [0.3, 0.6, 0.9]) { k.value = v; k.dispatchEvent(new Event('input')); } k.dispatchEvent(new Event('change')); }");
+        await page.run(
+            "{ const k = document.querySelector('[data-dial=creep-ratio]'); for (const v of [0.3, 0.6, 0.9]) { k.value = v; k.dispatchEvent(new Event('input')); } k.dispatchEvent(new Event('change')); }",
+        );
         await settled();
         await press("history.back()", "0.1");
     });
     await test("fields show what was solved: after a preset, a file, a link, undo", async () => {
         await page.run("rollbem.open('bench')");
-        const field = (name) => page.run(`document.getElementById('knob-${name}')?.value`), slider = (name) => page.run(`Number(document.querySelector('[data-knob="${name}"]').value)`);
-        for (const [what, act, want] of [["a preset", "rollbem.preset('stiff')", { radius: "100", mu: "0.6", young: "10" }], ["a file", `rollbem.page.open_file(new File([${JSON.stringify("radius = 77\nmu = 0.2\nsupport = halfplane\nload = 30\n")}], "a.ini"))`, { radius: "77", mu: "0.2" }],
-            ["a link", "location.hash = '#support=halfplane&radius=88&mu=0.25&load=50'", { radius: "88", mu: "0.25", load: "50" }], ["Back", "history.back()", { radius: "77" }]]) {
+        const field = (name) => page.run(`document.getElementById('knob-${name}')?.value`),
+            slider = (name) => page.run(`Number(document.querySelector('[data-knob="${name}"]').value)`);
+        for (const [what, act, want] of [
+            ["a preset", "rollbem.preset('stiff')", { radius: "100", mu: "0.6", young: "10" }],
+            [
+                "a file",
+                `rollbem.page.open_file(new File([${JSON.stringify("radius = 77\nmu = 0.2\nsupport = halfplane\nload = 30\n")}], "a.ini"))`,
+                { radius: "77", mu: "0.2" },
+            ],
+            [
+                "a link",
+                "location.hash = '#support=halfplane&radius=88&mu=0.25&load=50'",
+                { radius: "88", mu: "0.25", load: "50" },
+            ],
+            ["Back", "history.back()", { radius: "77" }],
+        ]) {
             await page.run(act);
             await new Promise((resolve) => setTimeout(resolve, 150));
             await page.run("rollbem.open('bench')");
             await settled();
             for (const [name, text] of Object.entries(want)) {
-                check(await field(name) === text, `${what}: ${name} is ${await field(name)}, not ${text}`);
-                check_close(await slider(name), ["mu", "poisson"].includes(name) ? Number(text) : Math.log(Number(text)), 0.03, `${what}: the slider of ${name}`);
+                check((await field(name)) === text, `${what}: ${name} is ${await field(name)}, not ${text}`);
+                check_close(
+                    await slider(name),
+                    ["mu", "poisson"].includes(name) ? Number(text) : Math.log(Number(text)),
+                    0.03,
+                    `${what}: the slider of ${name}`,
+                );
             }
         }
         await page.run("rollbem.preset('rail')");
         await settled();
-        await page.run("{ const f = document.getElementById('knob-young'); f.value = '205GPa'; f.dispatchEvent(new Event('change')); }");
+        await page.run(
+            "{ const f = document.getElementById('knob-young'); f.value = '205GPa'; f.dispatchEvent(new Event('change')); }",
+        );
         await settled();
         check_close(await slider("young"), Math.log(205000), 0.03, "the slider after 205GPa");
-        await page.run("{ const f = document.getElementById('knob-mu'); f.value = '0,25'; f.dispatchEvent(new Event('change')); }");
+        await page.run(
+            "{ const f = document.getElementById('knob-mu'); f.value = '0,25'; f.dispatchEvent(new Event('change')); }",
+        );
         await settled();
-        check(await page.run("rollbem.page.answer.values.mu") === "0.25", "0,25 is not 0.25");
+        check((await page.run("rollbem.page.answer.values.mu")) === "0.25", "0,25 is not 0.25");
     });
     await test("the soft wheel at its largest load: grey, with the library's line, no exception", async () => {
         await page.run("rollbem.preset('stiff'); rollbem.open('bench')");
         await settled();
         await page.run("rollbem.page.change({ ...rollbem.page.given, load: '100000' })");
         await settled();
-        check(/does not end within/.test(await text_of("#message")) && (await page.run("document.querySelector('.contact').classList.contains('stale')")), `${await text_of("#message")}`);
-        check(/linear elasticity does not hold/.test(await text_of(".contact .notes")), `notes: ${await text_of(".contact .notes")}`);
+        check(
+            /does not end within/.test(await text_of("#message")) &&
+                (await page.run("document.querySelector('.contact').classList.contains('stale')")),
+            `${await text_of("#message")}`,
+        );
+        check(
+            /linear elasticity does not hold/.test(await text_of(".contact .notes")),
+            `notes: ${await text_of(".contact .notes")}`,
+        );
     });
     await test("the point of the creep curve dragged sideways, and far off its axis", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('bench')");
         await settled();
-        const box = await page.run("(() => { const h = document.querySelector('[data-handle=bench]'); h.scrollIntoView({ block: 'center' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
-        const mouse = (type, dx) => page.tab("Input.dispatchMouseEvent", { type, x: box[0] + dx, y: box[1], button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1 });
+        const box = await page.run(
+            "(() => { const h = document.querySelector('[data-handle=bench]'); h.scrollIntoView({ block: 'center' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()",
+        );
+        const mouse = (type, dx) =>
+            page.tab("Input.dispatchMouseEvent", {
+                type,
+                x: box[0] + dx,
+                y: box[1],
+                button: "left",
+                buttons: type === "mouseReleased" ? 0 : 1,
+                clickCount: 1,
+            });
         await mouse("mousePressed", 0);
         for (const dx of [3, 10, 30, 60]) await mouse("mouseMoved", dx);
         await mouse("mouseReleased", 60);
         await settled();
-        check(await page.run("'creep-ratio' in rollbem.page.given") && (await number("creep_ratio")) > 0.55, `creep ratio ${await number("creep_ratio")}`);
+        check(
+            (await page.run("'creep-ratio' in rollbem.page.given")) && (await number("creep_ratio")) > 0.55,
+            `creep ratio ${await number("creep_ratio")}`,
+        );
         await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '13.6' })");
         await settled();
         check(/13.6 →/.test(await text_of("#at-bench svg text.off")), "13.6 is shown as something else");
@@ -440,14 +891,23 @@ async function views(page) {
     await test("a finger that scrolls over a slider leaves it as it was; a matrix lets the page scroll", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");
         await settled();
-        await page.run("{ const k = document.querySelector('[data-dial=creep-ratio]'); k.dispatchEvent(new PointerEvent('pointerdown', { pointerType: 'touch', bubbles: true })); k.value = 1; k.dispatchEvent(new Event('input')); k.dispatchEvent(new PointerEvent('pointercancel', { pointerType: 'touch', bubbles: true })); }");
+        await page.run(
+            "{ const k = document.querySelector('[data-dial=creep-ratio]'); k.dispatchEvent(new PointerEvent('pointerdown', { pointerType: 'touch', bubbles: true })); k.value = 1; k.dispatchEvent(new Event('input')); k.dispatchEvent(new PointerEvent('pointercancel', { pointerType: 'touch', bubbles: true })); }",
+        );
         await settled();
         check_close(await number("creep_ratio"), 0.5, 2e-3, "creep ratio after a swipe");
-        const styles = await page.run("[...document.querySelectorAll('input[type=range]')].map((e) => getComputedStyle(e).touchAction).concat(getComputedStyle(document.querySelector('#at-step canvas') ?? document.body).touchAction)");
-        check(styles.every((style) => ["pan-y", "manipulation", "auto"].includes(style)), styles.join());
+        const styles = await page.run(
+            "[...document.querySelectorAll('input[type=range]')].map((e) => getComputedStyle(e).touchAction).concat(getComputedStyle(document.querySelector('#at-step canvas') ?? document.body).touchAction)",
+        );
+        check(
+            styles.every((style) => ["pan-y", "manipulation", "auto"].includes(style)),
+            styles.join(),
+        );
     });
     await test("a fast stroke over the drawn line sets every point", async () => {
-        await page.run("rollbem.preset('rail'); rollbem.open('roll'); document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=creep_ratio]').click()");
+        await page.run(
+            "rollbem.preset('rail'); rollbem.open('roll'); document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=creep_ratio]').click()",
+        );
         await settled();
         await page.run(`(() => { const svg = document.querySelector("#at-roll svg.hand-line"), box = svg.getBoundingClientRect(), send = (on, type, u, v) => on.dispatchEvent(new PointerEvent(type, { clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
             send(svg, "pointerdown", 0.17, 0.3); send(window, "pointermove", 0.97, 0.3); send(window, "pointerup", 0.97, 0.3); })()`);
@@ -460,157 +920,283 @@ async function views(page) {
     await test("JSON as the program has it: command, notes, units, status, signs", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('take')");
         await settled();
-        const got = JSON.parse(await page.run("document.querySelector('[data-take=json]').value")), want = JSON.parse(run(["--json", "--quiet", ...got.command.split(" ").slice(1)]).stdout);
-        for (const name of ["schema", "version", "conventions"]) check(got[name] === want[name], `${name}: ${got[name]}`);
-        for (const name of ["notes", "units"]) check(JSON.stringify(got[name]) === JSON.stringify(want[name]), `${name}: ${JSON.stringify(got[name])}`);
-        for (const name of ["status", "formulation", "solver", "lcp_form"]) check(got.summary[name] === want.summary[name], `${name}: ${got.summary[name]}, the program has ${want.summary[name]}`);
-        for (const name of Object.keys(want.table)) if (got.table[name]) check(got.table[name].length === want.table[name].length, name);
-        for (const [name, value] of Object.entries(got.inputs)) check(want.inputs[name] === value, `input ${name}: ${value}, the program has ${want.inputs[name]}`);
+        const got = JSON.parse(await page.run("document.querySelector('[data-take=json]').value")),
+            want = JSON.parse(run(["--json", "--quiet", ...got.command.split(" ").slice(1)]).stdout);
+        for (const name of ["schema", "version", "conventions"])
+            check(got[name] === want[name], `${name}: ${got[name]}`);
+        for (const name of ["notes", "units"])
+            check(JSON.stringify(got[name]) === JSON.stringify(want[name]), `${name}: ${JSON.stringify(got[name])}`);
+        for (const name of ["status", "formulation", "solver", "lcp_form"])
+            check(
+                got.summary[name] === want.summary[name],
+                `${name}: ${got.summary[name]}, the program has ${want.summary[name]}`,
+            );
+        for (const name of Object.keys(want.table))
+            if (got.table[name]) check(got.table[name].length === want.table[name].length, name);
+        for (const [name, value] of Object.entries(got.inputs))
+            check(want.inputs[name] === value, `input ${name}: ${value}, the program has ${want.inputs[name]}`);
     });
     await test("pictures to take along are whole SVG files", async () => {
-        for (const text of [await page.run("rollbem.views.hero.picture_of()"), await page.run("(rollbem.open('below'), null)")].filter(Boolean)) {
-            const ok = await page.run(`(() => { const d = new DOMParser().parseFromString(${JSON.stringify(text)}, "image/svg+xml"); return !d.querySelector("parsererror") && d.querySelectorAll("path").length; })()`);
+        for (const text of [
+            await page.run("rollbem.views.hero.picture_of()"),
+            await page.run("(rollbem.open('below'), null)"),
+        ].filter(Boolean)) {
+            const ok = await page.run(
+                `(() => { const d = new DOMParser().parseFromString(${JSON.stringify(text)}, "image/svg+xml"); return !d.querySelector("parsererror") && d.querySelectorAll("path").length; })()`,
+            );
             check(ok > 20, `${ok} paths`);
         }
     });
-    await test("one condition that fails is one", () => check(words.guess_wrong.one.startsWith("1 condition fails") && words.guess_wrong.other.includes("conditions fail"), "plural"));
+    await test("one condition that fails is one", () =>
+        check(
+            words.guess_wrong.one.startsWith("1 condition fails") &&
+                words.guess_wrong.other.includes("conditions fail"),
+            "plural",
+        ));
     await test("an embedded first screen, and nothing else", async () => {
-        const other = await open_page(`${url}#mu=0.2&support=halfplane&support-b=halfplane&similar=yes&formulation=steady&load=1000&creep-ratio=0.3&embed=hero`);
+        const other = await open_page(
+            `${url}#mu=0.2&support=halfplane&support-b=halfplane&similar=yes&formulation=steady&load=1000&creep-ratio=0.3&embed=hero`,
+        );
         try {
             await other.until(IDLE);
-            check(await other.run("document.querySelectorAll('main > section').length === 1 && getComputedStyle(document.querySelector('header')).display === 'none' && rollbem.page.answer.values.mu === '0.2'"), "more than the hero, or another case");
+            check(
+                await other.run(
+                    "document.querySelectorAll('main > section').length === 1 && getComputedStyle(document.querySelector('header')).display === 'none' && rollbem.page.answer.values.mu === '0.2'",
+                ),
+                "more than the hero, or another case",
+            );
             check(other.errors.length === 0, other.errors.join("; "));
-        } finally { await other.close(); }
+        } finally {
+            await other.close();
+        }
     });
     await test("rolled, and looked below", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('roll')");
         await settled();
         await page.run("rollbem.views.roll.player.go(1e9)");
-        check(/within 1 %/.test(await page.run("document.querySelector('#at-roll').textContent")), "the steady value is not reached");
-        check(await page.run("rollbem.views.roll.player.at") > 20, "steps");
-        await page.run("document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=force_ratio]').click()");
+        check(
+            /within 1 %/.test(await page.run("document.querySelector('#at-roll').textContent")),
+            "the steady value is not reached",
+        );
+        check((await page.run("rollbem.views.roll.player.at")) > 20, "steps");
+        await page.run(
+            "document.querySelector('#at-roll .hand-drawn').open = true; document.querySelector('input[name=hand][value=force_ratio]').click()",
+        );
         await settled();
-        const drag = await page.run(`(() => { const [svg] = document.querySelectorAll("#at-roll svg.hand-line"), box = svg.getBoundingClientRect(), send = (on, type, u, v) => on.dispatchEvent(new PointerEvent(type, { clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
+        const drag =
+            await page.run(`(() => { const [svg] = document.querySelectorAll("#at-roll svg.hand-line"), box = svg.getBoundingClientRect(), send = (on, type, u, v) => on.dispatchEvent(new PointerEvent(type, { clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
             const before = rollbem.page.drawn.values.join(" "); send(svg, "pointerdown", 0.5, 0.3); send(window, "pointermove", 0.7, 0.2); send(window, "pointermove", 0.98, 0.25); send(window, "pointerup", 0.98, 0.25); return [before, rollbem.page.drawn.values.join(" ")]; })()`);
         check(drag[0] !== drag[1], "the line stays as it was");
         await settled();
-        const { at, force } = await page.run("({ at: rollbem.page.drawn.values.at(-1), force: rollbem.views.roll.force() })");
+        const { at, force } = await page.run(
+            "({ at: rollbem.page.drawn.values.at(-1), force: rollbem.views.roll.force() })",
+        );
         check_close(force, at, 1e-9, "the force at the end is the one that was drawn");
         await page.run("document.querySelector('input[name=hand][value=none]').click()");
         await settled();
         await page.run("rollbem.open('below')");
         await settled();
-        for (const kind of ["von_mises", "fringes", "max_shear"]) await page.run(`document.querySelector('#at-below input[value=${kind}]').click()`);
+        for (const kind of ["von_mises", "fringes", "max_shear"])
+            await page.run(`document.querySelector('#at-below input[value=${kind}]').click()`);
         await page.run("rollbem.views.below.reveal()");
         await settled();
         check(await page.run("document.querySelector('#at-below image') !== null"), "no map");
     });
     await test("a page that rollbem page made opens with its case", async () => {
-        const folder = mkdtempSync(join(tmpdir(), "page-")), made = join(folder, "made.html");
+        const folder = mkdtempSync(join(tmpdir(), "page-")),
+            made = join(folder, "made.html");
         const ran = run(["page", "examples/rail/case.ini", "--mu", "0.2", "--page", file, "--output", made]);
         check(ran.status === 0, ran.stderr);
         const other = await open_page(pathToFileURL(made).href);
         try {
             await other.until(IDLE);
-            const want = flatten({ ...JSON.parse(run(["--json", "--quiet", "examples/rail/case.ini", "--mu", "0.2"]).stdout), inputs: null });
-            check_close(await other.run("rollbem.page.answer.numbers.tangential_load"), want.tangential_load, FITTED * want.normal_load, "Q");
-        } finally { await other.close(); rmSync(folder, { recursive: true }); }
+            const want = flatten({
+                ...JSON.parse(run(["--json", "--quiet", "examples/rail/case.ini", "--mu", "0.2"]).stdout),
+                inputs: null,
+            });
+            check_close(
+                await other.run("rollbem.page.answer.numbers.tangential_load"),
+                want.tangential_load,
+                FITTED * want.normal_load,
+                "Q",
+            );
+        } finally {
+            await other.close();
+            rmSync(folder, { recursive: true });
+        }
     });
     await test("what rollbem page takes the page solves: up to 400 elements", () => {
         for (const more of [{}, { formulation: "steady", "creep-ratio": "0.5" }, { support: "arc" }])
             for (const n of ["300", "400"]) {
-                const given = { support: "halfplane", load: "100", "contact-elements": n, ...more }, got = answer(library, { kind: "solve", given });
+                const given = { support: "halfplane", load: "100", "contact-elements": n, ...more },
+                    got = answer(library, { kind: "solve", given });
                 check(!got.refused && !got.unsolved, `${JSON.stringify(given)}: ${got.refused ?? got.unsolved}`);
             }
     });
     await test("rollbem page refuses what the page itself cannot show", () => {
         for (const more of [{ error: "yes" }, { accuracy: "1e-3" }, { "contact-elements": "401" }]) {
-            const given = { support: "halfplane", load: "100", ...more }, ran = run(["page", ...words_of(given), "--page", file]);
+            const given = { support: "halfplane", load: "100", ...more },
+                ran = run(["page", ...words_of(given), "--page", file]);
             const { refused } = answer(library, { kind: "solve", given });
-            check(ran.status === 64 && ran.stdout === "" && ran.stderr.trim() === `rollbem: ${refused}`, `got '${ran.stderr}', the page says '${refused}'`);
+            check(
+                ran.status === 64 && ran.stdout === "" && ran.stderr.trim() === `rollbem: ${refused}`,
+                `got '${ran.stderr}', the page says '${refused}'`,
+            );
         }
     });
     await test("a case file opened, and files that are none", async () => {
         await page.run("rollbem.open('bench')");
-        await page.run(`rollbem.page.open_file(new File([${JSON.stringify("[friction]\nmu = 0.17 ; of a file\n[load]\nload = 300\n[body-a]\nsupport = halfplane\n")}], "case.ini"))`);
+        await page.run(
+            `rollbem.page.open_file(new File([${JSON.stringify("[friction]\nmu = 0.17 ; of a file\n[load]\nload = 300\n[body-a]\nsupport = halfplane\n")}], "case.ini"))`,
+        );
         await settled();
         await same_as_the_program();
-        check(await page.run("rollbem.page.answer.values.mu") === "0.17", "mu is not the file's");
-        for (const [text, line] of [["<script>alert(1)</script>", "expected name = value"], ["x".repeat(50000), "more than"], ["mu = <img src=x onerror=alert(1)>", "--mu: expected a number"], ["colour = red", "unknown option"]]) {
+        check((await page.run("rollbem.page.answer.values.mu")) === "0.17", "mu is not the file's");
+        for (const [text, line] of [
+            ["<script>alert(1)</script>", "expected name = value"],
+            ["x".repeat(50000), "more than"],
+            ["mu = <img src=x onerror=alert(1)>", "--mu: expected a number"],
+            ["colour = red", "unknown option"],
+        ]) {
             await page.run(`rollbem.page.open_file(new File([${JSON.stringify(text)}], "case.ini"))`);
             await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);
-            check(await page.run("document.querySelectorAll('#message *').length") === 0, "the message holds elements");
+            check(
+                (await page.run("document.querySelectorAll('#message *').length")) === 0,
+                "the message holds elements",
+            );
         }
     });
-    for (const [link, line] of [["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"], ["#nothing=1", "unknown option"], ["#contact-elements=1e9", "--contact-elements"], [`#mu=${"9".repeat(5000)}`, "could not be read"], ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"], ["#formulation=transient&history=/etc/passwd", "/etc/passwd"], ["#mu=0.3&load=-1", "this is the first case"]])
+    for (const [link, line] of [
+        ["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"],
+        ["#nothing=1", "unknown option"],
+        ["#contact-elements=1e9", "--contact-elements"],
+        [`#mu=${"9".repeat(5000)}`, "could not be read"],
+        ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"],
+        ["#formulation=transient&history=/etc/passwd", "/etc/passwd"],
+        ["#mu=0.3&load=-1", "this is the first case"],
+    ])
         await test(`a hostile link says so: ${link.slice(0, 30)}`, async () => {
             await page.run(`location.hash = ${JSON.stringify(link)}`);
             await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);
-            check(await page.run("document.querySelectorAll('#message *').length") === 0, "the message holds elements");
+            check(
+                (await page.run("document.querySelectorAll('#message *').length")) === 0,
+                "the message holds elements",
+            );
         });
-    for (const [width, height] of [[320, 640], [390, 844], [667, 375], [820, 1180], [900, 700], [1280, 900], [1920, 1080]])
+    for (const [width, height] of [
+        [320, 640],
+        [390, 844],
+        [667, 375],
+        [820, 1180],
+        [900, 700],
+        [1280, 900],
+        [1920, 1080],
+    ])
         await test(`every view fits ${width} x ${height}, and its controls are in sight`, async () => {
             await page.size(width, height, false, width < 900);
             for (const view of VIEWS) {
                 await page.run(`rollbem.open('${view}')`);
                 await settled();
-                const right = await page.run("[document.documentElement.scrollWidth, ...[...document.querySelectorAll('main section, main .card, main figure, main .stage-box')].map((e) => e.getBoundingClientRect().right)]");
+                const right = await page.run(
+                    "[document.documentElement.scrollWidth, ...[...document.querySelectorAll('main section, main .card, main figure, main .stage-box')].map((e) => e.getBoundingClientRect().right)]",
+                );
                 check(Math.max(...right) <= width, `${view}: ${right.map(Math.round).filter((x) => x > width)}`);
             }
             /* What lies over a slider is no slider: the middle of each can be touched once it is scrolled to. */
-            const hidden = await page.run("[...document.querySelectorAll('input[type=range]')].filter((e) => e.offsetParent).filter((e) => { e.scrollIntoView({ block: 'center', behavior: 'instant' }); const b = e.getBoundingClientRect(); return document.elementFromPoint(b.left + b.width / 2, b.top + b.height / 2) !== e; }).map((e) => e.getAttribute('aria-label') ?? e.id)");
+            const hidden = await page.run(
+                "[...document.querySelectorAll('input[type=range]')].filter((e) => e.offsetParent).filter((e) => { e.scrollIntoView({ block: 'center', behavior: 'instant' }); const b = e.getBoundingClientRect(); return document.elementFromPoint(b.left + b.width / 2, b.top + b.height / 2) !== e; }).map((e) => e.getAttribute('aria-label') ?? e.id)",
+            );
             check(!hidden.length, `covered: ${hidden}`);
         });
     await test("the keyboard goes from top to bottom, on a phone and on a screen", async () => {
-        for (const [width, mobile] of [[390, true], [1280, false]]) {
+        for (const [width, mobile] of [
+            [390, true],
+            [1280, false],
+        ]) {
             await page.size(width, 844, false, mobile);
             await settled();
             /* In the order of the keyboard nothing is above the section of what came before. */
-            const tops = await page.run("[...document.querySelectorAll('main section.chapter')].map((s) => s.getBoundingClientRect().top + scrollY)");
-            check(tops.every((top, k) => !k || top > tops[k - 1]), `${tops}`);
-            const [picture, panel, before] = await page.run("[document.querySelector('.tractions').getBoundingClientRect().top, at('controls').getBoundingClientRect().top, Boolean(at('controls').compareDocumentPosition(document.querySelector('.tractions')) & Node.DOCUMENT_POSITION_FOLLOWING)]");
-            check(width > 800 ? before : !before && panel > picture, `${width} px: the controls at ${panel}, the picture at ${picture}`);
+            const tops = await page.run(
+                "[...document.querySelectorAll('main section.chapter')].map((s) => s.getBoundingClientRect().top + scrollY)",
+            );
+            check(
+                tops.every((top, k) => !k || top > tops[k - 1]),
+                `${tops}`,
+            );
+            const [picture, panel, before] = await page.run(
+                "[document.querySelector('.tractions').getBoundingClientRect().top, at('controls').getBoundingClientRect().top, Boolean(at('controls').compareDocumentPosition(document.querySelector('.tractions')) & Node.DOCUMENT_POSITION_FOLLOWING)]",
+            );
+            check(
+                width > 800 ? before : !before && panel > picture,
+                `${width} px: the controls at ${panel}, the picture at ${picture}`,
+            );
         }
         await page.size(1280, 900);
     });
     await test("the sketch of the signs is shown, and closed again", async () => {
-        const click = (where, text) => page.run(`[...document.querySelectorAll('${where} button')].find((b) => b.textContent === '${text}').click()`);
+        const click = (where, text) =>
+            page.run(
+                `[...document.querySelectorAll('${where} button')].find((b) => b.textContent === '${text}').click()`,
+            );
         await click("#controls", "Signs: what is positive");
-        check(await page.run("at('signs').open && at('signs').querySelector('img').naturalWidth > 0 && at('signs').querySelector('img').clientWidth >= 600"), "no sketch, or one too small to read");
+        check(
+            await page.run(
+                "at('signs').open && at('signs').querySelector('img').naturalWidth > 0 && at('signs').querySelector('img').clientWidth >= 600",
+            ),
+            "no sketch, or one too small to read",
+        );
         await click("#signs", "Close");
         check(await page.run("!at('signs').open"), "it stays");
     });
     await test("every control has a name, every picture a description", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('bench')");
         await settled();
-        const nameless = await page.run("[...document.querySelectorAll('input, button, select, textarea, [role=img], [role=slider]')].filter((e) => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80))");
+        const nameless = await page.run(
+            "[...document.querySelectorAll('input, button, select, textarea, [role=img], [role=slider]')].filter((e) => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80))",
+        );
         check(nameless.length === 0, nameless.join(" "));
     });
     const axe = axe_source();
     if (axe) {
         await page.run(`${axe};0`);
-        for (const mode of ["light", "dark"])
-            await test(`no finding of axe-core in any view, ${mode}`, async () => {
-                await page.size(1280, 900, mode === "dark");
+        for (const [mode, width] of [
+            ["light", 1280],
+            ["dark", 1280],
+            ["light", 390],
+            ["dark", 320],
+        ])
+            await test(`no finding of axe-core in any view, ${mode}, ${width} px`, async () => {
+                await page.size(width, 900, mode === "dark");
                 await page.run("rollbem.preset('stiff')");
-                for (const view of VIEWS) { /* each comes near, and so is drawn */
+                for (const view of VIEWS) {
+                    /* each comes near, and so is drawn */
                     await page.run(`rollbem.open("${view}")`);
                     await settled();
                 }
                 for (const sheet of [0, 1]) {
-                    await page.run(`document.querySelectorAll("main details").forEach((d) => { d.open = ${Boolean(sheet)}; }); ${sheet ? "document.querySelector('input[name=hand][value=load]')?.click()" : ""}`);
+                    await page.run(
+                        `document.querySelectorAll("main details").forEach((d) => { d.open = ${Boolean(sheet)}; }); ${sheet ? "document.querySelector('input[name=hand][value=load]')?.click()" : ""}`,
+                    );
                     await settled();
-                    const found = await page.run("axe.run(document).then((r) => r.violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 100)} ${n.any[0]?.message ?? ''}`)))");
+                    const found = await page.run(
+                        "axe.run(document).then((r) => r.violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 100)} ${n.any[0]?.message ?? ''}`)))",
+                    );
                     check(found.length === 0, `${sheet ? "opened" : "closed"}: ${found.slice(0, 6).join("; ")}`);
                 }
-                await page.run("document.querySelector('input[name=hand][value=none]')?.click(); document.querySelectorAll('main details').forEach((d) => { d.open = false; })");
+                await page.run(
+                    "document.querySelector('input[name=hand][value=none]')?.click(); document.querySelectorAll('main details').forEach((d) => { d.open = false; })",
+                );
             });
         await page.size(1280, 900);
     } else console.log("[  SKIPPED ] accessibility: axe-core cannot be had from npm here");
     /* Young's modulus makes all anew; friction leaves the flexibility where the zone is given. */
     const moves = process.env.ROLLBEM_TEST_ALL ? 200 : 20;
-    for (const [what, preset, more, option, from] of [["60 elements cold, half-planes", "rail", { "contact-elements": "60" }, "young", 150000], ["60 elements cold, wheel", "stiff", { "contact-elements": "60" }, "young", 10],
-        ["200 elements on a given zone, half-planes", "rail", { "contact-elements": "200", zone: "3" }, "mu", 0.2], ["200 elements on a given zone, wheel", "stiff", { "contact-elements": "200", zone: "24" }, "mu", 0.4]])
+    for (const [what, preset, more, option, from] of [
+        ["60 elements cold, half-planes", "rail", { "contact-elements": "60" }, "young", 150000],
+        ["60 elements cold, wheel", "stiff", { "contact-elements": "60" }, "young", 10],
+        ["200 elements on a given zone, half-planes", "rail", { "contact-elements": "200", zone: "3" }, "mu", 0.2],
+        ["200 elements on a given zone, wheel", "stiff", { "contact-elements": "200", zone: "24" }, "mu", 0.4],
+    ])
         await test(`a move is shown: ${what} (a figure, no bound)`, async () => {
             await page.run(`rollbem.preset('${preset}')`);
             await settled();
@@ -618,10 +1204,49 @@ async function views(page) {
             await settled();
             const times = await page.run(`rollbem.time_moves("${option}", ${from}, ${moves})`);
             check(times.length === moves, `${times.length} moves`);
-            console.log(`         ${what}, ${moves} moves of ${option}: median ${times[moves / 2].toFixed(1)} ms, worst ${times.at(-1).toFixed(1)} ms`);
-            const given = await page.run("rollbem.page.given"), want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...words_of(given)]).stdout), inputs: null });
-            check_close(await number("approach"), want.approach, FITTED * want.approach, "the approach after the last move");
+            console.log(
+                `         ${what}, ${moves} moves of ${option}: median ${times[moves / 2].toFixed(1)} ms, worst ${times.at(-1).toFixed(1)} ms`,
+            );
+            const given = await page.run("rollbem.page.given"),
+                want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...words_of(given)]).stdout), inputs: null });
+            check_close(
+                await number("approach"),
+                want.approach,
+                FITTED * want.approach,
+                "the approach after the last move",
+            );
         });
+    await crawled("Chromium", page);
+    await test("frames while a hand drags the border of the hero (a figure, no bound)", async () => {
+        await page.size(1440, 900);
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        const box = await page.run(
+            "(() => { const b = document.querySelector('.hand.border').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()",
+        );
+        const mouse = (type, dx) =>
+            page.tab("Input.dispatchMouseEvent", {
+                type,
+                x: box[0] + dx,
+                y: box[1],
+                button: "left",
+                buttons: type === "mouseReleased" ? 0 : 1,
+                clickCount: 1,
+            });
+        await mouse("mousePressed", 0);
+        await page.run("rollbem.views.hero.forget_frames()");
+        for (let k = 0; k < 120; k++) {
+            await mouse("mouseMoved", 120 * Math.sin(k / 12));
+            await new Promise((resolve) => setTimeout(resolve, 12));
+        }
+        const frames = (await page.run("rollbem.views.hero.frames()")).sort((a, b) => a - b);
+        await mouse("mouseReleased", 0);
+        await settled();
+        check(frames.length > 10, `${frames.length} frames`);
+        console.log(
+            `         60 elements, dragged: a frame every ${frames[frames.length >> 1].toFixed(1)} ms in the median, 95 % below ${frames[Math.floor(0.95 * frames.length)].toFixed(1)} ms; the first solved picture after ${(await page.run("performance.getEntriesByName('first-solved')[0].startTime")).toFixed(0)} ms`,
+        );
+    });
     await test("no error, no request", () => {
         check(page.errors.length === 0, page.errors.join("; "));
         const outside = page.requested.filter((address) => !/^(file|blob|data):/.test(address));
@@ -631,9 +1256,34 @@ async function views(page) {
 
 if (spawnSync("chromium", ["--version"]).status === 0) {
     const page = await open_page(url);
-    try { await views(page); } finally { await page.close(); }
+    try {
+        await views(page);
+    } finally {
+        await page.close();
+    }
 } else {
     console.log("[  SKIPPED ] the page in a browser: no chromium here");
 }
+if (spawnSync("firefox-esr", ["--version"]).status === 0) {
+    const page = await open_in_firefox(url);
+    try {
+        await test("Firefox: the page solves, says so and draws", async () => {
+            await page.until(IDLE);
+            check(
+                /^Half of this contact/.test(await page.run("document.getElementById('headline').textContent")),
+                "the headline",
+            );
+            check(
+                await page.run(
+                    "(() => { const c = document.querySelector('canvas.stage'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; return new Set(d.filter((v, k) => k % 4 === 0)).size > 20; })()",
+                ),
+                "an empty stage",
+            );
+        });
+        await crawled("Firefox", page);
+    } finally {
+        await page.close();
+    }
+} else console.log("[  SKIPPED ] the page in Firefox: no firefox-esr here");
 console.log(`page: ${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);

@@ -9,7 +9,9 @@ export const LEFT_OUT = ["accuracy", "error", "irregularity"];
 /* A case of these words.  Of each slot of requests the last case is kept: where only values differ
  * they are set on it, and the library uses what it can of its matrices again. */
 function case_of(library, slot, given) {
-    const kept = (library.kept ??= new Map()), last = kept.get(slot), names = Object.keys(given);
+    const kept = (library.kept ??= new Map()),
+        last = kept.get(slot),
+        names = Object.keys(given);
     const same = last && names.length === Object.keys(last.given).length && names.every((name) => name in last.given);
     if (!same) last?.work.free();
     const work = same ? last.work : new library.Case();
@@ -27,10 +29,12 @@ function solve_case(library, slot, given, then, files = {}) {
     for (const [name, text] of Object.entries(files)) library.files.set(name, new TextEncoder().encode(text));
     for (const [name, text] of Object.entries(given)) {
         if (LEFT_OUT.includes(name)) return { refused: `--${name}: not in the page, use the program` };
-        if (Number(text) > LARGEST[name]) return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
+        if (Number(text) > LARGEST[name])
+            return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
     }
     if (library.files.size) forget_case(library, slot); /* a case reads its files once */
-    const { work, changed } = case_of(library, slot, given), start = performance.now();
+    const { work, changed } = case_of(library, slot, given),
+        start = performance.now();
     try {
         if (changed.some((name) => work.set(name, given[name]) < 0) || work.solve() < 0) {
             const refused = work.message;
@@ -50,15 +54,21 @@ function all_results(work, library) {
     const names = [...library.results.number.map((row) => row.name), "carter", "radius", "modulus"];
     return {
         numbers: Object.fromEntries(names.map((name) => [name, work.number(name)])),
-        words: Object.fromEntries(["status", "formulation", "solver", "lcp-form"].map((name) => [name, work.word(name)])),
+        words: Object.fromEntries(
+            ["status", "formulation", "solver", "lcp-form"].map((name) => [name, work.word(name)]),
+        ),
         notes: work.notes,
         columns: Object.fromEntries(library.results.column.map(({ name }) => [name, work.array(name)?.at])),
-        values: Object.fromEntries(library.options.filter((o) => o.kind !== "group").map(({ name }) => [name, work.value(name)])),
+        values: Object.fromEntries(
+            library.options.filter((o) => o.kind !== "group").map(({ name }) => [name, work.value(name)]),
+        ),
     };
 }
 
 const steps = (work, library) => {
-    const history = Object.fromEntries(library.results.step.map(({ name }) => [name, work.array(`history.${name}`)?.at]));
+    const history = Object.fromEntries(
+        library.results.step.map(({ name }) => [name, work.array(`history.${name}`)?.at]),
+    );
     return { ...all_results(work, library), history, ...arrays(work, ["step.x", "step.p", "step.q", "step.zone"]) };
 };
 
@@ -70,28 +80,66 @@ function pivots(work, library) {
     for (let k = 0, name; (name = work.variable(k)) !== null; k++) names.push(name);
     const parts = ["entering", "leaving", "row", "ratio", "z0", "basis", "value", "before", "column", "p", "q"];
     const newton = work.newton() < 0 ? {} : arrays(work, ["newton.zone", "newton.p", "newton.q"]);
-    return { ...all_results(work, library), names, end, ...newton, ...arrays(work, parts.map((part) => `pivot.${part}`)),
-        ...arrays(work, ["H", "G", "F", "lcp.M", "lcp.q", "ends", "gap0", "mesh.x0", "mesh.y0", "mesh.x1", "mesh.y1"]) };
+    return {
+        ...all_results(work, library),
+        names,
+        end,
+        ...newton,
+        ...arrays(
+            work,
+            parts.map((part) => `pivot.${part}`),
+        ),
+        ...arrays(work, ["H", "G", "F", "lcp.M", "lcp.q", "ends", "gap0", "mesh.x0", "mesh.y0", "mesh.x1", "mesh.y1"]),
+    };
 }
 
 const answers = {
     solve: (library, { slot, given }) => solve_case(library, slot, given, all_results),
     /* With Hertz and Carter beside it, where they hold. */
-    closed: (library, { slot, given }) => solve_case(library, slot, given, (work, l) => ({ ...all_results(work, l), ...arrays(work, ["closed.p", "closed.q"]) })),
+    closed: (library, { slot, given }) =>
+        solve_case(library, slot, given, (work, l) => ({
+            ...all_results(work, l),
+            ...arrays(work, ["closed.p", "closed.q"]),
+        })),
     roll: (library, { slot, given, files }) => solve_case(library, slot, given, steps, files),
     pivots: (library, { slot, given }) => solve_case(library, slot, given, pivots),
-    curve: (library, { slot, given, from, to, points }) => solve_case(library, slot, given, (work, { results }) =>
-        work.curve(from, to, points) < 0 ? { refused: work.message }
-            : { points: Object.fromEntries(results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at])) }),
-    guess: (library, { slot, given, zones }) => solve_case(library, slot, given, (work) => {
-        const status = work.guess(zones);
-        return status !== 0 ? { refused: work.message } : arrays(work, ["guess.p", "guess.q", "guess.gap", "guess.shift", "ends"]);
-    }),
+    curve: (library, { slot, given, from, to, points }) =>
+        solve_case(library, slot, given, (work, { results }) =>
+            work.curve(from, to, points) < 0
+                ? { refused: work.message }
+                : {
+                      points: Object.fromEntries(
+                          results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at]),
+                      ),
+                  },
+        ),
+    guess: (library, { slot, given, zones }) =>
+        solve_case(library, slot, given, (work) => {
+            const status = work.guess(zones);
+            return status !== 0
+                ? { refused: work.message }
+                : arrays(work, ["guess.p", "guess.q", "guess.gap", "guess.shift", "ends"]);
+        }),
     /* maxima: with the largest stresses, which the library finds between the points of the grid. */
-    stress: (library, { slot, given, nx, ny, depth, maxima }) => solve_case(library, slot, given, (work, l) =>
-        work.stress(nx, ny, depth) < 0 || (maxima && work.maxima(depth) < 0) ? { refused: work.message }
-            : { ...all_results(work, l), ...arrays(work, ["stress.x", "stress.y", "stress.max_shear", "stress.sxx", "stress.syy",
-                "stress.sxy", "stress.von_mises", "maxima.max_shear", "maxima.von_mises"]) }),
+    stress: (library, { slot, given, nx, ny, depth, maxima }) =>
+        solve_case(library, slot, given, (work, l) =>
+            work.stress(nx, ny, depth) < 0 || (maxima && work.maxima(depth) < 0)
+                ? { refused: work.message }
+                : {
+                      ...all_results(work, l),
+                      ...arrays(work, [
+                          "stress.x",
+                          "stress.y",
+                          "stress.max_shear",
+                          "stress.sxx",
+                          "stress.syy",
+                          "stress.sxy",
+                          "stress.von_mises",
+                          "maxima.max_shear",
+                          "maxima.von_mises",
+                      ]),
+                  },
+        ),
 };
 /* A request of its own slot where it names none. */
 const answer_of = (library, request) => answers[request.kind](library, { slot: request.kind, ...request });
