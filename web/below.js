@@ -333,6 +333,7 @@ export function below_view(words, page) {
     }
     /* A point is marked by pointer, or by arrow keys and Enter. */
     function make_guessable(root) {
+        root.setAttribute("role", "group");
         const box = svg("rect", {
             x: place.left,
             y: place.top,

@@ -221,7 +221,7 @@ export function brake_view(words, page) {
     const told = html("p", { class: "answer", "aria-live": "polite" }),
         state = html("p", { "aria-live": "polite" }),
         care = html("p", { class: "note", "aria-live": "polite" }),
-        solved_row = html("div", { class: "cells", role: "img" });
+        solved_row = html("div", { class: "cells", role: "img", hidden: true });
     let painted = Array(CELLS).fill(0),
         revealed = false,
         drawn_for = null,
@@ -400,6 +400,7 @@ export function brake_view(words, page) {
             used = Math.abs(n.force_ratio),
             slips = n.contact ? 1 - n.stick_length / (n.contact_to - n.contact_from) || 0 : 0;
         if (!solved_row.firstChild) {
+            solved_row.hidden = false;
             solved_row.style.gridTemplateColumns = `repeat(${CELLS},minmax(0,1fr))`;
             solved_row.setAttribute("aria-label", w.solved);
             solved_row.append(

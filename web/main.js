@@ -212,7 +212,7 @@ async function main() {
             html(
                 "a",
                 {
-                    href: `#view=${name}`,
+                    href: `#at-${name}`,
                     "data-view": name,
                     onclick: (event) => {
                         event.preventDefault();

@@ -149,6 +149,8 @@ export function write_link(given, view, drawn, embed = false) {
  * to judge; an Error says what is no link at all. */
 export function read_link(fragment, views) {
     if (fragment.length < 2) return null;
+    const place = /^#at-(\w+)$/.exec(fragment)?.[1];
+    if (views.includes(place)) return { given: null, view: place, drawn: null, embed: false };
     if (fragment.length > LONGEST) throw new Error(`${fragment.length} characters, more than ${LONGEST}`);
     const given = Object.fromEntries(new URLSearchParams(fragment.slice(1)));
     const view = views.includes(given.view) ? given.view : views[0];
