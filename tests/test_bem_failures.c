@@ -172,7 +172,7 @@ static rb_status make_pair(const void *of)
     if (s == RB_OK)
         s = rb_bem_flexibility_pair(&a, &b, &f, NULL);
     if (s == RB_OK)
-        s = rb_bem_circulant_create(&f, upstream, &circulant);
+        s = rb_bem_circulant_create(&f, upstream, upstream, &circulant);
     if (s == RB_OK)
         s = rb_bem_flexibility_add_compliance(&f, c, c);
     if (s == RB_OK)

@@ -182,7 +182,7 @@ static void a_line_is_nearly_inverted_by_its_waves(void **state)
             RB_OK);
         if (k % 2)
             CHECK_STATUS(rb_bem_flexibility_add_compliance(&f, loose, stiff), RB_OK);
-        CHECK_STATUS(rb_bem_circulant_create(&f, stencil, &c), RB_OK);
+        CHECK_STATUS(rb_bem_circulant_create(&f, stencil, stencil, &c), RB_OK);
         double worst[2] = {0.0};
         for (int tangential = 0; tangential < 2; tangential++) {
             memset(r, 0, sizeof r);
@@ -228,7 +228,7 @@ static void every_wave_has_its_own_inverse(void **state)
         ends[i] = i;
     CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
                  RB_OK);
-    CHECK_STATUS(rb_bem_circulant_create(&f, stencil, &c), RB_OK);
+    CHECK_STATUS(rb_bem_circulant_create(&f, stencil, stencil, &c), RB_OK);
     assert_true(rb_fourier_make(n + n / 8 + 2, &transform));
     const int size = transform.size;
     rb_fourier_free(&transform);

@@ -316,10 +316,11 @@ void rb_bem_flexibility_free(rb_bem_flexibility *f);
 /* Approximate inverses for iterative solvers, on a line of equal elements: of F_NN or
  * F_TT (apply), and of A F_TT, (A w)_i = sum over k of stencil_k w_{i-1+k}
  * (apply_difference; stencil (0, 1, -1, 0): the difference to the element upstream,
- * towards +x).  w and r: n each, may be the same.  One thread at a time. */
+ * towards +x).  local: the stencil that A has on the compliance added to f.  w and r: n
+ * each, may be the same.  One thread at a time. */
 typedef struct rb_bem_circulant rb_bem_circulant;
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
-                                  rb_bem_circulant **circulant);
+                                  const double local[4], rb_bem_circulant **circulant);
 void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r);
 void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
                                        double *r);

@@ -172,13 +172,10 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
 
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
 {
-    /* products know one operator for bodies and third body */
-    const int two_operators =
-        rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
-    /* nor more than one datum */
+    /* products know no more than one datum */
     const int two_datums =
         rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
-    return !two_operators && !two_datums && rc->yield_stress == 0.0 &&
+    return !two_datums && rc->yield_stress == 0.0 &&
            (rc->contact.solver == RB_SOLVER_AUTO ||
             rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&

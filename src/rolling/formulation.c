@@ -13,27 +13,33 @@
 typedef struct {
     int n, differences; /* 0: A = I */
     double stencil[4];
+    double local[4]; /* the stencil on what the interlayer adds to w */
     double *outside; /* 2 x 2n: displacement one element downstream and two upstream; NULL
                         where A does not ask for it; owned */
 } kinematic;
 
 /* The member t of the family of second-order differences whose leading edge is not
- * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4). */
+ * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4).  The local part of
+ * F_TT takes another member of the family: t = 1, whose leading edge is not shifted there
+ * (theory.md 4.10). */
 static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                                kinematic *A)
 {
+    static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
     const double t = 0.0740956;
 
     *A = (kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
     if (!A->differences || rc->slip_operator == RB_SLIP_UPSTREAM) {
         A->stencil[1] = 1.0;
         A->stencil[2] = A->differences ? -1.0 : 0.0;
+        memcpy(A->local, A->stencil, sizeof A->local);
         return RB_OK;
     }
     A->stencil[0] = (1.0 - t) / 4.0;
     A->stencil[1] = (3.0 + 3.0 * t) / 4.0;
     A->stencil[2] = -(5.0 + 3.0 * t) / 4.0;
     A->stencil[3] = (1.0 + t) / 4.0;
+    memcpy(A->local, backward, sizeof A->local);
     A->outside = rb_alloc(2, 2 * (size_t)A->n);
     return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside)
                       : RB_ENOMEM;
@@ -53,11 +59,9 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
 
 /* ---- Its two operators ------------------------------------------------------------- */
 
-/* The local part of F_TT takes another member of the family: t = 1, whose leading edge is
- * not shifted there (theory.md 4.10). */
+/* S has A on all of F_TT so far. */
 static void add_local_operator(const kinematic *A, double compliance, double *S)
 {
-    static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
     const int n = A->n;
 
     for (int i = 0; i < n && A->outside; i++)
@@ -65,7 +69,7 @@ static void add_local_operator(const kinematic *A, double compliance, double *S)
             const int j = i - 1 + k;
             if (j >= 0 && j < n)
                 S[i + (size_t)(n + j) * (size_t)n] +=
-                    compliance * (backward[k] - A->stencil[k]);
+                    compliance * (A->local[k] - A->stencil[k]);
         }
 }
 
@@ -94,6 +98,8 @@ static rb_status dense_operator(const rb_rolling_case *rc,
 typedef struct {
     rb_bem_flexibility f; /* its arrays borrowed from the bodies */
     kinematic A;          /* owned, as the rest */
+    double local[4]; /* what is added to A q for the interlayer: zeros where there is none
+                      */
     rb_bem_circulant *inverse;
     double *w;    /* 2m: displacements of one product */
     double *slip; /* n: A w_T */
@@ -124,6 +130,9 @@ static void transforms_apply(void *context, const double *r, const double **gap,
             outside[k] += A.outside[2 * (size_t)j + (size_t)k] * r[j];
     for (int i = 0; i < A.n; i++)
         t->slip[i] = row_of(&A, w_T, outside, i);
+    for (int k = 0; k < 4; k++)
+        for (int i = k < 1; t->local[k] != 0.0 && i < A.n && i - 1 + k < A.n; i++)
+            t->slip[i] += t->local[k] * r[A.n + i - 1 + k];
     *gap = t->w;
     *slip = t->slip;
 }
@@ -139,8 +148,8 @@ static void transforms_precondition(void *context, int tangential, double *line)
 }
 
 /* A: taken over, also on failure. */
-static rb_status transform_operator(const rb_bem_flexibility *f, kinematic *A,
-                                    rb_contact_operator **op)
+static rb_status transform_operator(const rb_bem_flexibility *f, double compliance,
+                                    kinematic *A, rb_contact_operator **op)
 {
     transforms *t = calloc(1, sizeof *t);
 
@@ -149,11 +158,13 @@ static rb_status transform_operator(const rb_bem_flexibility *f, kinematic *A,
     t->f = *f;
     t->A = *A;
     A->outside = NULL;
+    for (int k = 0; k < 4; k++)
+        t->local[k] = compliance * (A->local[k] - A->stencil[k]);
     t->w = rb_alloc(2 * (size_t)f->m, 1);
     t->slip = rb_alloc((size_t)A->n, 1);
-    const rb_status s = t->w && t->slip
-                            ? rb_bem_circulant_create(&t->f, t->A.stencil, &t->inverse)
-                            : RB_ENOMEM;
+    const rb_status s = t->w && t->slip ? rb_bem_circulant_create(&t->f, t->A.stencil,
+                                                                  t->A.local, &t->inverse)
+                                        : RB_ENOMEM;
     if (s != RB_OK) {
         transforms_free(t);
         return s;
@@ -171,12 +182,13 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
     rb_status s = RB_OK;
 
     if (!bodies->F)
-        return transform_operator(&bodies->f, A, op);
+        return transform_operator(&bodies->f, rc->interlayer_tangential, A, op);
     s = dense_operator(rc, bodies, A, op);
     /* another matrix than that of the bodies, as of a worn surface, has no products */
     if (s == RB_OK && bodies->transforms.n > 0 &&
         bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
-        s = transform_operator(&bodies->transforms, A, &products);
+        s = transform_operator(&bodies->transforms, rc->interlayer_tangential, A,
+                               &products);
         if (s == RB_OK)
             rb_contact_operator_add_products(*op, products);
     }
