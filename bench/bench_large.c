@@ -147,9 +147,10 @@ static void apply_both(int n)
 }
 
 /* The same problem by Newton with the matrix, cold, flexibility and all. */
-static void solve_both(int n)
+static void solve_both(int n, int unlike)
 {
-    const rb_rolling_case rc = carter(n);
+    rb_rolling_case rc = carter(n);
+    rc.b.young *= unlike ? 0.3 : 1.0;
     rb_rolling_case dense = rc;
     rb_rolling_model model;
     rb_rolling_bodies bodies;
@@ -175,71 +176,19 @@ static void solve_both(int n)
     for (int i = 0; i < n; i++)
         difference =
             fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
-    printf("| one solution, %s elements | %s | %s | %.0f | %s |\n", row_count(n).text,
-           row_seconds(slow).text, row_seconds(fast).text, slow / fast,
-           row_power(1, difference).text);
+    printf("| one solution, %s bodies, %s elements | %s | %s | %.0f | %s |\n",
+           unlike ? "unlike" : "similar", row_count(n).text, row_seconds(slow).text,
+           row_seconds(fast).text, slow / fast, row_power(1, difference).text);
     rb_contact_state_free(&state);
     rb_contact_problem_free(&problem);
     rb_rolling_bodies_free(&bodies);
     rb_rolling_model_free(&model);
 }
 
-/* Unlike bodies below RB_ROLLING_LARGE, where the matrix is there as well: solved by the
- * matrix alone and with the products at its side, from the flexibility on. */
-static double solve_cold(const rb_rolling_case *rc, int alone, rb_contact_state *state)
-{
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
-    rb_contact_problem problem;
-    double t[REPEATS];
-
-    if (rb_rolling_mesh_uniform(rc, -1.3, 1.3, &mesh, NULL) != RB_OK)
-        stop("no memory");
-    for (int k = 0; k < REPEATS; k++) {
-        const double start = processor_seconds();
-        if (rb_rolling_bodies_create(rc, &mesh, &bodies, NULL) != RB_OK)
-            stop("no memory");
-        if (alone)
-            rb_bem_flexibility_free(&bodies.transforms);
-        if (rb_rolling_problem_create(rc, &mesh, &bodies, NULL, &problem, NULL) !=
-                RB_OK ||
-            rb_rolling_problem_solve(&problem, rc, 0, state, NULL) != RB_OK)
-            stop("no solution");
-        t[k] = processor_seconds() - start;
-        rb_contact_problem_free(&problem);
-        rb_rolling_bodies_free(&bodies);
-    }
-    rb_rolling_mesh_free(&mesh);
-    return median(REPEATS, t);
-}
-
-static void help_matrix(int n)
-{
-    rb_rolling_case rc = carter(n);
-    rb_contact_state state[2];
-    double t[2], difference = 0.0;
-
-    rc.b.young *= 0.3;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.contact.solver = RB_SOLVER_NEWTON;
-    for (int k = 0; k < 2; k++) {
-        if (rb_contact_state_alloc(n, &state[k]) != RB_OK)
-            stop("no memory");
-        t[k] = solve_cold(&rc, k == 0, &state[k]);
-    }
-    const double p0 = rb_rolling_derive(&rc).stress;
-    for (int i = 0; i < n; i++)
-        difference = fmax(difference, fabs(state[0].q[i] - state[1].q[i]) / p0);
-    printf("| unlike bodies, %s elements: matrix, and both | %s | %s | %.1f | %s |\n",
-           row_count(n).text, row_seconds(t[0]).text, row_seconds(t[1]).text, t[0] / t[1],
-           row_power(1, difference).text);
-    rb_contact_state_free(&state[0]);
-    rb_contact_state_free(&state[1]);
-}
-
 int main(int argc, char **argv)
 {
     static const int standard[] = {1000, 3200, 10000, 32000, 100000};
+    static const int both[] = {320, 1200, 2000};
     static const int meshes[] = {400, 1600, 10000, 100000, 300000, 1000000};
     int n[32], count = argc - 1;
 
@@ -257,9 +206,8 @@ int main(int argc, char **argv)
     growth(5, standard);
     both_meshes(6, meshes);
     apply_both(4000);
-    solve_both(2000);
-    help_matrix(300);
-    help_matrix(700);
-    help_matrix(1400);
+    for (int unlike = 0; unlike < 2; unlike++)
+        for (int k = 0; k < 3; k++)
+            solve_both(both[k], unlike);
     return 0;
 }

@@ -42,7 +42,7 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     rb_contact_state state;
     rb_message why;
 
-    if (rc->contact_elements >= RB_ROLLING_LARGE) {
+    if (rb_rolling_is_large(rc, &model.mesh)) {
         assert_null(model.bodies.F);
         assert_null(rb_contact_operator_matrix(model.problem.op).F);
     } else
@@ -108,6 +108,33 @@ static void equals_the_matrix_that_it_helps(void **state)
     rc.interlayer_normal = 1e-6;
     rc.interlayer_tangential = 2e-6;
     compare_with_matrix(&rc);
+}
+
+/* Where it is asked for, a model that was solved without one has the matrix of the bodies
+ * with a tangential third body, and its state satisfies the problem of that matrix. */
+static void the_matrix_can_be_added(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_TRANSFORMS);
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    rb_rolling_model model = solved_model(&rc);
+    rb_contact_violation with, without;
+    assert_null(model.bodies.F);
+    CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &without), RB_OK);
+    CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK);
+    assert_non_null(model.bodies.F);
+    assert_ptr_equal(rb_contact_operator_matrix(model.problem.op).F, model.bodies.F);
+    CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &with), RB_OK);
+    CHECK_MAX(without.scaled, 1e-10, "by products");
+    CHECK_MAX(with.scaled, 1e-10, "by the matrix");
+    rb_contact_lcp lcp;
+    CHECK_STATUS(rb_rolling_model_lcp(&model, &lcp, NULL), RB_OK);
+    rb_contact_lcp_free(&lcp);
+    CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* once */
+    rb_rolling_model_free(&model);
 }
 
 /* What GMRES leaves is more than so small a tolerance: the matrix solves once more. */
@@ -454,6 +481,7 @@ int main(void)
         cmocka_unit_test(equals_the_matrix_in_steady_rolling),
         cmocka_unit_test(equals_the_matrix_in_static_contact),
         cmocka_unit_test(equals_the_matrix_that_it_helps),
+        cmocka_unit_test(the_matrix_can_be_added),
         cmocka_unit_test(a_small_tolerance_is_met_by_the_matrix),
         cmocka_unit_test(the_matrix_stands_in_for_products),
         cmocka_unit_test(residual_is_true),

@@ -27,9 +27,10 @@ typedef enum {
 /* A of steady rolling (theory.md 4.2): the difference to the element upstream, or the
  * second-order difference of equal elements. */
 typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
-/* So many equal elements on half-planes are solved by Fourier transforms, without a
- * matrix. */
-enum { RB_ROLLING_LARGE = 1500 };
+/* From so many equal elements on half-planes no matrix exists: they are solved by Fourier
+ * transforms; in steady rolling by Coulomb's law from fewer on, where a matrix can be
+ * added (rb_rolling_model_add_matrix). */
+enum { RB_ROLLING_LARGE = 1500, RB_ROLLING_TRANSFORMS = 300 };
 /* Close to a load a wheel answers by its boundary elements alone, as in *Addi*, or by the
  * exact strip on the half-plane with the boundary elements solving for the rest (B10). */
 typedef enum {
@@ -602,6 +603,9 @@ typedef struct {
     rb_rolling_carried carried;
 } rb_rolling_model;
 
+/* 1 where so many equal elements are solved by Fourier transforms, without a matrix. */
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
  * positive status the model holds what there is; RB_ZONE: the contact does not end within
  * the given zone, the wheel or the table.  model: overwritten; free it in any case. */
@@ -619,6 +623,11 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
                                      const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
+
+/* Forms the flexibility's matrix F and that of the problem for a model that was solved
+ * without them, of fewer than RB_ROLLING_LARGE elements; others stay as they are.
+ * RB_ENOMEM. */
+rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why);
 
 /* The LCP that gave the model's state, or the one that Lemke's method tries first. */
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,

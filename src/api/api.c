@@ -523,12 +523,15 @@ static api_array *boundary_array(rb_api *a, const char *name)
 
 static api_array *model_array(rb_api *a, const char *name)
 {
-    const rb_rolling_model *model = &a->result.model;
+    rb_rolling_model *model = &a->result.model;
     const int n = model->mesh.n, size = a->lcp.size;
     if (strcmp(name, "ends") == 0)
         return rb_api_copy_array(a, name, n + 2, 1, model->mesh.ends);
     if (strcmp(name, "gap0") == 0)
         return rb_api_copy_array(a, name, n, 1, model->mesh.gap);
+    if (strcmp(name, "F") == 0 && model->state.p &&
+        rb_rolling_model_add_matrix(model, &a->why) != RB_OK)
+        return NULL;
     if (strcmp(name, "F") == 0)
         return rb_api_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
     if (strcmp(name, "lcp.M") == 0)
@@ -655,7 +658,11 @@ int rb_api_curve(rb_api *a, double from, double to, int points)
 
 static int has_model(rb_api *a)
 {
-    if (a->result.model.state.p && a->result.model.bodies.F)
+    rb_rolling_model *model = &a->result.model;
+
+    if (model->state.p && rb_rolling_model_add_matrix(model, &a->why) != RB_OK)
+        return 0;
+    if (model->state.p && model->bodies.F)
         return 1;
     rb_api_ended(
         a, rb_fail(&a->why, RB_EINVAL, "nothing is solved whose matrices are at hand"));

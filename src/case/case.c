@@ -524,12 +524,13 @@ static void choose_mesh(rb_case *c)
 {
     rb_rolling_case *rc = &c->resolved.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    const rb_rolling_mesh equal = {.n = rc->contact_elements};
+    const int many =
+        rc->contact_elements >= RB_ROLLING_LARGE || rb_rolling_is_large(rc, &equal);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
         rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
-        rc->mesh = rc->contact_elements < RB_ROLLING_LARGE &&
-                           rc->slip_operator == RB_SLIP_UPSTREAM
-                       ? RB_MESH_FITTED
-                       : RB_MESH_ALIGNED;
+        rc->mesh = !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
+                                                                  : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
         rc->mesh == RB_MESH_ALIGNED)
         rc->slip_operator = RB_SLIP_SECOND;

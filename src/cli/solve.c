@@ -156,11 +156,13 @@ static const cli_case_file files[] = {{"history-table", .write = write_history},
 
 static cli_exit show_behind(const cli_case_run *run)
 {
-    const solved *it = run->own;
-    const rb_rolling_model *model = &it->r.model;
+    solved *it = run->own;
+    rb_rolling_model *model = &it->r.model;
     rb_message why = {""};
     cli_exit code = CLI_CONTINUE;
-    if (it->fclib)
+    if (it->fclib || it->dump || it->trace)
+        code = cli_say_of("matrix", rb_rolling_model_add_matrix(model, &why), &why);
+    if (it->fclib && code == CLI_CONTINUE)
         code = cli_say_of("fclib", rb_report_fclib(it->fclib, model, &why), &why);
     if (it->dump && code == CLI_CONTINUE)
         code = cli_say_of("dump", rb_report_dump(it->dump, model, &why), &why);

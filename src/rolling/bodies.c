@@ -135,6 +135,24 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
                : s;
 }
 
+rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
+                                       const rb_rolling_mesh *mesh,
+                                       rb_rolling_bodies *bodies, rb_message *why)
+{
+    rb_status s = check_memory(rc, mesh, why);
+
+    if (s == RB_OK)
+        s = rb_bem_flexibility_store(&bodies->f);
+    if (s == RB_OK) {
+        bodies->F = rb_bem_flexibility_stored(&bodies->f);
+        s = add_transforms(rc, mesh, bodies, why);
+    }
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements",
+                         mesh->n)
+               : s;
+}
+
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w)
 {

@@ -2,12 +2,13 @@
  * steps does not grow. */
 #include "rolling/internal.h"
 
-/* Elements of the coarsest mesh, which starts cold. */
-enum { COARSEST = 150 };
+/* Elements of the coarsest mesh, which starts cold: fewer than any that starts from
+ * another one. */
+enum { COARSEST = 75 };
 
 int rb_rolling_coarse_elements(int n)
 {
-    return n / 4 >= RB_ROLLING_LARGE ? n / 4 : COARSEST;
+    return n / 4 >= RB_ROLLING_TRANSFORMS ? n / 4 : COARSEST;
 }
 
 /* Value at x of tractions at the coarse midpoints, linear in between. */

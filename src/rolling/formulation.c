@@ -359,6 +359,25 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     return check_softening(rc, p, why);
 }
 
+rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
+                                            const rb_rolling_bodies *bodies,
+                                            rb_contact_problem *p, rb_message *why)
+{
+    kinematic A;
+    rb_status s = set_kinematic(rc, bodies, &A);
+
+    rb_contact_operator_free(p->op);
+    p->op = NULL;
+    if (s == RB_OK)
+        s = make_operator(rc, bodies, &A, &p->op);
+    free(A.outside);
+    p->rounding = 0.0; /* of products */
+    return s == RB_OK
+               ? s
+               : rb_fail(why, s, "out of memory for a contact problem of %d elements",
+                         p->n);
+}
+
 /* ---- What a state carries ---------------------------------------------------------- */
 
 double rb_rolling_model_load(const rb_rolling_model *model)

@@ -23,8 +23,6 @@ double rb_rolling_force_ratio(const rb_rolling_model *model);
 /* 1 where the flexibility has products by Fourier transforms: half-planes under equal
  * elements, by Newton. */
 int rb_rolling_has_transforms(const rb_rolling_case *rc);
-/* 1 where they replace the dense matrix: there under a long line. */
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
 /* ---- profile.c --------------------------------------------------------------------- */
 
@@ -126,6 +124,11 @@ void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 
 /* ---- bodies.c ---------------------------------------------------------------------- */
 
+/* Stores the matrix of bodies that were made without one. */
+rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
+                                       const rb_rolling_mesh *mesh,
+                                       rb_rolling_bodies *bodies, rb_message *why);
+
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w);
@@ -171,6 +174,11 @@ double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepa
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, rb_contact_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
+/* Another operator of the same bodies, after these have got a matrix.  RB_ENOMEM: the
+ * problem has none. */
+rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
+                                            const rb_rolling_bodies *bodies,
+                                            rb_contact_problem *p, rb_message *why);
 /* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
 double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 /* d_N, from the gaps of the mesh. */

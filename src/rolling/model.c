@@ -109,6 +109,17 @@ static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
     return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
 }
 
+rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
+{
+    if (model->bodies.F || model->mesh.n >= RB_ROLLING_LARGE)
+        return RB_OK;
+    const rb_status s =
+        rb_rolling_bodies_add_matrix(&model->rc, &model->mesh, &model->bodies, why);
+    return s == RB_OK ? rb_rolling_problem_renew_operator(&model->rc, &model->bodies,
+                                                          &model->problem, why)
+                      : s;
+}
+
 rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
                                      const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why)
@@ -122,17 +133,33 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
 {
     const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
+    /* on a line that has moved a little the zones hardly change */
+    const int near = model->state.p && model->state.status == RB_OK &&
+                     model->mesh.n == mesh->n && model->rc.mesh == RB_MESH_ALIGNED;
+    rb_rolling_mesh old_mesh = model->mesh;
+    rb_contact_state old = model->state;
 
-    rb_contact_state_free(&model->state);
+    memset(&model->state, 0, sizeof model->state);
     rb_contact_problem_free(&model->problem);
-    rb_rolling_mesh_free(&model->mesh);
     if (!kept)
         rb_rolling_bodies_free(&model->bodies);
     model->mesh = *mesh;
     memset(mesh, 0, sizeof *mesh);
     rb_status s = set_up(model, kept, why);
     const int large = !model->bodies.F;
-    if (s == RB_OK && large)
+    if (s == RB_OK && large && near)
+        rb_rolling_start_from(&model->rc, &old_mesh, &old, &model->mesh, &model->state);
+    else if (s == RB_OK && large)
         s = start_from_coarse(model, why);
-    return s == RB_OK ? solve_ratio(model, large, why) : s;
+    rb_contact_state_free(&old);
+    rb_rolling_mesh_free(&old_mesh);
+    if (s == RB_OK)
+        s = solve_ratio(model, large, why);
+    /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
+    const int inaccurate = s == RB_OK && model->state.residual > model->rc.contact.tol;
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) ||
+        !large || model->mesh.n >= RB_ROLLING_LARGE)
+        return s;
+    s = rb_rolling_model_add_matrix(model, why);
+    return s == RB_OK ? solve_ratio(model, inaccurate, why) : s;
 }

@@ -9,6 +9,7 @@ enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
     IN_CONTACT = 3,       /* elements that they leave to the contact */
+    FEW = 150,            /* elements that tell how wide the line of many should be */
     MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
 };
 
@@ -362,7 +363,7 @@ static interval known_zone(const rb_rolling_case *rc)
     if (rc->contact_elements < RB_ROLLING_LARGE && !rb_rolling_has_fine_boundary(rc))
         return zone;
     if (rc->contact_elements >= RB_ROLLING_LARGE)
-        few.contact_elements = rb_rolling_coarse_elements(0);
+        few.contact_elements = FEW;
     rb_rolling_coarsen_boundary(&few);
     few.mesh = RB_MESH_UNIFORM;
     model.rc = few;
