@@ -254,6 +254,23 @@ async function main() {
         },
         { rootMargin: "-45% 0px -50% 0px" },
     );
+    /* What is above a chapter may grow while it is solved: the chapter stays where it was opened, unless the reader
+     * has moved on. */
+    let opening = null;
+    async function stay_at(view) {
+        opening = view;
+        await until(() => opening !== view || (solver.idle() && !drawing));
+        if (opening === view) view.section.scrollIntoView({ block: "start" });
+        if (opening === view) opening = null;
+    }
+    for (const moved of ["wheel", "touchmove", "pointerdown", "keydown"])
+        window.addEventListener(
+            moved,
+            () => {
+                opening = null;
+            },
+            { passive: true },
+        );
     function open(name) {
         const view = views[VIEWS_OF_LINKS[name] ?? name] ?? views.hero;
         view.section.scrollIntoView({ block: "start" });
@@ -261,6 +278,7 @@ async function main() {
         come_near(view);
         view.show?.(name);
         current = name in words.chapters ? name : current;
+        stay_at(view);
     }
 
     /* ---- Links, files, keys ---- */
@@ -383,6 +401,7 @@ async function main() {
     const idle = () =>
         solver.idle() &&
         !drawing &&
+        !opening &&
         !store.holding &&
         !Object.values(views).some((view) => near.has(view) && view.busy?.());
     window.rollbem = {

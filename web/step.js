@@ -313,6 +313,7 @@ export function step_view(words, page) {
             "details",
             {
                 class: "card",
+                open: true,
                 ontoggle: (event) => {
                     matrices_open = event.target.open;
                     show_matrices();
@@ -323,7 +324,7 @@ export function step_view(words, page) {
             matrix_host,
         ),
     );
-    let matrices_open = false,
+    let matrices_open = true,
         matrices_of = null;
     function show_matrices() {
         if (!matrices_open || !data || matrices_of === data) return;

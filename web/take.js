@@ -32,7 +32,8 @@ export const ini_of = (given, options) =>
         .filter(Boolean)
         .join("\n");
 
-const column_name = (r) => (r.unit ? `${r.name}_${r.unit}` : r.name);
+/* As the program heads its columns: a ratio has no unit. */
+const column_name = (r) => (r.unit && r.unit !== "1" ? `${r.name}_${r.unit}` : r.name);
 export const table_of = (columns, results) =>
     [
         results.map(column_name).join("\t"),

@@ -931,8 +931,8 @@ async function views(page) {
                 got.summary[name] === want.summary[name],
                 `${name}: ${got.summary[name]}, the program has ${want.summary[name]}`,
             );
-        for (const name of Object.keys(want.table))
-            if (got.table[name]) check(got.table[name].length === want.table[name].length, name);
+        for (const name of Object.keys(got.table))
+            check(got.table[name].length === want.table[name]?.length, `column ${name}`);
         for (const [name, value] of Object.entries(got.inputs))
             check(want.inputs[name] === value, `input ${name}: ${value}, the program has ${want.inputs[name]}`);
     });
