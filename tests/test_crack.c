@@ -373,6 +373,118 @@ static void a_kink_of_no_angle(void **state)
     CHECK_REL(K[1][1], K[0][1], 1e-5, "K_II");
 }
 
+/* Of a short kink at the tip of a crack that is opened alone, over its K_I before the
+ * kink: the series of Amestoy and Leblond, Int. J. Solids Structures 29 (1992) 465, in
+ * the angle over pi. */
+static void series_of_kinks(double m, double *K_I, double *K_II)
+{
+    const double p = M_PI, p2 = p * p, p3 = p2 * p, p4 = p2 * p2, p5 = p4 * p,
+                 p6 = p4 * p2;
+    const double opening[] = {1.0,
+                              -3.0 * p2 / 8.0,
+                              p2 - 5.0 * p4 / 128.0,
+                              p2 / 9.0 - 11.0 * p4 / 72.0 + 119.0 * p6 / 15360.0,
+                              5.07790,
+                              -2.88312,
+                              -0.0925,
+                              2.996,
+                              -4.059,
+                              1.63,
+                              4.1},
+                 sliding[] = {p / 2.0,
+                              -(4.0 * p / 3.0 + p3 / 48.0),
+                              -2.0 * p / 3.0 + 13.0 * p3 / 30.0 - 59.0 * p5 / 3840.0,
+                              -6.176023,
+                              4.44112,
+                              -1.5340,
+                              -2.0700,
+                              4.684,
+                              -3.95,
+                              -1.32};
+    double power = 1.0;
+    *K_I = *K_II = 0.0;
+    for (int k = 0; k < 11; k++, power *= m * m) {
+        *K_I += opening[k] * power;
+        *K_II += k < 10 ? sliding[k] * power * m : 0.0;
+    }
+}
+
+/* Uniform tension in all directions, so that no stress along the crack disturbs a short
+ * kink: the nodal forces are the normals of the neighbouring elements. */
+static void kinked(double degrees, double length, double *K_I, double *K_II)
+{
+    enum { N = 120 };
+    const double w = degrees * M_PI / 180.0;
+    rb_crack_shape shape = edge_crack(90.0, N, 0.0);
+    double x[N + 1], y[N + 1], t_x[N], t_y[N], T[2 * (N - 1)];
+    rb_crack_state s;
+    shape.full_plane = 1;
+    shape.path = (rb_crack_path){.pieces = 2,
+                                 .x = {-2.0, 0.0, length * cos(w)},
+                                 .y = {0.0, 0.0, -length * sin(w)}};
+    rb_crack *c = create(shape);
+    CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
+    rb_crack_places(c, x + 1, y + 1, NULL, t_x, t_y);
+    x[0] = -2.0;
+    y[0] = 0.0;
+    x[N] = shape.path.x[2];
+    y[N] = shape.path.y[2];
+    for (int j = 0; j < N - 1; j++) { /* half of i times the chord */
+        const double n_x = -0.5 * (y[j + 2] - y[j]), n_y = 0.5 * (x[j + 2] - x[j]);
+        T[j] = -n_x * t_y[j] + n_y * t_x[j];
+        T[N - 1 + j] = n_x * t_x[j] + n_y * t_y[j];
+    }
+    CHECK_STATUS(rb_crack_step(c, T, RB_CRACK_DRY, 0.0, 1.0, &s, NULL), RB_OK);
+    *K_I = s.K_I / sqrt(M_PI);
+    *K_II = fabs(s.K_II) / sqrt(M_PI);
+    rb_crack_state_free(&s);
+    rb_crack_free(c);
+}
+
+static void kinks(void **state)
+{
+    static const double angles[] = {15.0, 30.0, 45.0, 60.0};
+    (void)state;
+    for (size_t k = 0; k < sizeof angles / sizeof *angles; k++) {
+        double want[2], long_kink[2], kink[2];
+        series_of_kinks(angles[k] / 180.0, &want[0], &want[1]);
+        kinked(angles[k], 0.02, &long_kink[0], &long_kink[1]);
+        kinked(angles[k], 0.01, &kink[0], &kink[1]);
+        for (int mode = 0; mode < 2; mode++)
+            CHECK_ABS(2.0 * kink[mode] - long_kink[mode], want[mode], 1.5e-3,
+                      "kink of %g degrees, K %d", angles[k], mode);
+    }
+}
+
+/* Under K_I alone straight on, under K_II alone at 70.5 degrees with 2/sqrt(3) K_II; the
+ * largest over the steps counts. */
+static void directions(void **state)
+{
+    double x[3] = {0.0}, K_I[] = {2.0, 0.0, 0.0}, K_II[] = {0.0, 1.0, -1.5},
+           none[3] = {0.0};
+    rb_crack_history h = {.n = 1,
+                          .x = x,
+                          .K_I = K_I,
+                          .K_II = K_II,
+                          .open_length = none,
+                          .stick_length = none,
+                          .fluid_pressure = none,
+                          .residual = none};
+    (void)state;
+    rb_crack_summary s = rb_crack_summarise(&h, 1);
+    CHECK_REL(s.K_theta_max, 2.0, 1e-15, "mode I");
+    CHECK_ABS(s.kink_angle, 0.0, 1e-15, "mode I");
+    K_I[0] = 0.0;
+    K_II[0] = 1.0;
+    s = rb_crack_summarise(&h, 1);
+    CHECK_REL(s.K_theta_max, 2.0 / sqrt(3.0), 1e-14, "mode II");
+    CHECK_REL(s.kink_angle, -acos(1.0 / 3.0) * 180.0 / M_PI, 1e-14, "mode II");
+    h.n = 3;
+    s = rb_crack_summarise(&h, 1);
+    CHECK_REL(s.K_theta_max, 1.5 * 2.0 / sqrt(3.0), 1e-14, "the largest");
+    CHECK_REL(s.kink_angle, acos(1.0 / 3.0) * 180.0 / M_PI, 1e-14, "the largest");
+}
+
 /* ---- Refusals ---------------------------------------------------------------------- */
 
 static void refuses(rb_crack_shape shape, const char *word)
@@ -465,6 +577,8 @@ int main(void)
         cmocka_unit_test(trapped_fluid),
         cmocka_unit_test(pressure_at_the_mouth),
         cmocka_unit_test(a_kink_of_no_angle),
+        cmocka_unit_test(kinks),
+        cmocka_unit_test(directions),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(no_memory),
     };

@@ -149,6 +149,10 @@ typedef struct {
     double K_I_max, K_I_min, K_II_max, K_II_min, delta_K_I, delta_K_II;
     double K_I_max_at, K_II_max_at, K_II_min_at; /* x */
     double K_II_at_K_I_max;                      /* the phase of opening and sliding */
+    double K_theta_max; /* largest tension across any direction ahead of the tip times
+                           sqrt(2 pi r), over the pass (Erdogan and Sih): K_I of a kink
+                           there, nearly */
+    double kink_angle;  /* that direction, from t towards n [degrees] */
     double K_I_max_upper, K_I_min_upper, K_II_max_upper, K_II_min_upper; /* or NAN */
     double open_max, fluid_pressure_max;
     double pass_change;  /* largest change of K from the pass before; NAN with one pass */

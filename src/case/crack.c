@@ -91,6 +91,11 @@ static const rb_rolling_result scalars[] = {
     NUMBER(K_II_max_at, .unit = "mm", .meaning = "position of the contact"),
     NUMBER(K_II_min_at, .unit = "mm", .meaning = "position of the contact"),
     NUMBER(K_II_at_K_I_max, IS_K, .meaning = "K_II where K_I is largest: the phase"),
+    NUMBER(K_theta_max, IS_K,
+           .meaning = "largest tension across any direction ahead of the tip times "
+                      "sqrt(2 pi r), over the pass (Erdogan and Sih)"),
+    NUMBER(kink_angle, .unit = "degrees",
+           .meaning = "that direction, from the crack's own, counter-clockwise"),
     NUMBER(K_I_max_upper, IS_K,
            .meaning = "at the upper end of a crack below the "
                       "surface; also the next three"),

@@ -348,6 +348,19 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
 
 /* ---- What a pass comes to ---------------------------------------------------------- */
 
+/* Tension across the direction theta ahead of the tip is cos(theta/2) (K_I cos^2(theta/2)
+ * - 3/2 K_II sin theta)/sqrt(2 pi r); largest where its slope is zero. */
+static double largest_tension(double K_I, double K_II, double *theta)
+{
+    *theta = K_II == 0.0
+                 ? 0.0
+                 : 2.0 * atan2(K_I - sqrt(K_I * K_I + 8.0 * K_II * K_II), 4.0 * K_II);
+    if (K_II < 0.0) /* the other half of the plane: tan is the same */
+        *theta = 2.0 * atan2(sqrt(K_I * K_I + 8.0 * K_II * K_II) - K_I, -4.0 * K_II);
+    const double c = cos(0.5 * *theta);
+    return c * (K_I * c * c - 1.5 * K_II * sin(*theta));
+}
+
 rb_crack_summary rb_crack_summarise(const rb_crack_history *h, int passes)
 {
     const int steps = h->n / GSL_MAX(passes, 1);
@@ -372,6 +385,12 @@ rb_crack_summary rb_crack_summarise(const rb_crack_history *h, int passes)
             s.K_II_min_at = h->x[k];
         }
         s.K_I_min = fmin(s.K_I_min, h->K_I[k]);
+        double theta;
+        const double tension = largest_tension(h->K_I[k], h->K_II[k], &theta);
+        if (k == s.from || tension > s.K_theta_max) {
+            s.K_theta_max = tension;
+            s.kink_angle = theta * (180.0 / M_PI);
+        }
         s.open_max = fmax(s.open_max, h->open_length[k]);
         s.fluid_pressure_max = fmax(s.fluid_pressure_max, h->fluid_pressure[k]);
     }
