@@ -958,6 +958,27 @@ static void short_memory_is_reported(void **state)
     }
 }
 
+/* A crack by names gives what the program does; units are the handle's. */
+static void cracks(void **state)
+{
+    static const char *const names[] = {"crack-angle", "unloaded", "remote-stress"},
+                             *const values[] = {"45", "yes", "2"};
+    int rows = 0, columns = 0;
+    (void)state;
+    rb_api *a = rb_api_create_for("crack");
+    rb_api_set(a, "half-width", "1");
+    assert_int_equal(rb_api_crack(a, 3, names, values), RB_OK);
+    const double *K = rb_api_array(a, "crack.summary.K_I_max", &rows, &columns);
+    assert_non_null(K);
+    CHECK_ABS(*K / (2.0 * sqrt(3.14159265358979)), 0.70491, 2e-4, "45 degrees");
+    assert_non_null(rb_api_array(a, "crack.K_II", &rows, &columns));
+    assert_int_equal(rows, 1);
+    assert_true(rb_api_crack(a, 2, names, (const char *const[]){"0", "yes"}) < 0);
+    assert_true(rb_api_crack(a, 1, (const char *const[]){"crack-lenght"}, values) < 0);
+    assert_non_null(strstr(rb_api_message(a), "crack-length"));
+    rb_api_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -986,6 +1007,7 @@ int main(void)
         cmocka_unit_test(arrays_of_every_name_fit),
         cmocka_unit_test(matrices_are_at_hand_or_refused),
         cmocka_unit_test(a_stopped_run_is_interrupted),
+        cmocka_unit_test(cracks),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -111,6 +111,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                rb_api_stress_at, an entry per point
  *   maxima.max_shear ...         after rb_api_stress_maxima: value, x, y; also von_mises,
  *                                orthogonal_shear, tension
+ *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
+ *   crack.summary.K_I_max ...    one number each
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
@@ -136,6 +138,9 @@ int rb_api_guess(rb_api *a, int n, const int *zone);
 /* Stress below the surface of A on nx x ny points, to a depth in length (0: automatic).
  */
 int rb_api_stress(rb_api *a, int nx, int ny, double depth);
+/* Passes the contact of a handle for "crack" over a crack in body B, with n options of
+ * `rollbem crack` by their names and texts ("crack-angle", "45"). */
+int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
 /* At n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);
 /* The largest stresses and where they are, to a depth in length (0: automatic). */

@@ -168,6 +168,7 @@ rb_api *rb_api_create_for(const char *purpose)
     } known[] = {{"solve", RB_CASE_SINGLE},
                  {"curve", RB_CASE_CURVE},
                  {"stress", RB_CASE_STRESS},
+                 {"crack", RB_CASE_CRACK},
                  {"sweep", RB_CASE_STUDY}};
     rb_api *a = calloc(1, sizeof *a);
 
@@ -935,6 +936,75 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(at);
+    return rb_api_ended(a, s);
+}
+
+/* ---- Cracks ------------------------------------------------------------------------ */
+
+/* Typed values as they are given: rb_case_store reads plain numbers in the case's units.
+ */
+static rb_status set_crack(rb_api *a, int n, const char *const *name,
+                           const char *const *value, rb_case_crack *crack)
+{
+    int given[API_CRACK_OPTIONS] = {0}, plain[API_CRACK_OPTIONS] = {0}, k;
+    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, crack,
+                               given, plain};
+    for (int i = 0; i < n; i++) {
+        rb_guess guess = {.word = name[i]};
+        if (!rb_option_find(1, &set, name[i], strlen(name[i]), &k, &guess))
+            return rb_fail(&a->why, RB_EINVAL, "crack: unknown option '%.60s'%s", name[i],
+                           rb_guess_text(&guess, ""));
+        const rb_status s =
+            rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], &a->why);
+        if (s != RB_OK)
+            return s;
+    }
+    rb_case_store(a->words, &set, crack);
+    return RB_OK;
+}
+
+static rb_status keep_crack(rb_api *a, const rb_case_crack_result *r)
+{
+    char name[40];
+    for (int k = 0; k < rb_case_crack_columns.n; k++) {
+        const rb_rolling_result *row = &rb_case_crack_columns.row[k];
+        if (!rb_rolling_has_column(row, &r->history))
+            continue;
+        snprintf(name, sizeof name, "crack.%s", row->name);
+        api_array *made = rb_api_make_array(a, name, r->history.n, 1);
+        if (!made)
+            return RB_ENOMEM;
+        for (int i = 0; i < r->history.n; i++)
+            made->at[i] = rb_rolling_entry(row, &r->history, i);
+    }
+    for (int k = 0; k < rb_case_crack_scalars.n; k++) {
+        const rb_rolling_result *row = &rb_case_crack_scalars.row[k];
+        const double x = rb_rolling_number(row, &r->summary);
+        snprintf(name, sizeof name, "crack.summary.%s", row->name);
+        if (!rb_api_copy_array(a, name, 1, 1, &x))
+            return RB_ENOMEM;
+    }
+    return RB_OK;
+}
+
+int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values)
+{
+    rb_case_crack crack = rb_case_crack_defaults();
+    rb_case_crack_result result = {0};
+    begin(a);
+    rb_api_forget_arrays(a, "crack.");
+    rb_status s = rb_case_resolve(a->words, &a->why);
+    if (s == RB_OK)
+        s = set_crack(a, n, names, values, &crack);
+    rb_api_call_begins();
+    if (s == RB_OK)
+        s = rb_case_crack_solve(rb_case_resolved(a->words), &crack, &result, &a->why);
+    rb_api_call_ends();
+    if (s == RB_OK) {
+        rb_case_crack_convert(&result, rb_case_resolved(a->words)->units);
+        s = keep_crack(a, &result);
+    }
+    rb_case_crack_free(&result);
     return rb_api_ended(a, s);
 }
 

@@ -20,7 +20,8 @@ typedef struct {
     rb_message why;
 } api_refusal;
 
-enum { API_REFUSALS = 16 }; /* of more the last ones are the same entry */
+enum { API_CRACK_OPTIONS = 40 }; /* more than the table has */
+enum { API_REFUSALS = 16 };      /* of more the last ones are the same entry */
 
 struct rb_api {
     rb_case *words;
