@@ -229,15 +229,16 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
         return rb_fail(why, RB_EINVAL,
                        "--fluid pressure: is that of the contact, --unloaded has none");
-    if (!k->unloaded && rc->elastic_b && !rb_rolling_body_can(&rc->b, RB_BODY_STRESS))
+    if (!k->unloaded && rc->elastic_b &&
+        !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_fail(why, RB_EINVAL,
                        "crack: the stress in body B is known where it is homogeneous and "
                        "elastic only, without a layer, a cover or memory");
-    if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * rc->b.radius)
+    if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))
         return rb_fail(why, RB_EINVAL,
                        "crack: body B counts as a half-plane; a crack as deep as %g of "
                        "its radius needs its shape, expected at most %g",
-                       deepest / rc->b.radius, DEEPEST);
+                       deepest / fabs(rc->b.radius), DEEPEST);
     if (k->coupled && (rb_rolling_largest_mu(rc) > 0.0 || rb_case_has_steps(c)))
         return rb_fail(
             why, RB_EINVAL,
@@ -414,7 +415,9 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         .elements = finer * k->elements,
         .friction = k->friction,
         .shear = 0.5 * b->young / (1.0 + b->poisson),
-        .poisson = b->poisson};
+        /* of plane stress: the same kappa */
+        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson)
+                                                  : b->poisson};
     if (s == RB_OK)
         s = rb_crack_create(&r->shape, &crack, why);
     if (s == RB_OK) {
