@@ -173,7 +173,7 @@ static void what_is_left_out_is_named(void **state)
     (void)state;
     static const struct {
         const char *second, *wanted;
-    } all[] = {{" 1 MODULE\n 1 2 3\n", "case 2 is not run: leaves out module 1"},
+    } all[] = {{" 1 MODULE\n 1 2 3\n", "case 2 skipped: module 1"},
                {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n 1\n"
                 " 20 20 -1. -1. .1 .1\n",
                 "three dimensions (MY = 20"},

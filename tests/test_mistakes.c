@@ -408,8 +408,8 @@ static void doubtful_values_are_noted(void **state)
         {"", "linear elasticity does not hold"},
         {"--mu 0.3 --creep 0.1", "for rolling, --formulation steady"},
         {"--example rail", "rolls at creepage 0"},
-        {"--example rail --creep 0.4", "is the creepage meant in %"},
-        {"--arc 0.5", "is it meant in radians"},
+        {"--example rail --creep 0.4", "meant in per cent, write --creep"},
+        {"--arc 0.5", "in radians, write --arc"},
         {"--example rail --radius 0.46", "linear elasticity does not hold"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[200];
@@ -441,7 +441,7 @@ static void found_creepage_is_not_doubted(void **state)
     assert_int_equal(rollbem("--formulation steady --support hub --mu 1e-3 --free-axle "
                              "--approach 0.04 --contact-elements 40"),
                      0);
-    assert_null(strstr(err, "is the creepage meant"));
+    assert_null(strstr(err, "meant in per cent"));
 }
 
 static void examples_are_at_hand(void **state)

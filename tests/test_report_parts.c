@@ -146,17 +146,18 @@ static void quiet(noted *n)
 static void notes_begin_where_they_should(void **state)
 {
     (void)state;
-    static const char inaccurate[] = "linear elasticity is inaccurate",
-                      broken[] = "linear elasticity does not hold",
-                      percent[] = "is the creepage meant in %, --creep 0.001%?",
-                      radians[] = "is it meant in radians, --arc 1.99rad?",
-                      sliding[] = "full sliding: the creepage is not unique",
-                      equal[] = "equal elements instead",
-                      edge[] = "such an edge is only known to an element",
-                      yields[] = "the interface yields", falls[] = "kappa = 0.96, that",
-                      still[] = "rolls at creepage 0", enters[] = "enters only the slip",
-                      opposes[] = "at 2 points the slip of (12) does not oppose",
-                      angle[] = "rolling differs at every angle of the wheel";
+    static const char inaccurate[] = "large for linear elasticity",
+                      broken[] = "far beyond linear elasticity",
+                      percent[] = "meant in per cent, write --creep 0.001%",
+                      radians[] = "in radians, write --arc 1.99rad",
+                      sliding[] = "The whole contact slides: the creepage is not unique",
+                      equal[] = "equal elements were used",
+                      edge[] = "uncertain by one element",
+                      yields[] = "The interface yields", falls[] = "(kappa = 0.96) that",
+                      still[] = "rolls at creepage 0",
+                      enters[] = "does not change the tractions",
+                      opposes[] = "points along the friction, not against it",
+                      angle[] = "depends on the angle of the wheel";
     noted n;
     for (int k = 0; k < 45; k++) {
         const char *want = NULL;
@@ -335,7 +336,7 @@ static void notes_begin_where_they_should(void **state)
         case 42: /* below zero, by more than rounding */
             s->normal_load = 100.0;
             s->dissipation = k == 41 ? -1e-9 : -1e-11;
-            want = k == 41 ? "the dissipation, -1e-09 N/mm, is below zero" : NULL;
+            want = k == 41 ? "The dissipation, -1e-09 N/mm, is below zero" : NULL;
             break;
         case 39:
         case 40:

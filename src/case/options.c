@@ -94,18 +94,20 @@ const rb_option rb_case_table[] = {
         .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("core-poisson", RC(a.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic core"),
-    RB_NUMBER_LINE("relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),
-                   "times tau of the creep compliance 1 + sum f (1 - exp(-t/tau)), E the "
-                   "glassy modulus; what rolls is a halfplane, static contact has a "
-                   "history in time",
-                   .unset = "elastic", .list = PLACE(memory_a.times)),
-    RB_NUMBER_LINE("relaxation-ratio", PLACE(memory_a.ratio), "-", RB_FROM(0),
-                   "as many f, each glassy over rubbery modulus less 1",
-                   .unset = "elastic", .list = PLACE(memory_a.ratios)),
     RB_NUMBER_LINE(
-        "speed", RC(speed), "mm/s", RB_ABOVE(0),
-        "of rolling, for bodies that relax, temperatures and friction that falls",
-        .unset = "not given"),
+        "relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),
+        "relaxation times tau_k of the creep compliance J(t) E = 1 + sum f_k (1 - "
+        "exp(-t/tau_k)); --young is then the instantaneous (glassy) modulus. "
+        "Static contact needs a history in time",
+        .unset = "elastic", .list = PLACE(memory_a.times)),
+    RB_NUMBER_LINE("relaxation-ratio", PLACE(memory_a.ratio), "-", RB_FROM(0),
+                   "the amplitudes f_k, one per --relaxation-time; for one term f = "
+                   "E_glassy/E_rubbery - 1",
+                   .unset = "elastic", .list = PLACE(memory_a.ratios)),
+    RB_NUMBER_LINE("speed", RC(speed), "mm/s", RB_ABOVE(0),
+                   "rolling speed; needed for viscoelastic bodies, temperatures and "
+                   "velocity-dependent friction",
+                   .unset = "not given"),
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     RB_FLAG_LINE("similar", PLACE(similar),
@@ -180,37 +182,40 @@ const rb_option rb_case_table[] = {
                                               "between them, constant beyond",
         .path = PLACE(friction_file), .path_value = RB_FRICTION_table,
         .path_name = "FILE", .file = RB_FILE_READ),
-    RB_NUMBER_LINE("mu-fall", PLACE(law.fall), "-", RB_ANY,
-                   "m1[,m2]: what falls off with the slip velocity", .unset = "none",
-                   .list = PLACE(law.falls)),
+    RB_NUMBER_LINE(
+        "mu-fall", PLACE(law.fall), "-", RB_ANY,
+        "m1[,m2]: the part of the coefficient that is lost at high slip velocity",
+        .unset = "none", .list = PLACE(law.falls)),
     RB_NUMBER_LINE("slip-scale", PLACE(law.slip_scale), "mm/s", RB_ABOVE(0),
-                   "s1[,s2]: slip velocities at which it falls off", .unset = "none",
+                   "s1[,s2]: the slip velocities that scale this fall", .unset = "none",
                    .list = PLACE(law.slip_scales)),
     RB_NUMBER_LINE("memory", PLACE(law.memory), "mm", RB_ABOVE(0),
                    "d[,s0]: friction follows the law over a slid distance d; at rest as "
                    "if sliding by s0 (1 mm/s)",
                    .unset = "none", .list = PLACE(law.memories)),
-    RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
-                   "dmu,Tref,dT: adds dmu times the part of dT, 0 to 1, that the surface "
-                   "is warmer than Tref [K]; see --conductivity",
-                   .unset = "none", .list = PLACE(law.heats)),
+    RB_NUMBER_LINE(
+        "mu-heat", PLACE(law.heat), "-", RB_ANY,
+        "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
+        "rises from Tref to Tref + dT [K]; see --conductivity",
+        .unset = "none", .list = PLACE(law.heats)),
 
     RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic or plastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
-                   "displacement along the normal per pressure"),
+                   "its normal compliance: displacement per pressure"),
     RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa",
-                   RB_FROM(0),
-                   "along the tangent per friction: thickness over shear modulus"),
-    RB_NUMBER_LINE("yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
-                   "friction by which it yields, a second bound beside mu p",
-                   .word = "none", .word_value = 0.0),
+                   RB_FROM(0), "its tangential compliance: thickness over shear modulus"),
+    RB_NUMBER_LINE(
+        "yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
+        "shear stress at which the third body yields, a second bound beside mu p",
+        .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("hardening", RC(hardening), "MPa/mm", RB_ANY,
-                   "what its yield stress grows per plastic slip; < 0: it softens"),
+                   "hardening modulus: increase of the yield stress per plastic slip "
+                   "(negative: softening)"),
 
     RB_GROUP_LINE("heat", "Heat of friction: flash temperature of steady and transient "
                           "rolling"),
     RB_NUMBER_LINE("conductivity", RC(heat_a.conductivity), "W/(m K)", RB_ABOVE(0),
-                   "of A; temperatures are computed where it is given, see --speed",
+                   "of A; if it is given, temperatures are computed, which needs --speed",
                    .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("heat-capacity", RC(heat_a.heat_capacity), "MJ/(m3 K)", RB_ABOVE(0),
                    "of A: density times specific heat", .word = "none",
@@ -226,13 +231,13 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("normal", "Normal direction: one of"),
     RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
-                   "A moves down by this, towards B", .unset = "R/2",
+                   "how far A is moved down, towards B", .unset = "R/2",
                    .excludes = ONE_NORMAL),
     RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P",
                    .unset = "not given", .excludes = ONE_NORMAL),
     RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
-                   "the load whose Hertz half-width a is this", .unset = "not given",
-                   .excludes = ONE_NORMAL),
+                   "the half-width a of Hertz; the load follows from it",
+                   .unset = "not given", .excludes = ONE_NORMAL),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE(

@@ -184,8 +184,10 @@ static cli_exit run_case(const contact_runs *all, int k)
     contact_run *r = &all->run[k];
     rb_case_from_contact(r->in, &r->c);
     if (r->c.left_out[0] && !all->o->quiet)
-        cli_fail(CLI_OK, "%s:%d: case %d%s: leaves out %s", all->path, r->in->line, k + 1,
-                 r->c.runs ? "" : " is not run", r->c.left_out);
+        cli_fail(CLI_OK,
+                 r->c.runs ? "%s:%d: case %d is solved without %s"
+                           : "%s:%d: case %d skipped: %s is not supported",
+                 all->path, r->in->line, k + 1, r->c.left_out);
     if (!r->c.runs)
         return CLI_OK;
     r->status = rb_rolling_solve_between(&r->c.rc, r->c.from, r->c.to, &r->s, &r->why);

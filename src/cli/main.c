@@ -25,7 +25,7 @@ static const cli_command commands[] = {
     {"friction", cli_friction, "solves frictional contact problems from files"},
     {"compare", cli_compare, "performance profiles of friction solvers over files"},
     {"contact", cli_contact, "runs two-dimensional input files of CONTACT"},
-    {"examples", cli_examples, "cases that are at hand: --example NAME"},
+    {"examples", cli_examples, "the built-in examples: --example NAME"},
     {"example", cli_example, "finite elements: bar, truss, wall"},
     {"page", cli_page, "the page for browsers, with a case that it opens with"},
     {"help", cli_help, "this list, or the options of one command"},

@@ -70,7 +70,7 @@ static const rb_option options[] = {
                  "with --json: tractions, slip displacement and zone of every element at "
                  "every step as history.states, which rollbem check asks for"),
     RB_FLAG_LINE("progress", PLACE(steps.progress),
-                 "a line on standard error now and then; terminals get it anyway"),
+                 "print progress even when standard error is not a terminal"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -88,10 +88,10 @@ static const char notes[] = CLI_CASE_NOTES
     "--creep-ratio only enter the slip computed afterwards. In steady and transient\n"
     "rolling one of --creep, --creep-ratio, --force, --force-ratio drives it.\n"
     "\n"
-    "A static case is one step from no contact to the last state. Bodies of different\n"
-    "materials are not pressed so with friction: a point that comes into contact late\n"
-    "has moved freely until then. --increments N presses gradually; --history takes\n"
-    "any other sequence.\n"
+    "A static case is one step from no contact to the last state. For dissimilar bodies\n"
+    "with friction one step is not the same as pressing gradually, because points that\n"
+    "touch late have already moved: use --increments N. --history takes any other\n"
+    "sequence.\n"
     "\n"
     "Distances, of --distance and of a history, count in half-widths a: Hertz's of the\n"
     "load, the largest one of a history (under a given approach, of the load that the\n"

@@ -412,8 +412,8 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        RB_ROLLING_LARGE);
     if (rolls && wear->slides)
         return rb_fail(why, RB_EINVAL,
-                       "wear: a wheel that rolls does not slide; steady or "
-                       "a way, not both");
+                       "wear: --slide needs --formulation static; for a rolling wheel give "
+                       "--cycles N (turns)");
     if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
         return rb_fail(why, RB_EINVAL,
                        "wear: a rolling wheel of one elastic material only, got a layer, "

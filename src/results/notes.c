@@ -57,11 +57,15 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
             widest / radius * (widest / radius));
     if (approach > broken_approach || width > broken_width)
         add(list,
-            "approach/R = %.2g, a/R = %.2g: linear elasticity does not hold there, no "
-            "body could bear it",
+            "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g "
+            "R): "
+            "treat the numbers as a test problem.",
             approach, width);
     else if (approach > inaccurate_approach || width > inaccurate_width)
-        add(list, "approach/R = %.2g, a/R = %.2g: linear elasticity is inaccurate there",
+        add(list,
+            "The strains are large for linear elasticity (approach = %.2g R, a = %.2g "
+            "R): "
+            "expect errors of that order.",
             approach, width);
 }
 
@@ -93,12 +97,13 @@ static void note_motion(rb_rolling_note_list *list, const rb_rolling_case *rc)
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
     const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (rc->formulation == RB_STATIC && creeps)
-        add(list, "static: the creepage enters only the slip of (12), not the tractions; "
-                  "for rolling, --formulation steady");
-    if (rc->formulation == RB_STEADY && !creeps && !forced)
         add(list,
-            "steady without --creep, --creep-ratio, --force or --force-ratio: rolls "
-            "at creepage 0");
+            "In a static case --creep does not change the tractions; use --formulation "
+            "steady to roll.");
+    if (rc->formulation == RB_STEADY && !creeps && !forced)
+        add(list, "No --creep, --creep-ratio, --force or --force-ratio is given: the "
+                  "wheel rolls "
+                  "at creepage 0.");
 }
 
 /* Given values that look as if they were meant in other units. */
@@ -108,36 +113,39 @@ static void note_units(rb_rolling_note_list *list, const rb_rolling_case *rc,
     const int arcs = rc->a.support == RB_BEM_ARC;
     if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
         add(list,
-            "xi R/(mu a) = %.3g: full sliding far beyond 1; is the creepage meant in "
-            "%%, --creep %g%%?",
+            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the "
+            "creepage is meant in per cent, write --creep %g%%.",
             s->creep_ratio, s->creepage);
     if (arcs && rc->a.arc < 2.0)
-        add(list, "arc = %g degrees; is it meant in radians, --arc %grad?", rc->a.arc,
-            rc->a.arc);
+        add(list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
+            rc->a.arc, rc->a.arc);
 }
 
 static void note_yield(rb_rolling_note_list *list, const rb_rolling_solution *s)
 {
     if (s->yielding > 0)
-        add(list, "zone 4, 5: the interface yields, with q < 0, q > 0; shift is slip and "
-                  "yielding together, plastic what has yielded");
+        add(list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The "
+                  "column shift "
+                  "is slip and yielding together, plastic is the yielded part.");
 }
 
 static void note_mesh(rb_rolling_note_list *list, const rb_rolling_solution *s)
 {
     if (s->equal_instead)
-        add(list, "the edges that elements were fitted to did not come to rest: equal "
-                  "elements instead");
+        add(list,
+            "Fitting the mesh to the contact edges did not converge; equal elements were "
+            "used.");
     if (s->edges_bounded && s->contact > 0)
-        add(list, "the pressure does not fall to zero like a power of the distance at "
-                  "every edge: such an edge is only known to an element");
+        add(list,
+            "The pressure ends abruptly at one edge; its position is uncertain by one "
+            "element.");
 }
 
 /* Slip between two midpoints that the mean of their tractions does not oppose. */
 static void note_power(rb_rolling_note_list *list, const rb_rolling_solution *s)
 {
     if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
-        add(list, "the dissipation, %.2g %s, is below zero: it is %s", s->dissipation,
+        add(list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
             rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
 }
 
@@ -149,8 +157,9 @@ static void note_full_sliding(rb_rolling_note_list *list, const rb_rolling_case 
     if (s->formulation != RB_STATIC && force && s->stick == 0 &&
         rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
         !rb_rolling_law_depends_on_state(rc))
-        add(list, "full sliding: the creepage is not unique; every larger one gives the "
-                  "same force");
+        add(list, "The whole contact slides: the creepage is not unique, every larger "
+                  "one gives "
+                  "the same force.");
 }
 
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
@@ -164,18 +173,22 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
     note_full_sliding(&list, rc, s);
     if (s->kappa > not_unique)
         add(&list,
-            "friction falls so steeply, kappa = %.3g, that there may be other solutions: "
-            "which one is found depends on the start",
+            "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
+            "solutions may exist; the start decides which one is found.",
             s->kappa);
     if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
-        add(&list, "on an arc support rolling differs at every angle of the wheel; hub "
-                   "and halfplane do not");
+        add(&list, "On an arc support the answer depends on the angle of the wheel; "
+                   "--support hub "
+                   "and halfplane do not have this.");
     note_yield(&list, s);
     note_mesh(&list, s);
     note_power(&list, s);
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
         s->slip_violations > 0)
-        add(&list, "at %d points the slip of (12) does not oppose the friction",
-            s->slip_violations);
+        add(&list,
+            "In %d of %d elements the slip computed afterwards points along the "
+            "friction, "
+            "not against it; for rolling use --formulation steady.",
+            s->slip_violations, s->n);
     return list;
 }
