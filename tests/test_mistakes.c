@@ -235,7 +235,7 @@ static void refusals_have_their_code_and_reason(void **state)
         {64,
          "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady "
          "--creep-ratio 0.5",
-         "steady or a way, not both"},
+         "--slide needs --formulation static"},
         {64,
          "wear b.ini --wear-coefficient 1e-7 --cycles 1 --formulation steady "
          "--creep-ratio 0.5 --profile w.tsv",
@@ -405,12 +405,12 @@ static void doubtful_values_are_noted(void **state)
 {
     (void)state;
     static const char *const all[][2] = {
-        {"", "linear elasticity does not hold"},
-        {"--mu 0.3 --creep 0.1", "for rolling, --formulation steady"},
+        {"", "far beyond linear elasticity"},
+        {"--mu 0.3 --creep 0.1", "does not change the tractions"},
         {"--example rail", "rolls at creepage 0"},
         {"--example rail --creep 0.4", "meant in per cent, write --creep"},
         {"--arc 0.5", "in radians, write --arc"},
-        {"--example rail --radius 0.46", "linear elasticity does not hold"}};
+        {"--example rail --radius 0.46", "far beyond linear elasticity"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[200];
         rollbem(all[k][0]);
@@ -470,7 +470,7 @@ static void terminals_get_a_short_table(void **state)
         skip();
     assert_int_equal(
         shell("script -qec \"'$R' --example rail --creep-ratio 0.4\" typescript"), 0);
-    const char *summary = strstr(out, "  load "), *table = strstr(out, "p_MPa");
+    const char *summary = strstr(out, "  load "), *table = strstr(out, "  zone");
     assert_non_null(summary);
     assert_non_null(table);
     assert_true(summary < table);
@@ -478,7 +478,7 @@ static void terminals_get_a_short_table(void **state)
     int lines = 0;
     for (const char *c = out; *c; c++)
         lines += *c == '\n';
-    assert_true(lines < 40);
+    assert_true(lines <= 24);
     assert_int_equal(shell("script -qec \"'$R' --example rail --format tsv\" typescript"),
                      0);
     assert_non_null(strstr(out, "# rollbem"));
