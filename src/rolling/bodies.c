@@ -78,18 +78,15 @@ static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_mesh *m
     return s;
 }
 
-/* Fewer elements are solved sooner by an LU (docs/performance.md).  The page has no
- * transforms: its Makefile rule sets another number. */
-#ifndef RB_LEAST_TRANSFORMED
-#define RB_LEAST_TRANSFORMED 250
-#endif
+/* Fewer elements are solved sooner by an LU (docs/performance.md). */
+enum { LEAST_TRANSFORMED = 250 };
 
 static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                 rb_rolling_bodies *bodies, rb_message *why)
 {
     rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
 
-    if (mesh->n < RB_LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
+    if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
         return RB_OK;
     const rb_status s = join_bodies(rc, mesh, 1, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;

@@ -75,10 +75,11 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *product
 }
 
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
-                                  rb_bem_circulant **circulant)
+                                  const double local[4], rb_bem_circulant **circulant)
 {
     (void)f;
     (void)stencil;
+    (void)local;
     *circulant = NULL;
     return RB_EINVAL;
 }
