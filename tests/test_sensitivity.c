@@ -189,7 +189,7 @@ static void forward_is_adjoint(void **state)
         rb_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
         const rb_contact_problem *p = &r.model.problem;
         int n;
-        CHECK_STATUS(rb_sensitivity_create(&r.model, &s, &why), RB_OK);
+        CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_OK);
         CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
         CHECK_STATUS(rb_contact_state_alloc(p->n, &weight), RB_OK);
         CHECK_STATUS(rb_sensitivity_rate_alloc(p->n, &adjoint), RB_OK);
@@ -371,7 +371,7 @@ static void steps_are_refused(void **state)
     (void)state;
 
     rb_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_sensitivity_create(&r.model, &s, &why), RB_EINVAL);
+    CHECK_STATUS(rb_sensitivity_create(&r.model, 0, &s, &why), RB_EINVAL);
     assert_null(s);
     assert_non_null(strstr(why.text, "sequence of steps"));
     rb_case_result_free(&r);

@@ -369,7 +369,8 @@ enum { RB_CASE_TOLERANCES_MAX = 32 };
 typedef struct {
     int n;
     char name[RB_CASE_TOLERANCES_MAX][40];
-    double deviation[RB_CASE_TOLERANCES_MAX]; /* in mm, N, MPa */
+    double value[RB_CASE_TOLERANCES_MAX],
+        deviation[RB_CASE_TOLERANCES_MAX]; /* mm, N, MPa */
 } rb_case_tolerances;
 
 /* RB_EINVAL: what is no number of the case, or no deviation >= 0 (the line says which).
@@ -435,6 +436,75 @@ void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
 void rb_case_crack_free(rb_case_crack_result *result);
 /* Numbers of rb_crack_summary and columns of rb_crack_history. */
 extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns;
+/* ---- Fits to measured creep curves (theory.md, D5) ----------------------------------
+ */
+
+enum { RB_CASE_FIT_MAX = 12 };
+
+/* What the measured forces are. */
+typedef enum {
+    RB_CASE_FORCE,          /* Q */
+    RB_CASE_FORCE_RATIO,    /* Q/(mu P), mu the largest coefficient of the law */
+    RB_CASE_FORCE_OVER_LOAD /* Q/P */
+} rb_case_measure;
+
+/* n measured points; NULL columns: not measured, the case has the value.  Borrowed; mm,
+ * N, MPa. */
+typedef struct {
+    int n, is_ratio; /* 1: creep is xi R/(mu a) */
+    rb_case_measure measure;
+    const double *creep, *force;
+    const double *load, *speed, *temperature;
+    const double *sigma; /* standard deviations of the forces; NULL: unknown, alike */
+} rb_case_data;
+
+/* A number of the case by the name of its option, or "creep-offset": the true creepage is
+ * the measured one plus it.  The caller sets name, start (NAN: what the case or the data
+ * say), low and high (-INFINITY, INFINITY: the option's range). */
+typedef struct {
+    char name[40];
+    double start, low, high;
+    /* found: */
+    const char *unit;
+    double value, interval[2], deviation; /* Student's interval; standard deviation */
+    double correlation[RB_CASE_FIT_MAX];  /* with the others; NAN: not known */
+    int identified, at_bound;
+    double from, to, scale;
+    int low_open, high_open, positive;
+} rb_case_parameter;
+
+typedef struct {
+    int n;
+    rb_case_parameter parameter[RB_CASE_FIT_MAX];
+    double level; /* of the intervals, such as 0.95 */
+    /* found: */
+    rb_status status;
+    int iterations, degrees_of_freedom, unidentified;
+    double chi_square, noise; /* noise: of a force, in units of its sigma where given */
+    double kappa;             /* the largest; 0: friction does not depend on the state */
+    double *model,
+        *band; /* forces of the fit and half-widths of their intervals; owned */
+    char sentences[1000]; /* what the data do not tell, a line each */
+} rb_case_fit;
+
+typedef struct {
+    /* Sees each step; a value other than 0 ends the fit. */
+    int (*step)(int iteration, double chi_square, int n, const double *value,
+                void *context);
+    void *context;
+} rb_case_fit_observer;
+
+/* A falling friction law, a speed and the words beside them where the fit asks for
+ * numbers of which the case says nothing.  Before it is resolved. */
+rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
+                              const rb_case_fit *fit, rb_message *why);
+/* The case's tangential control is not read.  RB_EINVAL: no such number, too few points;
+ * RB_INACCURATE: kappa > 1; RB_MAXITER, RB_INTERRUPTED: values so far.  fit: n, names,
+ * starts, bounds, level; free it in any case. */
+rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
+                            const rb_case_fit_observer *observer, rb_case_fit *fit,
+                            rb_message *why);
+void rb_case_fit_free(rb_case_fit *fit);
 
 /* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 

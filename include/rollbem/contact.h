@@ -118,6 +118,9 @@ typedef struct {
 /* Arrays of zeros for the elements of the operator, which is taken over, also on failure.
  * RB_ENOMEM. */
 rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *problem);
+/* The same with an operator that stays another's: set problem->op to NULL before the
+ * problem is freed. */
+rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *problem);
 void rb_contact_problem_free(rb_contact_problem *problem);
 
 /* One coefficient of friction for all elements (bound NULL), or one for each: n values,

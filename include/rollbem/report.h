@@ -446,6 +446,26 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
 void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
                           const rb_report_derivatives *d);
 
+/* ---- Fits (case.h) ------------------------------------------------------------------
+ */
+
+typedef struct {
+    const rb_case_fit *fit; /* borrowed, as the data; in mm, N, MPa */
+    const rb_case_data *data;
+    rb_units units; /* that are shown */
+} rb_report_fit;
+
+/* parameters, residuals, fit (the curve and its band) and what belongs to them. */
+void rb_report_json_fit(struct json_t **root, const rb_report_fit *f);
+/* The fitted curve, a row per point, below comments with the parameters. */
+rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *command,
+                              const rb_report_style *style);
+void rb_report_fit_summary(FILE *out, const rb_report_fit *f);
+/* Points, fitted curve and its band.  RB_EINVAL: no band, because some number is not
+ * identified. */
+rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas,
+                                const rb_report_fit *f, rb_message *why);
+
 RB_PUBLIC_END
 
 #endif

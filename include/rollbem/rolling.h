@@ -648,12 +648,16 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
 
 /* A variant of a solved model: a case that differs from the model's by a little in some
- * number, on the same elements, with the model's state and zones.  same_bodies: 1: the
- * flexibility is borrowed from the model.  RB_INACCURATE: the boundary outside the
+ * number, on the same elements, with the model's state and zones; a flexibility that does
+ * not change is borrowed from the model.  RB_INACCURATE: the boundary outside the
  * contact gets another number of elements.  variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int same_bodies, rb_rolling_model *variant,
-                                    rb_message *why);
+                                    rb_rolling_model *variant, rb_message *why);
+/* 1: both cases have the same flexibility. */
+int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
+/* A variant that is solved, from the zones of the model. */
+rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   rb_rolling_model *variant, rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
 /* Gives it p, q, delta, xi of the model and `part` of those of `along` (NULL: 0). */
 void rb_rolling_variant_set(const rb_rolling_model *of, const rb_contact_state *along,
@@ -661,6 +665,10 @@ void rb_rolling_variant_set(const rb_rolling_model *of, const rb_contact_state *
 /* And what follows from them in its case: slip (0 in stick), coefficients of friction,
  * Hertz's half-width. */
 rb_status rb_rolling_variant_complete(rb_rolling_model *variant, rb_message *why);
+
+/* kappa of the state (theory.md F3), where friction depends on it: above 1 an element by
+ * itself, or a step, may have several states.  RB_ENOMEM. */
+rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
 
 /* Solutions of one steady case, the largest force first. */
 typedef struct {

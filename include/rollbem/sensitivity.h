@@ -18,11 +18,12 @@ RB_PUBLIC_BEGIN
 /* A solved model with the factors of its Jacobian; opaque. */
 typedef struct rb_sensitivity rb_sensitivity;
 
-/* model: solved, borrowed, unchanged as long as s lives; of one step.  RB_EINVAL: steps,
- * or what has no derivative (the line says what); RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE:
- * the state is no solution. */
-rb_status rb_sensitivity_create(const rb_rolling_model *model, rb_sensitivity **s,
-                                rb_message *why);
+/* results: 1: of all results, with the creepage of free rolling, which is a solution of
+ * its own; 0: for tangents, adjoints and rates alone. model: solved, borrowed, unchanged
+ * as long as s lives; of one step.  RB_EINVAL: steps, or what has no derivative (the line
+ * says what); RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
+rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
+                                rb_sensitivity **s, rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
 /* Elements at the border of two zones. */
 int rb_sensitivity_degenerate(const rb_sensitivity *s);
@@ -48,8 +49,8 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
 
 /* D3: weights of rates in the derivative of a number f = weight . (p, q, delta, xi):
  * f' = f_input + adjoint . R'.  One transposed solve per number, for any number of
- * inputs.  weight, adjoint: as a state and as a rate.  RB_EINVAL: a problem without
- * matrices, or a degenerate one. */
+ * inputs.  weight, adjoint: as a state and as a rate.  At a border: of the zones that the
+ * state has.  RB_EINVAL: a problem without matrices. */
 rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
                                  rb_sensitivity_rate *adjoint, rb_message *why);
 double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint,
@@ -66,6 +67,11 @@ typedef struct {
     rb_status (*vary)(void *context, double value, rb_rolling_case *rc, rb_message *why);
     void *context;
 } rb_sensitivity_input;
+
+/* How the equations change with the input; mu: how its largest coefficient does.  rate:
+ * overwritten; free it in any case. */
+rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                               rb_sensitivity_rate *rate, double *mu, rb_message *why);
 
 /* Derivatives of all results of the model, in the places of the results: value[0] for
  * a falling, value[1] for a growing input.  Whole numbers, proofs and places that are

@@ -141,7 +141,7 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
     *all = (rb_case_derivatives){
         .of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative))};
     rb_status status = number && all->of
-                           ? rb_sensitivity_create(model, &s, why)
+                           ? rb_sensitivity_create(model, 1, &s, why)
                            : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
@@ -257,8 +257,10 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
             s = rb_fail(why, RB_EINVAL,
                         "%s: expected a standard deviation >= 0 or per cent, got '%s'",
                         word, value ? value : "nothing");
-        else
+        else {
+            t->value[t->n] = number[k].input.value;
             memcpy(t->name[t->n++], number[k].name, sizeof number[k].name);
+        }
     }
     free(number);
     return s;

@@ -14,6 +14,8 @@ enum { STUDY_HEADING = RB_ROLLING_HEADING + 8 };
 
 typedef struct {
     const char *vary[VARIED_MAX], *cases, *output, *results;
+    const char *tolerance;
+    int sample, seed;
     const char *plot, *map, *over, *family, *show;
     cli_pictures pictures;
     rb_report_style style;
@@ -43,8 +45,12 @@ typedef struct {
     const rb_option_set *own; /* the options of a study, whose values are in o */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
-    int rows[VARIED_MAX + 1]; /* of each factor */
+    int rows[VARIED_MAX + 2]; /* of each factor */
     double *owned[VARIED_MAX];
+    double *sampled; /* of --sample: columns of cases each; owned */
+    double sum[RESULTS_MAX], square[RESULTS_MAX]; /* of their results, less the first */
+    double first_result[RESULTS_MAX];
+    int summed;
     rb_io_table table;
     study_result result[RESULTS_MAX];
     int results;
@@ -70,6 +76,8 @@ typedef struct {
 
 /* What varies: reads --cases and --vary-1 ...; 0 columns are refused. */
 cli_exit cli_study_read(study *st);
+/* The same of --sample: a Latin hypercube over the tolerances of the resolved case c. */
+cli_exit cli_study_sample(study *st, const rb_case *c);
 /* Of case k = 0, 1, ... */
 double cli_study_value(const study *st, const study_column *c, int k);
 /* The values of case k in c; resolve afterwards. */

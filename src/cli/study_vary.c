@@ -3,6 +3,9 @@
 #include "cli/case.h"
 #include "cli/study.h"
 
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -208,9 +211,49 @@ cli_exit cli_study_read(study *st)
     for (int k = 0; k < VARIED_MAX && code == CLI_CONTINUE; k++)
         if (st->o->vary[k])
             code = add_varied(st, k);
-    if (code == CLI_CONTINUE && st->factors == 0)
-        code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases");
+    if (code == CLI_CONTINUE && st->factors == 0 && st->o->sample == 0)
+        code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases, or --sample");
     return code;
+}
+
+/* n numbers of a standard normal distribution, one from each of n equal parts of its
+ * probability, in random order. */
+static void latin_column(gsl_rng *rng, int n, double *x)
+{
+    for (int k = 0; k < n; k++)
+        x[k] = gsl_cdf_ugaussian_Pinv((k + gsl_rng_uniform_pos(rng)) / n);
+    gsl_ran_shuffle(rng, x, (size_t)n, sizeof *x);
+}
+
+cli_exit cli_study_sample(study *st, const rb_case *c)
+{
+    const int n = st->o->sample;
+    rb_case_tolerances t;
+    rb_message why = {""};
+    cli_exit code = CLI_CONTINUE;
+
+    if (!st->o->tolerance)
+        return cli_fail(CLI_USAGE, "--sample needs --tolerance NAME=X,...");
+    if (rb_case_read_tolerances(c, st->o->tolerance, &t, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+    st->sampled = rb_alloc((size_t)n, (size_t)t.n);
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    if (!st->sampled || !rng) {
+        gsl_rng_free(rng);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    gsl_rng_set(rng, (unsigned long)st->o->seed);
+    for (int j = 0; j < t.n && code == CLI_CONTINUE; j++) {
+        double *value = st->sampled + (size_t)j * (size_t)n;
+        const rb_option *o = rb_case_option(t.name[j]);
+        latin_column(rng, n, value);
+        for (int k = 0; k < n && o; k++)
+            value[k] = rb_unit_shown(rb_case_resolved(c)->units, o->unit,
+                                     t.value[j] + t.deviation[j] * value[k]);
+        code = add_column(st, "--tolerance", CLI_USAGE, t.name[j], value);
+    }
+    gsl_rng_free(rng);
+    return code == CLI_CONTINUE ? add_factor(st, "--sample", CLI_USAGE, n) : code;
 }
 
 /* The row of its factor that case k has. */

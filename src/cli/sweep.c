@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,14 @@ static const rb_option options[] = {
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options",
                  .unset = "none", .file = RB_FILE_READ),
+    RB_INTEGER_LINE("sample", PLACE(sample), RB_FROM_TO(0, 1000000),
+                    "so many cases whose inputs scatter by --tolerance (a Latin "
+                    "hypercube of normal distributions); mean and standard deviation of "
+                    "each result on standard error"),
+    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
+                 "their standard deviations, as mu=0.02,radius=1%", .unset = "none"),
+    RB_INTEGER_LINE("seed", PLACE(seed), RB_FROM_TO(0, 1000000000),
+                    "of the sample: the same seed gives the same cases"),
     RB_TEXT_LINE("results", PLACE(results), "A,B,...",
                  "further results, by their names in JSON's `summary` or `maxima`: "
                  "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...",
@@ -91,6 +100,7 @@ static void study_free(study *st)
         free(st->owned[k]);
     rb_io_table_free(&st->table);
     free(st->drawn);
+    free(st->sampled);
     json_decref(st->list);
     rb_case_free(st->one);
 }
@@ -289,6 +299,36 @@ static void count_status(study *st, int k, rb_status status)
         st->unsolved_case = k + 1;
 }
 
+/* Means and deviations of a sample: of what has come in this run. */
+static void add_to_sums(study *st, int k, const rb_rolling_row *row)
+{
+    if (st->o->sample == 0 || row->solution.status != RB_OK)
+        return;
+    for (int j = 0; j < st->results; j++) {
+        const double x = cell_value(st, st->columns + 2 + j, k, row);
+        if (st->summed == 0)
+            st->first_result[j] = x;
+        st->sum[j] += x - st->first_result[j];
+        st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
+    }
+    st->summed++;
+}
+
+static void print_sums(const study *st)
+{
+    char heading[STUDY_HEADING];
+    const double n = st->summed;
+
+    for (int j = 0; j < st->results && st->summed > 1; j++) {
+        const double mean = st->sum[j] / n;
+        const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
+        if (st->result[j].r->kind == RB_RESULT_NUMBER && variance > 0.0)
+            fprintf(stderr, "  %-28s %.6g +- %.2g\n",
+                    column_name(st, st->columns + 2 + j, heading),
+                    st->first_result[j] + mean, sqrt(variance));
+    }
+}
+
 static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     study *st = context;
@@ -308,6 +348,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     }
     if (st->o->style.format != RB_REPORT_JSON)
         rb_report_cells_end_row(&c);
+    add_to_sums(st, k, &shown);
     count_status(st, k, row->solution.status);
     return ferror(st->out);
 }
@@ -662,6 +703,8 @@ static cli_exit run(study *st)
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
                 spent, st->unsolved, st->cases);
+    if (!st->o->quiet)
+        print_sums(st);
     say_why_unsolved(st, &sweep);
     if (st->o->cite)
         rb_report_citations(stderr, &rb_case_resolved(st->base)->rc, NULL);
@@ -679,6 +722,12 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
 
     if (code == CLI_CONTINUE)
         code = cli_study_read(st);
+    if (code == CLI_CONTINUE && st->o->sample > 0) {
+        rb_message why = {""};
+        code = cli_say(rb_case_resolve(c, &why), &why);
+        if (code == CLI_CONTINUE)
+            code = cli_study_sample(st, c);
+    }
     /* with values, because other options may stand only beside one that varies */
     if (code == CLI_CONTINUE)
         code = cli_study_set_values(st, c, 0);

@@ -49,6 +49,14 @@ rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *
     return rb_contact_problem_alloc_rows(p);
 }
 
+rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *p)
+{
+    *p = (rb_contact_problem){.n = op->n};
+    const rb_status s = rb_contact_problem_alloc_rows(p);
+    p->op = s == RB_OK ? op : NULL;
+    return s;
+}
+
 void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bound)
 {
     p->mu = mu;

@@ -179,6 +179,22 @@ json_t *rb_report_json_schema(void)
         columns(&rb_rolling_stress_scalars, 1, "the same at given points"));
     rb_report_json_set(&of, "depth", number("of grid and maxima; null: 2.5 half-widths"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
+    rb_report_json_set(&of, "derivatives",
+                       typed("object", "of --derivatives: of each result by each input; "
+                                       "[left, right] where the sides differ"));
+    rb_report_json_set(&of, "without_derivatives",
+                       typed("object", "inputs without, and why"));
+    rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
+    rb_report_json_set(&of, "tolerances",
+                       typed("object", "of --tolerance: standard deviations of results"));
+    rb_report_json_set(&of, "parameters",
+                       typed("object", "of fit: value, interval, correlation of each"));
+    rb_report_json_set(&of, "fit", typed("object", "points, fitted curve and its band"));
+    rb_report_json_set(&of, "residuals",
+                       list_of(number("measured less fitted"), "of fit"));
+    rb_report_json_set(
+        &of, "sentences",
+        list_of(typed("string", NULL), "of fit: what the data do not tell"));
     rb_report_json_set(
         &of, "problems",
         list_of(typed("object", NULL), "of lcp and friction, one per file"));

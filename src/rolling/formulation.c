@@ -328,6 +328,38 @@ static void set_scales(const rb_rolling_case *rc, rb_contact_problem *p)
     p->rounding = 64.0 * DBL_EPSILON * unit.reach;
 }
 
+/* p: allocated. */
+static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_rolling_bodies *bodies,
+                              const rb_rolling_past *past, rb_contact_problem *p,
+                              rb_message *why)
+{
+    if (set_yield(rc, p) != RB_OK)
+        return rb_fail(why, RB_ENOMEM,
+                       "out of memory for a contact problem of %d elements", mesh->n);
+    rb_rolling_start_bounds(rc, bodies, p);
+    p->differences = rc->formulation == RB_STEADY;
+    rb_rolling_set_gap(mesh, bodies, p);
+    rb_rolling_set_past(rc, bodies, past, p);
+    set_weights(rc, bodies, p);
+    rb_rolling_set_control(rc, p);
+    set_scales(rc, p);
+    return check_softening(rc, p, why);
+}
+
+rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                   const rb_rolling_bodies *bodies,
+                                   rb_contact_operator *op, rb_contact_problem *p,
+                                   rb_message *why)
+{
+    const rb_status s = rb_contact_problem_borrow(op, p);
+
+    return s == RB_OK
+               ? fill_problem(rc, mesh, bodies, NULL, p, why)
+               : rb_fail(why, s, "out of memory for a contact problem of %d elements",
+                         mesh->n);
+}
+
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
@@ -344,19 +376,10 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     free(A.outside);
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, p);
-    if (s == RB_OK)
-        s = set_yield(rc, p);
     if (s != RB_OK)
         return rb_fail(why, s, "out of memory for a contact problem of %d elements",
                        mesh->n);
-    rb_rolling_start_bounds(rc, bodies, p);
-    p->differences = A.differences;
-    rb_rolling_set_gap(mesh, bodies, p);
-    rb_rolling_set_past(rc, bodies, past, p);
-    set_weights(rc, bodies, p);
-    rb_rolling_set_control(rc, p);
-    set_scales(rc, p);
-    return check_softening(rc, p, why);
+    return fill_problem(rc, mesh, bodies, past, p, why);
 }
 
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,

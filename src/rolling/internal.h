@@ -179,6 +179,12 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies,
                                             rb_contact_problem *p, rb_message *why);
+/* The problem of bodies and an operator that belong to another one, which stays their owner:
+ * p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
+rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                   const rb_rolling_bodies *bodies,
+                                   rb_contact_operator *op, rb_contact_problem *p,
+                                   rb_message *why);
 /* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
 double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 /* d_N, from the gaps of the mesh. */
@@ -207,9 +213,6 @@ double rb_rolling_law_steepest(const rb_rolling_case *rc);
 /* Bounds of the elements before anything is solved: those at rest, or the given start. */
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              rb_contact_problem *p);
-/* kappa of the state (theory.md 4.11): above 1 an element by itself, or a step, may have
- * several states.  RB_ENOMEM. */
-rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
 /* The coefficients (n) that the law gives the state. */
 rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
                                       rb_message *why);

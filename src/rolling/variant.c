@@ -2,6 +2,7 @@
  * derivatives of a solution are made from (theory.md, D1). */
 #include "rolling/internal.h"
 
+#include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,15 +28,147 @@ static int have_same_boundary(const rb_bem_system *x, const rb_bem_system *y)
     return !x || rb_bem_system_mesh(x)->n == rb_bem_system_mesh(y)->n;
 }
 
-rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int same_bodies, rb_rolling_model *v, rb_message *why)
+static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
 {
+    return memcmp(x, y, sizeof *x) == 0;
+}
+
+int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y)
+{
+    return same_body(&x->a, &y->a) && x->elastic_b == y->elastic_b &&
+           (!x->elastic_b || same_body(&x->b, &y->b)) &&
+           x->interlayer_normal == y->interlayer_normal &&
+           x->interlayer_tangential == y->interlayer_tangential &&
+           (x->speed == y->speed || !rb_rolling_relaxes(x));
+}
+
+/* ---- Half-planes: how displacements change, by formula
+ * --------------------------------- */
+
+/* Of both bodies: 1/E*, beta/E* and what the depths of zero displacement add, which are
+ * the factors of three matrices that the mesh alone makes (F1 of theory.md 3). */
+typedef struct {
+    double direct, coupled, datum;
+} factors;
+
+static int is_plain_halfplane(const rb_rolling_body *body)
+{
+    return body->support == RB_BEM_HALFPLANE && body->layer == 0.0 && body->memory.n == 0;
+}
+
+static int are_plain_halfplanes(const rb_rolling_case *rc)
+{
+    return is_plain_halfplane(&rc->a) && (!rc->elastic_b || is_plain_halfplane(&rc->b));
+}
+
+static factors factors_of(const rb_rolling_case *rc)
+{
+    factors all = {0.0, 0.0, 0.0};
+
+    for (int k = 0; k < 1 + rc->elastic_b; k++) {
+        double length[RB_ROLLING_TERMS];
+        const rb_bem_surface s = rb_rolling_surface_of(rc, k ? &rc->b : &rc->a, length);
+        const double own = 0.5 * (1.0 - s.material.poisson) / s.material.shear;
+        all.direct += own;
+        all.datum += own * log(s.datum);
+        all.coupled +=
+            (k ? -0.25 : 0.25) * (1.0 - 2.0 * s.material.poisson) / s.material.shear;
+    }
+    return all;
+}
+
+/* int sgn(x_i - s) f ds. */
+static void sign_integral(const rb_bem_flexibility *f, const double *r, double *b)
+{
+    double before = 0.0, behind = 0.0;
+
+    for (int j = 0; j < f->n; j++)
+        behind += f->h[j] * r[j];
+    for (int i = 0; i < f->m; i++) {
+        const double own = i < f->n ? f->h[i] * r[i] : 0.0;
+        behind -= own;
+        b[i] = before - behind;
+        before += own;
+    }
+}
+
+/* What the present tractions of the model displace more than they do, 2m, where its
+ * bodies are those of rc: w0 of the variant. */
+static rb_status changed_displacement(const rb_rolling_model *of,
+                                      const rb_rolling_case *rc, double *w0)
+{
+    const rb_bem_flexibility *f = &of->bodies.f;
+    const rb_contact_state *state = &of->state;
+    const int n = f->n, m = f->m;
+    const factors at = factors_of(&of->rc), to = factors_of(rc);
+    const double layer[2] = {of->rc.interlayer_normal, of->rc.interlayer_tangential},
+                 changed[2] = {rc->interlayer_normal, rc->interlayer_tangential};
+    double *w = rb_alloc((size_t)m, 4), *b = w + 2 * m;
+
+    if (!w || rb_rolling_displacement(&of->bodies, state->p, state->q, w) != RB_OK) {
+        free(w);
+        return RB_ENOMEM;
+    }
+    sign_integral(f, state->q, b);     /* of the normal displacement */
+    sign_integral(f, state->p, b + m); /* less that of the tangential one */
+    for (int part = 0; part < 2; part++) {
+        const double *r = part ? state->q : state->p, sign = part ? -1.0 : 1.0;
+        double sum = 0.0;
+        for (int j = 0; j < n; j++)
+            sum += M_2_PI * f->h[j] * r[j];
+        for (int i = 0; i < m; i++) {
+            const int at_i = part * m + i;
+            const double own = i < n ? r[i] : 0.0;
+            const double direct = (w[at_i] - f->w0[at_i] - at.datum * sum -
+                                   sign * at.coupled * b[at_i] - layer[part] * own) /
+                                  at.direct;
+            w0[at_i] = f->w0[at_i] + (to.direct - at.direct) * direct +
+                       (to.datum - at.datum) * sum +
+                       sign * (to.coupled - at.coupled) * b[at_i] +
+                       (changed[part] - layer[part]) * own;
+        }
+    }
+    free(w);
+    return RB_OK;
+}
+
+/* 1: the formula knows how the flexibility changes. */
+static int has_formula(const rb_rolling_model *of, const rb_rolling_case *rc)
+{
+    return are_plain_halfplanes(&of->rc) && are_plain_halfplanes(rc) &&
+           rc->elastic_b == of->rc.elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
+           !rb_rolling_law_depends_on_state(rc);
+}
+
+/* ---- Variants
+ * -------------------------------------------------------------------------- */
+
+/* The bodies that the model has, with what their change displaces as w0. */
+static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc,
+                               int same_bodies, rb_rolling_model *v)
+{
+    v->bodies = of->bodies;
+    if (same_bodies)
+        return RB_OK;
+    double *w0 = rb_alloc(2 * (size_t)of->bodies.f.m, 1);
+    const rb_status s = w0 ? changed_displacement(of, rc, w0) : RB_ENOMEM;
+    v->bodies.f.w0 = w0;
+    return s;
+}
+
+/* by_formula: 1: bodies that change need not be made anew. */
+static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
+                        int by_formula, rb_rolling_model *v, rb_message *why)
+{
+    const int same_bodies = rb_rolling_same_bodies(rc, &of->rc);
+    const int borrows = same_bodies || (by_formula && has_formula(of, rc));
+
     memset(v, 0, sizeof *v);
     v->rc = *rc;
     v->equal_instead = of->equal_instead;
-    rb_status s = copy_mesh(rc, &of->mesh, same_bodies, &v->mesh, why);
-    if (s == RB_OK && same_bodies)
-        v->bodies = of->bodies;
+    rb_status s = copy_mesh(rc, &of->mesh, borrows, &v->mesh, why);
+    if (s == RB_OK && borrows)
+        s = borrow_bodies(of, rc, same_bodies, v);
     else if (s == RB_OK)
         s = rb_rolling_bodies_create(rc, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
@@ -44,7 +177,11 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
                     "the elements outside the contact change with the input; give "
                     "--outer-elements");
     if (s == RB_OK)
-        s = rb_rolling_problem_create(rc, &v->mesh, &v->bodies, NULL, &v->problem, why);
+        s = borrows && of->rc.formulation == rc->formulation
+                ? rb_rolling_problem_share(rc, &v->mesh, &v->bodies, of->problem.op,
+                                           &v->problem, why)
+                : rb_rolling_problem_create(rc, &v->mesh, &v->bodies, NULL, &v->problem,
+                                            why);
     if (s == RB_OK)
         s = rb_contact_state_alloc(of->mesh.n, &v->state);
     if (s == RB_OK)
@@ -52,10 +189,28 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
     return s == RB_OK ? rb_rolling_variant_complete(v, why) : s;
 }
 
+rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                    rb_rolling_model *v, rb_message *why)
+{
+    return create(of, rc, 1, v, why);
+}
+
+rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   rb_rolling_model *v, rb_message *why)
+{
+    const rb_status s = create(of, rc, 0, v, why);
+    return s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
+}
+
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
-    if (v->bodies.f.m && v->bodies.f.x == of->bodies.f.x)
+    if (v->problem.op == of->problem.op)
+        v->problem.op = NULL;
+    if (v->bodies.f.m && v->bodies.f.x == of->bodies.f.x) {
+        if (v->bodies.f.w0 != of->bodies.f.w0)
+            free(v->bodies.f.w0);
         memset(&v->bodies, 0, sizeof v->bodies);
+    }
     rb_rolling_model_free(v);
 }
 

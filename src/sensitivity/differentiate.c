@@ -51,33 +51,26 @@ typedef struct {
     rb_rolling_model model[PLACES];
 } variants;
 
-static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
+/* Step and stencil: both ways where the range allows it. */
+static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                               variants *v, rb_message *why)
 {
-    return memcmp(x, y, sizeof *x) == 0;
-}
-
-/* 1: both cases have the same flexibility. */
-static int same_flexibility(const rb_rolling_case *x, const rb_rolling_case *y)
-{
-    return same_body(&x->a, &y->a) && (!x->elastic_b || same_body(&x->b, &y->b)) &&
-           x->interlayer_normal == y->interlayer_normal &&
-           x->interlayer_tangential == y->interlayer_tangential &&
-           (x->speed == y->speed || !rb_rolling_relaxes(x));
-}
-
-static rb_status step_of(const rb_sensitivity *s, const rb_sensitivity_input *input,
-                         double *step, rb_message *why)
-{
-    const double longest = STEP_OF_BODIES * input->scale;
-    const int falls = input->value + longest > input->to;
+    const double longest = STEP_OF_BODIES * input->scale, x = input->value;
+    const int falls = x + longest > input->to;
     rb_rolling_case rc;
-    const rb_status status = input->vary(
-        input->context, input->value + (falls ? -longest : longest), &rc, why);
+    const rb_status status =
+        input->vary(input->context, x + (falls ? -longest : longest), &rc, why);
 
-    *step = (status == RB_OK && same_flexibility(&rc, &s->model->rc) ? STEP
-                                                                     : STEP_OF_BODIES) *
-            input->scale;
-    return status;
+    if (status != RB_OK)
+        return status;
+    v->step = (rb_rolling_same_bodies(&rc, &s->model->rc) ? STEP : STEP_OF_BODIES) *
+              input->scale;
+    const int can_fall = x - 2.0 * v->step > input->from,
+              can_grow = x + 2.0 * v->step < input->to;
+    v->at = can_fall && can_grow ? middle : can_grow ? ahead : behind;
+    return can_fall || can_grow
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "derivatives: the input has no room to vary");
 }
 
 static rb_rolling_case on_the_same_elements(const rb_rolling_case *rc,
@@ -117,8 +110,7 @@ static rb_status variants_create(const rb_rolling_model *base,
             rc.free_axle = 0;
             rc.force_ratio = 0.0;
         }
-        s = rb_rolling_variant_create(base, &rc, same_flexibility(&rc, &base->rc),
-                                      &v->model[k], why);
+        s = rb_rolling_variant_create(base, &rc, &v->model[k], why);
     }
     return s;
 }
@@ -142,6 +134,26 @@ static rb_status rates(const variants *v, rb_sensitivity_rate *rate)
     return s;
 }
 
+rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                               rb_sensitivity_rate *rate, double *mu, rb_message *why)
+{
+    variants v = {.base = s->model};
+    rb_status status = choose_places(s, input, &v, why);
+
+    memset(rate, 0, sizeof *rate);
+    if (status == RB_OK)
+        status = variants_create(s->model, input, 0, &v, why);
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(s->n, rate);
+    if (status == RB_OK)
+        status = rates(&v, rate);
+    *mu = 0.0;
+    for (int k = 0; k < v.at.n && status == RB_OK; k++)
+        *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
+    variants_free(&v);
+    return status;
+}
+
 /* ---- Results ----------------------------------------------------------------------- */
 
 static double *number_of(const rb_rolling_result *r, rb_rolling_solution *s)
@@ -149,50 +161,55 @@ static double *number_of(const rb_rolling_result *r, rb_rolling_solution *s)
     return (double *)(void *)((char *)s + r->offset);
 }
 
-/* Adds weight times what s has more than `than` (NULL: 0). */
-static void add_results(double weight, const rb_rolling_solution *s,
-                        const rb_rolling_solution *than, rb_rolling_solution *sum)
+/* NULL: s has no such column, or it has no derivative. */
+static double *column_of(const rb_rolling_result *r, rb_rolling_solution *s)
 {
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
-        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        const double less = than ? rb_rolling_number(r, than) : 0.0;
-        if (rb_sensitivity_has(r))
-            *number_of(r, sum) += weight * (rb_rolling_number(r, s) - less);
-    }
-    for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
-        const rb_rolling_result *r = &rb_rolling_solution_columns.row[k];
-        if (!rb_sensitivity_has(r) || !rb_rolling_has_column(r, s))
-            continue;
-        double *column = *(double **)(void *)((char *)sum + r->offset);
-        for (int i = 0; i < s->n; i++)
-            column[i] += weight * (rb_rolling_entry(r, s, i) -
-                                   (than ? rb_rolling_entry(r, than, i) : 0.0));
-    }
+    return rb_sensitivity_has(r) && rb_rolling_has_column(r, s)
+               ? *(double **)(void *)((char *)s + r->offset)
+               : NULL;
 }
 
 void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
 {
-    add_results(factor - 1.0, s, NULL, s);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
+        if (rb_sensitivity_has(&rb_rolling_solution_scalars.row[k]))
+            *number_of(&rb_rolling_solution_scalars.row[k], s) *= factor;
+    for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
+        double *x = column_of(&rb_rolling_solution_columns.row[k], s);
+        for (int i = 0; i < s->n && x; i++)
+            x[i] *= factor;
+    }
 }
 
-/* Zeros where there is a derivative, NAN elsewhere. */
-static void clear_results(rb_rolling_solution *s)
+/* In the place of the first one the derivative: weights times what the others have more
+ * than it, so that what does not change has a derivative of exactly 0. */
+static void combine(const stencil *at, double step, rb_rolling_solution *moved)
 {
+    rb_rolling_solution *d = &moved[0];
+
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        const int has = rb_sensitivity_has(r);
+        double sum = 0.0;
+        for (int j = 1; j < at->n && has; j++)
+            sum += at->weight[j] / step *
+                   (rb_rolling_number(r, &moved[j]) - rb_rolling_number(r, d));
         if (r->kind != RB_RESULT_WHOLE)
-            *number_of(r, s) = rb_sensitivity_has(r) ? 0.0 : NAN;
+            *number_of(r, d) = has ? sum : NAN;
     }
     for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_columns.row[k];
-        if (rb_sensitivity_has(r) && rb_rolling_has_column(r, s))
-            memset(*(double **)(void *)((char *)s + r->offset), 0,
-                   (size_t)s->n * sizeof(double));
+        double *x = column_of(r, d);
+        for (int i = 0; i < d->n && x; i++) {
+            double sum = 0.0;
+            for (int j = 1; j < at->n; j++)
+                sum += at->weight[j] / step * (column_of(r, &moved[j])[i] - x[i]);
+            x[i] = sum;
+        }
     }
 }
 
-/* (D4) the results at the places of the stencil, moved along the tangent; less those at
- * its first place, so that what does not change has a derivative of exactly 0. */
+/* (D4) the results at the places of the stencil, moved along the tangent. */
 static rb_status differentiate_results(variants *v, const rb_contact_state *tangent,
                                        rb_rolling_solution *d, rb_message *why)
 {
@@ -206,12 +223,9 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
             s = rb_rolling_model_solution(&v->model[k], &moved[k], why);
     }
     if (s == RB_OK)
-        s = rb_rolling_model_solution(&v->model[0], d, why);
-    if (s == RB_OK)
-        clear_results(d);
-    for (int k = 1; k < v->at.n && s == RB_OK; k++)
-        add_results(v->at.weight[k] / v->step, &moved[k], &moved[0], d);
-    for (int k = 0; k < v->at.n; k++)
+        combine(&v->at, v->step, moved);
+    *d = moved[0];
+    for (int k = 1; k < v->at.n; k++)
         rb_rolling_solution_free(&moved[k]);
     return s;
 }
@@ -267,31 +281,6 @@ static int rolls_freely_at_rest(const rb_sensitivity *s)
            !rb_contact_operator_response(model->problem.op).coupled;
 }
 
-static rb_status differentiate_with(const rb_sensitivity *s,
-                                    const rb_sensitivity_input *input, const stencil *at,
-                                    double step, int from, int to,
-                                    rb_sensitivity_derivative *d, rb_message *why)
-{
-    variants v = {.base = s->model, .at = *at, .step = step};
-    rb_status status = variants_create(s->model, input, 0, &v, why);
-
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(s->n, &d->rate);
-    if (status == RB_OK)
-        status = rates(&v, &d->rate);
-    for (int k = from; k <= to && status == RB_OK; k++) {
-        const int side = k ? 1 : -1;
-        d->has[k] = 1;
-        status = differentiate_side(s, &v, side, &d->rate, &d->value[k], why);
-        d->value[k].free_creepage = rolls_freely_at_rest(s) ? 0.0 : NAN;
-        if (status == RB_OK && s->free_rolling)
-            status =
-                differentiate_free(s, input, &v, side, &d->value[k].free_creepage, why);
-    }
-    variants_free(&v);
-    return status;
-}
-
 /* 1: both sides have the same derivatives, but for rounding. */
 static int sides_agree(const rb_sensitivity_derivative *d)
 {
@@ -308,49 +297,52 @@ static int sides_agree(const rb_sensitivity_derivative *d)
 }
 
 /* What is less than rounding of the result is no change. */
-static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d,
-                  rb_message *why)
+static void clean(const rb_rolling_solution *at, double scale, rb_rolling_solution *d)
 {
-    rb_rolling_solution at = {0};
-
-    if (rb_rolling_model_solution(s->model, &at, why) == RB_OK)
-        for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
-            const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-            if (rb_sensitivity_has(r) && fabs(*number_of(r, d)) * scale <
-                                             ROUNDING * fabs(rb_rolling_number(r, &at)))
-                *number_of(r, d) = 0.0;
-        }
-    rb_rolling_solution_free(&at);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (rb_sensitivity_has(r) &&
+            fabs(*number_of(r, d)) * scale < ROUNDING * fabs(rb_rolling_number(r, at)))
+            *number_of(r, d) = 0.0;
+    }
 }
 
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
                                        const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
-    const double x = input->value;
+    variants v = {.base = s->model};
     const int two = s->degenerate > 0 || (s->free_rolling && s->free_rolling->degenerate);
-    double step;
 
     memset(d, 0, sizeof *d);
-    rb_status status = step_of(s, input, &step, why);
-    if (status != RB_OK)
-        return status;
-    const int can_fall = x - 2.0 * step > input->from,
-              can_grow = x + 2.0 * step < input->to;
-    const int both = can_fall && can_grow, side = can_grow;
+    if (s->solution.n == 0)
+        return rb_fail(why, RB_EINVAL, "derivatives: made without results");
+    rb_status status = choose_places(s, input, &v, why);
+    const int both = v.at.n == middle.n;
+    const int from = both ? 0 : v.at.place[1] > 0.0, to = both ? two : from;
     d->sides = two || !both ? 2 : 1;
-    if (!can_fall && !can_grow)
-        return rb_fail(why, RB_EINVAL, "derivatives: the input has no room to vary");
-    status = both ? differentiate_with(s, input, &middle, step, 0, d->sides - 1, d, why)
-                  : differentiate_with(s, input, side ? &ahead : &behind, step, side,
-                                       side, d, why);
-    for (int k = 0; k < 2 && status == RB_OK; k++)
-        if (d->has[k])
-            clean(s, input->scale, &d->value[k], why);
+    if (status == RB_OK)
+        status = variants_create(s->model, input, 0, &v, why);
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(s->n, &d->rate);
+    if (status == RB_OK)
+        status = rates(&v, &d->rate);
+    for (int k = from; k <= to && status == RB_OK; k++) {
+        const int side = k ? 1 : -1;
+        d->has[k] = 1;
+        status = differentiate_side(s, &v, side, &d->rate, &d->value[k], why);
+        d->value[k].free_creepage = rolls_freely_at_rest(s) ? 0.0 : NAN;
+        if (status == RB_OK && s->free_rolling)
+            status =
+                differentiate_free(s, input, &v, side, &d->value[k].free_creepage, why);
+        if (status == RB_OK)
+            clean(&s->solution, input->scale, &d->value[k]);
+    }
     if (status == RB_OK && both && d->sides == 2 && sides_agree(d)) {
         rb_rolling_solution_free(&d->value[1]);
         d->has[1] = 0;
         d->sides = 1;
     }
+    variants_free(&v);
     return status;
 }

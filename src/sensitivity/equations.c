@@ -52,13 +52,13 @@ void rb_sensitivity_residual(const rb_rolling_model *base,
 /* Coefficients that the law gives slips and friction that differ by `step` at element
  * `at` (-1: at every element), in four places: their derivative.  room: 2n. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
-                                   double *(*of)(rb_contact_state *), double step, int at,
+                                   int of_friction, double step, int at,
                                    double *derivative, rb_message *why)
 {
     static const double part[] = {-2.0, -1.0, 1.0, 2.0},
                         weight[] = {1.0, -8.0, 8.0, -1.0};
     const int n = model->problem.n;
-    double *x = of(&v->state);
+    double *x = of_friction ? v->state.q : v->state.lambda;
     rb_status s = RB_OK;
 
     memset(derivative, 0, (size_t)n * sizeof *derivative);
@@ -77,16 +77,6 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
     return s;
 }
 
-static double *slip_of(rb_contact_state *state)
-{
-    return state->lambda;
-}
-
-static double *friction_of(rb_contact_state *state)
-{
-    return state->q;
-}
-
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
 static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
@@ -100,7 +90,7 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
     rb_status status = RB_OK;
 
     if (f->memory == 0.0 && f->heat == 0.0) {
-        status = differentiate_law(model, v, slip_of, slip, -1, room, why);
+        status = differentiate_law(model, v, 0, slip, -1, room, why);
         for (size_t i = 0; i < n; i++)
             s->law_slip[i + i * n] = room[i];
         return status;
@@ -108,11 +98,10 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
     for (size_t j = 0; j < n && status == RB_OK; j++) {
         if (model->state.zone[j] <= RB_ZONE_STICK)
             continue;
-        status =
-            differentiate_law(model, v, slip_of, slip, (int)j, s->law_slip + j * n, why);
+        status = differentiate_law(model, v, 0, slip, (int)j, s->law_slip + j * n, why);
         if (status == RB_OK && s->law_force)
-            status = differentiate_law(model, v, friction_of, stress, (int)j,
-                                       s->law_force + j * n, why);
+            status =
+                differentiate_law(model, v, 1, stress, (int)j, s->law_force + j * n, why);
     }
     return status;
 }
@@ -132,7 +121,7 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (!s->law_slip || !room || (model->rc.friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
-        status = rb_rolling_variant_create(model, &model->rc, 1, &v, why);
+        status = rb_rolling_variant_create(model, &model->rc, &v, why);
     if (status == RB_OK)
         status = fill_law(s, &v, room, why);
     rb_rolling_variant_free(model, &v);

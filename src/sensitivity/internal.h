@@ -12,6 +12,7 @@ struct rb_sensitivity {
     double *slip;                 /* 2n: T_T lambda and gap as they are; owned */
     double *law_slip, *law_force; /* n x n: what bounds change by with slips and with
                                      friction; NULL: not at all; owned */
+    rb_rolling_solution solution; /* of the model, where results are differentiated */
     struct rb_sensitivity_factors *factors; /* of the model's own zones; owned */
     struct rb_sensitivity *free_rolling; /* of the model that rolls freely; NULL: none */
     rb_rolling_model *freely;            /* that model; owned */

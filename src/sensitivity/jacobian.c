@@ -251,9 +251,8 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
     const rb_sensitivity_factors *f = s->factors;
     const rb_contact_state *state = &s->model->state;
 
-    if (!f || s->degenerate)
-        return rb_fail(why, RB_EINVAL,
-                       "an adjoint needs matrices, and no element between two zones");
+    if (!f)
+        return rb_fail(why, RB_EINVAL, "derivatives: an adjoint needs matrices");
     const int m = f->contacts;
     double *x = rb_alloc((size_t)f->size, 1);
     if (!x)

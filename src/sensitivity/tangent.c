@@ -318,7 +318,7 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (rc->mesh == RB_MESH_UNIFORM && !rb_rolling_law_depends_on_state(rc)) {
-        status = rb_rolling_variant_create(model, &freely, 1, v, why);
+        status = rb_rolling_variant_create(model, &freely, v, why);
         if (status == RB_OK)
             status = rb_rolling_problem_solve(&v->problem, &freely, 1, &v->state, why);
         v->state.status = status;
@@ -328,18 +328,20 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     return status == RB_OK ? create(v, &s->free_rolling, why) : status;
 }
 
-rb_status rb_sensitivity_create(const rb_rolling_model *model, rb_sensitivity **s,
-                                rb_message *why)
+rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
+                                rb_sensitivity **s, rb_message *why)
 {
     rb_message reason = {""};
     rb_status status = create(model, s, why);
 
+    if (status == RB_OK && results)
+        status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status != RB_OK) {
         rb_sensitivity_free(*s);
         *s = NULL;
         return status;
     }
-    status = roll_freely(*s, &reason);
+    status = results ? roll_freely(*s, &reason) : RB_OK;
     if (status > 0 || status == RB_EINVAL) { /* it has no derivatives; the others have */
         rb_sensitivity_free((*s)->free_rolling);
         (*s)->free_rolling = NULL;
@@ -361,6 +363,7 @@ void rb_sensitivity_free(rb_sensitivity *s)
     if (s->freely)
         rb_rolling_variant_free(s->model, s->freely);
     free(s->freely);
+    rb_rolling_solution_free(&s->solution);
     free(s->border);
     free(s->slip);
     free(s->law_slip);

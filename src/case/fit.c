@@ -1,0 +1,658 @@
+/* Numbers of a case fitted to measured forces (theory.md, D5): Levenberg's and
+ * Marquardt's method with exact derivatives.  Elements stay those of the first solution
+ * of each point while the numbers move, so that the sum of squares is smooth. */
+#include "case/internal.h"
+
+#include <cblas.h>
+#include <gsl/gsl_cdf.h>
+#include <lapacke.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STEPS = 100, SHRINKS = 14 };
+/* The least and the largest of a coefficient of friction and its fall. */
+static const double LEAST_MU = 0.01, MOST_MU = 3.0;
+/* The longest step of a number, in its scale. */
+static const double LONGEST = 2.0;
+/* A correlation that is worth a word. */
+static const double CORRELATED = 0.95;
+
+typedef struct {
+    const rb_case *c;
+    const rb_case_data *data;
+    rb_case_fit *fit;
+    int n, points, offset; /* parameters; which one is the offset of creepage, or -1 */
+    const rb_option *option[RB_CASE_FIT_MAX], *creep, *load, *speed, *temperature;
+    rb_rolling_model *base; /* points: of the elements of each; state.p NULL: none yet */
+    double *f, *J;          /* points; points x n: residuals and their derivatives */
+    double kappa;           /* the largest of all points */
+} problem;
+
+/* ---- One point -----------------------------------------------------------------------
+ */
+
+static void assign(rb_case *c, const rb_option *o, double value)
+{
+    const int k = (int)(o - rb_case_table);
+    char *words = (char *)&c->words;
+
+    *(double *)(void *)(words + o->offset) = value;
+    if (o->list) {
+        rb_numbers *list = (rb_numbers *)(void *)(words + o->list);
+        list->n = list->n > 1 ? list->n : 1;
+        list->value[0] = value;
+    }
+    c->plain[k] = 0;
+    c->given[k] = RB_GIVEN_NUMBER;
+}
+
+/* A point with its parameters; number `varied` (-1: none) has another value. */
+typedef struct {
+    const problem *p;
+    const double *theta;
+    int point, varied;
+} place;
+
+static rb_status case_at(void *context, double value, rb_rolling_case *rc,
+                         rb_message *why)
+{
+    const place *at = context;
+    const problem *p = at->p;
+    const rb_case_data *d = p->data;
+    rb_case *copy = rb_case_copy(p->c);
+    double creep = d->creep[at->point];
+
+    if (!copy)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a case");
+    copy->purpose = RB_CASE_SINGLE;
+    for (int j = 0; j < p->n; j++) {
+        const double x = j == at->varied ? value : at->theta[j];
+        if (j == p->offset)
+            creep += x;
+        else
+            assign(copy, p->option[j], x);
+    }
+    assign(copy, p->creep, creep);
+    if (d->load)
+        assign(copy, p->load, d->load[at->point]);
+    if (d->speed)
+        assign(copy, p->speed, d->speed[at->point]);
+    if (d->temperature)
+        assign(copy, p->temperature, d->temperature[at->point]);
+    const rb_status s = rb_case_resolve(copy, why);
+    if (s == RB_OK)
+        *rc = copy->resolved.rc;
+    rb_case_free(copy);
+    return s;
+}
+
+/* The force in the measure of the data. */
+static double measure(const problem *p, const rb_rolling_model *model)
+{
+    const double Q = rb_contact_force(&model->problem, &model->state),
+                 P = rb_contact_load(&model->problem, &model->state);
+
+    return p->data->measure == RB_CASE_FORCE             ? Q
+           : p->data->measure == RB_CASE_FORCE_OVER_LOAD ? Q / P
+                                                         : Q / (model->problem.mu * P);
+}
+
+/* The derivatives of the force at a solved point with respect to all parameters: one
+ * adjoint solve. */
+static rb_status differentiate(const problem *p, const double *theta, int point,
+                               const rb_rolling_model *model, double *row,
+                               rb_message *why)
+{
+    const rb_contact_problem *q = &model->problem;
+    const double P = rb_contact_load(q, &model->state), f = measure(p, model);
+    const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
+    const double scale = p->data->measure == RB_CASE_FORCE ? 1.0
+                         : ratio                           ? 1.0 / (q->mu * P)
+                                                           : 1.0 / P;
+    rb_sensitivity *s = NULL;
+    rb_contact_state weight = {0};
+    rb_sensitivity_rate adjoint = {0}, rate = {0};
+    rb_status status = rb_sensitivity_create(model, 0, &s, why);
+
+    if (status == RB_OK)
+        status = rb_contact_state_alloc(q->n, &weight);
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(q->n, &adjoint);
+    for (int i = 0; i < q->n && status == RB_OK; i++) {
+        const double share = p->data->measure == RB_CASE_FORCE ? 0.0 : f / P;
+        weight.p[i] = scale * q->force_N[i] - share * q->load_N[i];
+        weight.q[i] = scale * q->force_T[i] - share * q->load_T[i];
+    }
+    if (status == RB_OK)
+        status = rb_sensitivity_adjoint(s, &weight, &adjoint, why);
+    for (int j = 0; j < p->n && status == RB_OK; j++) {
+        const rb_case_parameter *of = &p->fit->parameter[j];
+        place at = {p, theta, point, j};
+        const rb_sensitivity_input input = {theta[j], of->scale, of->from,
+                                            of->to,   case_at,   &at};
+        double mu_rate = 0.0;
+        status = rb_sensitivity_rates(s, &input, &rate, &mu_rate, why);
+        if (status == RB_OK)
+            row[j] =
+                rb_sensitivity_dot(&adjoint, &rate) - (ratio ? f / q->mu * mu_rate : 0.0);
+        rb_sensitivity_rate_free(&rate);
+    }
+    rb_sensitivity_rate_free(&adjoint);
+    rb_contact_state_free(&weight);
+    rb_sensitivity_free(s);
+    return status;
+}
+
+/* The residual of a point and its row of derivatives (NULL: not wanted). */
+static rb_status evaluate_point(problem *p, const double *theta, int k, double *row,
+                                rb_message *why)
+{
+    const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
+    place at = {p, theta, k, -1};
+    rb_rolling_case rc;
+    rb_rolling_model varied = {.mesh = {.n = 0}}, *base = &p->base[k], *model = base;
+    rb_status s = case_at(&at, 0.0, &rc, why);
+
+    if (s == RB_OK && !base->state.p) {
+        s = rb_rolling_model_create(&rc, base, why);
+    } else if (s == RB_OK) {
+        model = &varied;
+        s = rb_rolling_variant_solve(base, &rc, &varied, why);
+    }
+    if (s == RB_OK) {
+        double kappa = NAN;
+        p->f[k] = (measure(p, model) - p->data->force[k]) / sigma;
+        p->fit->model[k] = measure(p, model);
+        if (rb_rolling_law_depends_on_state(&rc))
+            s = rb_rolling_law_kappa(model, &kappa);
+        p->kappa = fmax(p->kappa, kappa);
+    }
+    if (s == RB_OK && row)
+        s = differentiate(p, theta, k, model, row, why);
+    for (int j = 0; j < p->n && s == RB_OK && row; j++)
+        p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma;
+    if (s != RB_OK && model == base)
+        rb_rolling_model_free(base);
+    rb_rolling_variant_free(base, &varied);
+    return s;
+}
+
+/* chi^2; INFINITY where a point has no solution. */
+static rb_status evaluate(problem *p, const double *theta, int with_rows, double *chi2,
+                          rb_message *why)
+{
+    double row[RB_CASE_FIT_MAX];
+    rb_status s = RB_OK;
+
+    p->kappa = 0.0;
+    for (int k = 0; k < p->points && s == RB_OK; k++)
+        s = evaluate_point(p, theta, k, with_rows ? row : NULL, why);
+    *chi2 = s == RB_OK ? cblas_ddot(p->points, p->f, 1, p->f, 1) : INFINITY;
+    return s != RB_ENOMEM && !with_rows ? RB_OK : s;
+}
+
+/* ---- Levenberg and Marquardt
+ * ----------------------------------------------------------- */
+
+static void within(const rb_case_parameter *of, double *x)
+{
+    const double inside = 1e-9 * of->scale;
+
+    *x = fmin(fmax(*x, of->low + (of->low_open ? inside : 0.0)),
+              of->high - (of->high_open ? inside : 0.0));
+}
+
+/* (J'J + damping diag(J'J)) step = -J'f of the parameters that are not at a bound. */
+static rb_status damped_step(const problem *p, double damping, const int *held,
+                             double *step)
+{
+    const int n = p->n;
+    double A[RB_CASE_FIT_MAX * RB_CASE_FIT_MAX];
+
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, p->points, 1.0, p->J, p->points,
+                0.0, A, n);
+    cblas_dgemv(CblasColMajor, CblasTrans, p->points, n, -1.0, p->J, p->points, p->f, 1,
+                0.0, step, 1);
+    for (int j = 0; j < n; j++) {
+        A[j + j * n] *= 1.0 + damping;
+        if (!held[j] && A[j + j * n] > 0.0)
+            continue;
+        for (int i = 0; i < n; i++)
+            A[(i > j ? i : j) + (i > j ? j : i) * n] = 0.0;
+        A[j + j * n] = 1.0;
+        step[j] = 0.0;
+    }
+    return LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', n, 1, A, n, step, n) == 0 ? RB_OK
+                                                                          : RB_SINGULAR;
+}
+
+/* A bound that the sum of squares presses against holds a parameter. */
+static void hold(const problem *p, const double *theta, int *held)
+{
+    for (int j = 0; j < p->n; j++) {
+        const rb_case_parameter *of = &p->fit->parameter[j];
+        const double down =
+            cblas_ddot(p->points, p->J + (size_t)j * (size_t)p->points, 1, p->f, 1);
+        const double near = 1e-8 * of->scale;
+        held[j] = (theta[j] <= of->low + near && down > 0.0) ||
+                  (theta[j] >= of->high - near && down < 0.0);
+    }
+}
+
+static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *observer,
+                         rb_message *why)
+{
+    double chi2, damping = 1e-3;
+    int held[RB_CASE_FIT_MAX], done = 0;
+    rb_status s = evaluate(p, theta, 1, &chi2, why);
+
+    for (int k = 0; k < STEPS && s == RB_OK && !done; k++) {
+        double step[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], next = INFINITY;
+        hold(p, theta, held);
+        double *f = rb_alloc((size_t)p->points, 1);
+        if (!f)
+            return rb_fail(why, RB_ENOMEM, "out of memory for a fit");
+        memcpy(f, p->f, (size_t)p->points * sizeof *f);
+        for (int shrink = 0; shrink < SHRINKS && !(next < chi2) && s == RB_OK; shrink++) {
+            memcpy(p->f, f, (size_t)p->points * sizeof *f);
+            if (damped_step(p, damping, held, step) == RB_OK) {
+                for (int j = 0; j < p->n; j++) {
+                    const double most = LONGEST * p->fit->parameter[j].scale;
+                    trial[j] = theta[j] + fmin(fmax(step[j], -most), most);
+                    within(&p->fit->parameter[j], &trial[j]);
+                }
+                s = evaluate(p, trial, 0, &next, why);
+            }
+            damping *= next < chi2 ? 0.2 : 4.0;
+        }
+        free(f);
+        done = !(next < chi2) || chi2 - next <= 1e-10 * chi2;
+        if (next < chi2)
+            memcpy(theta, trial, (size_t)p->n * sizeof *theta);
+        if (s == RB_OK)
+            s = evaluate(p, theta, 1, &chi2, why);
+        p->fit->iterations++;
+        if (s == RB_OK && observer && observer->step &&
+            observer->step(p->fit->iterations, chi2, p->n, theta, observer->context))
+            s = rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d steps",
+                        p->fit->iterations);
+    }
+    p->fit->chi_square = chi2;
+    return s == RB_OK && !done
+               ? rb_fail(why, RB_MAXITER, "fit: not at rest after %d steps", STEPS)
+               : s;
+}
+
+/* ---- Intervals
+ * ------------------------------------------------------------------------- */
+
+/* (J'J)^-1, by the columns scaled to length 1; RB_SINGULAR with *which: the column that
+ * the others make up. */
+static rb_status covariance(const problem *p, double *C, int *which)
+{
+    const int n = p->n;
+    double length[RB_CASE_FIT_MAX];
+
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, p->points, 1.0, p->J, p->points,
+                0.0, C, n);
+    for (int j = 0; j < n; j++)
+        length[j] = sqrt(C[j + j * n]);
+    for (int j = 0; j < n; j++)
+        for (int i = j; i < n; i++)
+            C[i + j * n] /= length[i] * length[j];
+    for (int j = 0; j < n; j++)
+        if (!(length[j] * p->fit->parameter[j].scale > 0.0)) {
+            *which = j;
+            return RB_SINGULAR;
+        }
+    const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, C, n);
+    for (int j = 0; j < n && info == 0; j++)
+        if (C[j + j * n] < 1e-6) {
+            *which = j;
+            return RB_SINGULAR;
+        }
+    if (info != 0 || LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', n, C, n) != 0) {
+        *which = info > 0 ? info - 1 : n - 1;
+        return RB_SINGULAR;
+    }
+    for (int j = 0; j < n; j++)
+        for (int i = j; i < n; i++)
+            C[j + i * n] = C[i + j * n] /= length[i] * length[j];
+    return RB_OK;
+}
+
+static void say(rb_case_fit *fit, const char *format, const char *name, const char *more)
+{
+    const size_t used = strlen(fit->sentences);
+    if (used < sizeof fit->sentences)
+        snprintf(fit->sentences + used, sizeof fit->sentences - used, format, name, more);
+}
+
+/* How many points lie where the force falls beyond its largest, by more than the noise.
+ */
+static int falling_points(const problem *p)
+{
+    const rb_case_data *d = p->data;
+    const double noise = sqrt(p->fit->chi_square / fmax(1, p->points - p->n));
+    int top = 0, falling = 0;
+
+    for (int k = 1; k < p->points; k++)
+        if (fabs(d->force[k]) > fabs(d->force[top]))
+            top = k;
+    for (int k = 0; k < p->points; k++)
+        falling += fabs(d->creep[k]) > fabs(d->creep[top]) &&
+                   fabs(d->force[top]) - fabs(d->force[k]) >
+                       3.0 * noise * (d->sigma ? d->sigma[k] : 1.0);
+    return falling;
+}
+
+static int is_of_fall(const rb_case_parameter *of)
+{
+    return strcmp(of->name, "slip-scale") == 0 || strcmp(of->name, "mu-fall") == 0;
+}
+
+static void not_identified(const problem *p, int j)
+{
+    rb_case_parameter *of = &p->fit->parameter[j];
+
+    if (!of->identified)
+        return;
+    of->identified = 0;
+    p->fit->unidentified++;
+    if (is_of_fall(of) && falling_points(p) < 2)
+        say(p->fit, "%sno point in the falling part: %s is not identified\n", "",
+            of->name);
+    else
+        say(p->fit, "%sthe data do not tell %s: it is not identified\n", "", of->name);
+}
+
+static void set_intervals(problem *p, const double *theta)
+{
+    rb_case_fit *fit = p->fit;
+    double C[RB_CASE_FIT_MAX * RB_CASE_FIT_MAX];
+    const int n = p->n;
+    int which = -1;
+
+    fit->degrees_of_freedom = p->points - n;
+    const double variance =
+        p->data->sigma ? 1.0 : fit->chi_square / fit->degrees_of_freedom;
+    const double t = gsl_cdf_tdist_Pinv(0.5 + 0.5 * fit->level, fit->degrees_of_freedom);
+    const rb_status s = covariance(p, C, &which);
+
+    fit->noise = sqrt(fit->chi_square / fit->degrees_of_freedom);
+    for (int j = 0; j < n; j++) {
+        rb_case_parameter *of = &fit->parameter[j];
+        const double half = s == RB_OK ? t * sqrt(variance * C[j + j * n]) : INFINITY;
+        of->value = theta[j];
+        of->interval[0] = theta[j] - half;
+        of->interval[1] = theta[j] + half;
+        of->deviation = half / t;
+        of->identified = 1;
+        of->at_bound = theta[j] <= of->low + 1e-8 * of->scale ||
+                       theta[j] >= of->high - 1e-8 * of->scale;
+        for (int i = 0; i < n; i++)
+            of->correlation[i] =
+                s == RB_OK ? C[i + j * n] / sqrt(C[i + i * n] * C[j + j * n]) : NAN;
+    }
+    if (s != RB_OK)
+        not_identified(p, which);
+    for (int j = 0; j < n; j++) {
+        const rb_case_parameter *of = &fit->parameter[j];
+        const double half = 0.5 * (of->interval[1] - of->interval[0]);
+        if ((is_of_fall(of) && falling_points(p) < 2) ||
+            (of->positive && !(half < fabs(of->value))))
+            not_identified(p, j);
+        if (of->at_bound && of->identified)
+            say(fit,
+                "%s lies at an end of its range; its interval does not hold there%s\n",
+                of->name, "");
+        for (int i = 0; i < j; i++)
+            if (fabs(of->correlation[i]) > CORRELATED)
+                say(fit,
+                    "%s and %s are correlated by more than 0.95: the data tell a "
+                    "combination of them\n",
+                    fit->parameter[i].name, of->name);
+    }
+    /* the band of the fitted curve */
+    for (int k = 0; k < p->points; k++) {
+        double sum = 0.0;
+        const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                sum += p->J[k + (size_t)i * (size_t)p->points] * C[i + j * n] *
+                       p->J[k + (size_t)j * (size_t)p->points];
+        fit->band[k] = s == RB_OK ? t * sigma * sqrt(variance * fmax(sum, 0.0)) : NAN;
+    }
+}
+
+/* ---- Where to start
+ * ---------------------------------------------------------------------- */
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* |Q/P| of a point, as well as it is known before the fit. */
+static double ratio_of(const problem *p, int k)
+{
+    const rb_resolved_case *c = &p->c->resolved;
+    const double P = p->data->load ? p->data->load[k] : c->derived.load;
+
+    return fabs(p->data->force[k]) * (p->data->measure == RB_CASE_FORCE         ? 1.0 / P
+                                      : p->data->measure == RB_CASE_FORCE_RATIO ? c->rc.mu
+                                                                                : 1.0);
+}
+
+/* What the data themselves say: the largest force, the last one, the first slope, where
+ * the force is 0. */
+static double start_of(const problem *p, const char *name)
+{
+    const rb_case_data *d = p->data;
+    const rb_rolling_derived *derived = &p->c->resolved.derived;
+    double most = 0.0, far = 0.0, near = INFINITY, last = 0.0, slope = 0.0, zero = 0.0;
+    double *slip = rb_alloc((size_t)p->points, 1);
+    int falls = 0;
+
+    for (int j = 0; j < p->n; j++)
+        falls |= strcmp(p->fit->parameter[j].name, "mu-fall") == 0;
+    for (int k = 0; k < p->points; k++) {
+        const double xi = fabs(d->creep[k]), f = ratio_of(p, k);
+        most = fmax(most, f);
+        if (xi >= far) {
+            far = xi;
+            last = f;
+        }
+        if (xi > 0.0 && xi < near) {
+            near = xi;
+            slope = f / xi;
+        }
+        if (slip)
+            slip[k] = xi * (d->speed ? d->speed[k] : p->c->resolved.rc.speed);
+        if (k > 0 && d->force[k] * d->force[k - 1] < 0.0)
+            zero = d->creep[k - 1] - d->force[k - 1] * (d->creep[k] - d->creep[k - 1]) /
+                                         (d->force[k] - d->force[k - 1]);
+    }
+    if (slip)
+        qsort(slip, (size_t)p->points, sizeof *slip, compare_numbers);
+    const double middle = slip ? slip[p->points / 2] : NAN;
+    free(slip);
+    const double stiff = 2.0 * derived->radius / derived->half_width;
+    return strcmp(name, "mu") == 0           ? fmax(falls ? 0.95 * last : most, LEAST_MU)
+           : strcmp(name, "mu-fall") == 0    ? fmax(most - last, 0.1 * most)
+           : strcmp(name, "slip-scale") == 0 ? middle
+           : strcmp(name, "interlayer-tangential") == 0
+               ? 0.1 * derived->half_width / derived->modulus *
+                     fmin(fmax(stiff / slope - 1.0, 0.2), 10.0)
+           : strcmp(name, "creep-offset") == 0 ? -zero
+                                               : NAN;
+}
+
+static rb_status set_parameter(problem *p, int j, rb_message *why)
+{
+    rb_case_parameter *of = &p->fit->parameter[j];
+    const rb_option *o =
+        strcmp(of->name, "creep-offset") == 0 ? p->creep : rb_case_option(of->name);
+    const rb_rolling_derived *d = &p->c->resolved.derived;
+
+    if (!o || o->kind != RB_OPTION_NUMBER || o->frozen ||
+        (o == p->creep && strcmp(of->name, "creep") == 0))
+        return rb_fail(why, RB_EINVAL,
+                       "--fit: '%s' is no number that can be fitted to forces", of->name);
+    p->option[j] = o;
+    of->unit = o->unit;
+    const int offset = o == p->creep;
+    if (offset)
+        p->offset = j;
+    const double own =
+        *(const double *)(const void *)((const char *)&p->c->resolved + o->offset);
+    const int by = p->c->given[o - rb_case_table];
+    const int given = by != 0 && by != RB_GIVEN_NUMBER; /* else it was prepared */
+    const double guess = start_of(p, of->name);
+    of->value = !isnan(of->start)  ? of->start
+                : !offset && given ? own
+                : isfinite(guess)  ? guess
+                                   : own;
+    of->from = offset ? -INFINITY : o->range.from;
+    of->to = offset ? INFINITY : o->range.to;
+    of->low_open = o->range.from_open;
+    of->high_open = o->range.to_open;
+    of->positive = !offset && o->range.from == 0.0 &&
+                   (o->range.from_open || strcmp(of->name, "mu") == 0);
+    of->low = fmax(of->low, strcmp(of->name, "mu") == 0        ? LEAST_MU
+                            : strcmp(of->name, "mu-fall") == 0 ? 0.0
+                                                               : of->from);
+    of->high =
+        fmin(of->high, strncmp(of->name, "mu", 3) == 0 || strcmp(of->name, "mu-fall") == 0
+                           ? MOST_MU
+                           : of->to);
+    if (!isfinite(of->value))
+        return rb_fail(why, RB_EINVAL, "--fit: %s has no value to start from; give --%s",
+                       of->name, of->name);
+    of->scale = of->value != 0.0                 ? fabs(of->value)
+                : offset                         ? 0.1 * d->half_width / d->radius
+                : strcmp(o->unit, "mm/MPa") == 0 ? 1e-2 * d->half_width / d->modulus
+                                                 : 1e-2;
+    within(of, &of->value);
+    return RB_OK;
+}
+
+static int is_fitted(const rb_case_fit *fit, const char *name)
+{
+    int found = 0;
+    for (int j = 0; j < fit->n; j++)
+        found |= strcmp(fit->parameter[j].name, name) == 0;
+    return found;
+}
+
+rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
+                              const rb_case_fit *fit, rb_message *why)
+{
+    const int falls = is_fitted(fit, "mu-fall") || is_fitted(fit, "slip-scale");
+    rb_status s = RB_OK;
+
+    if (falls && !rb_case_given(c, "friction-law"))
+        s = rb_case_set(c, "friction-law", "exponential", RB_GIVEN_NUMBER, why);
+    if (s == RB_OK && falls && !rb_case_given(c, "mu-fall"))
+        s = rb_case_set_number(c, "mu-fall", 0.1, why);
+    if (s == RB_OK && falls && !rb_case_given(c, "slip-scale"))
+        s = rb_case_set_number(c, "slip-scale", 1.0, why);
+    if (s == RB_OK && data->speed && !rb_case_given(c, "speed"))
+        s = rb_case_set_number(c, "speed", 1.0, why);
+    if (s == RB_OK && data->load && !rb_case_given(c, "load") &&
+        !rb_case_given(c, "half-width") && !rb_case_given(c, "approach"))
+        s = rb_case_set_number(c, "load", data->load[0], why);
+    return s;
+}
+
+/* ---- All together
+ * -------------------------------------------------------------------------- */
+
+static int falls_unidentified(const rb_case_fit *fit)
+{
+    int found = 0;
+    for (int j = 0; j < fit->n; j++)
+        found |= is_of_fall(&fit->parameter[j]) && !fit->parameter[j].identified;
+    return found;
+}
+
+/* A second round has the elements of the first one's result. */
+static rb_status fit_rounds(problem *p, double *theta,
+                            const rb_case_fit_observer *observer, rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < 2 && s == RB_OK; round++) {
+        for (int k = 0; k < p->points; k++)
+            rb_rolling_model_free(&p->base[k]);
+        s = descend(p, theta, observer, why);
+    }
+    return s;
+}
+
+rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
+                            const rb_case_fit_observer *observer, rb_case_fit *fit,
+                            rb_message *why)
+{
+    const size_t points = (size_t)data->n;
+    problem p = {.c = c,
+                 .data = data,
+                 .fit = fit,
+                 .n = fit->n,
+                 .points = data->n,
+                 .offset = -1,
+                 .creep = rb_case_option(data->is_ratio ? "creep-ratio" : "creep"),
+                 .load = rb_case_option("load"),
+                 .speed = rb_case_option("speed"),
+                 .temperature = rb_case_option("temperature")};
+    double theta[RB_CASE_FIT_MAX];
+    rb_status s = RB_OK;
+
+    if (data->n <= fit->n)
+        return rb_fail(why, RB_EINVAL, "--fit: %d points do not tell %d parameters",
+                       data->n, fit->n);
+    p.base = calloc(points, sizeof *p.base);
+    p.f = rb_alloc(points, 1);
+    p.J = rb_alloc(points, (size_t)fit->n);
+    fit->model = rb_alloc(points, 1);
+    fit->band = rb_alloc(points, 1);
+    if (!p.base || !p.f || !p.J || !fit->model || !fit->band)
+        s = rb_fail(why, RB_ENOMEM, "out of memory for a fit of %d points", data->n);
+    for (int j = 0; j < fit->n && s == RB_OK; j++) {
+        s = set_parameter(&p, j, why);
+        theta[j] = fit->parameter[j].value;
+    }
+    if (s == RB_OK && p.offset >= 0 && data->is_ratio)
+        s = rb_fail(why, RB_EINVAL,
+                    "--fit creep-offset: needs creepages, a column creep and no ratios");
+    if (s == RB_OK)
+        s = fit_rounds(&p, theta, observer, why);
+    for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
+        fit->parameter[j].value = theta[j];
+    fit->kappa = p.kappa;
+    if (s == RB_OK)
+        set_intervals(&p, theta);
+    /* a fall that the data do not tell has a kappa that they do not tell */
+    if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
+        s = rb_fail(
+            why, RB_INACCURATE,
+            "fit: kappa = %.3g at the best fit: above 1 the model itself has "
+            "several solutions; give friction a memory (--memory), or fit that too",
+            p.kappa);
+    fit->status = s;
+    for (size_t k = 0; p.base && k < points; k++)
+        rb_rolling_model_free(&p.base[k]);
+    free(p.base);
+    free(p.f);
+    free(p.J);
+    return s;
+}
+
+void rb_case_fit_free(rb_case_fit *fit)
+{
+    free(fit->model);
+    free(fit->band);
+    fit->model = fit->band = NULL;
+}

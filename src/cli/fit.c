@@ -1,0 +1,308 @@
+/* rollbem fit: numbers of a case fitted to a measured creep curve. */
+#include "cli/case.h"
+#include "cli/interrupt.h"
+#include "rollbem/io.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct {
+    const char *names, *bounds, *start; /* options */
+    double sigma, level;
+    rb_io_table table;
+    double *sigmas; /* of --sigma; owned */
+    rb_case_data data;
+    rb_case_fit fit;
+    int tells; /* 1: steps on standard error */
+} fitting;
+
+#define PLACE(member) offsetof(fitting, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("fit", "What is fitted"),
+    RB_TEXT_LINE("fit", PLACE(names), "NAME,...",
+                 "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
+                 "interlayer-tangential; creep-offset: the true creepage is the measured "
+                 "one plus it",
+                 .unset = "none"),
+    RB_NUMBER_LINE("sigma", PLACE(sigma), "-", RB_ABOVE(0),
+                   "standard deviation of the measured forces, as the file has them; a "
+                   "column sigma has one for each",
+                   .unset = "from the residuals"),
+    RB_TEXT_LINE("start", PLACE(start), "NAME=X,...",
+                 "values to start from, such as those of an earlier fit",
+                 .unset = "the case's, or from the data"),
+    RB_TEXT_LINE("bounds", PLACE(bounds), "NAME=A:B,...", "ranges of the numbers",
+                 .unset = "those of the options"),
+    RB_NUMBER_LINE("level", PLACE(level), "-", RB_BETWEEN(0, 1),
+                   "of the intervals (Student's)"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Fits numbers of a case to a measured creep curve by least squares with exact\n"
+    "derivatives, and prints them with intervals, correlations and the fitted curve.\n"
+    "DATA has a row per point and named columns: creep or creep_ratio (xi R/(mu a));\n"
+    "force, force_ratio (Q/(mu P), mu the largest coefficient of the law) or\n"
+    "force_over_load (Q/P); and, where they vary, load, speed, temperature, sigma.\n"
+    "Several tests stand in one file, one below the other. Signs as everywhere: a "
+    "braked\n"
+    "wheel has xi > 0 and Q < 0.\n"
+    "Refused is a fit whose model has several solutions (kappa > 1). What the data\n"
+    "cannot tell is said and not printed as a number.\n";
+
+static const char notes[] =
+    "Example: rollbem fit creep.tsv --fit mu,creep-offset --similar --support halfplane "
+    "--load 500\n"
+    "\nExit codes: 0 fitted; 1 not fitted, or some numbers are not identified; 64, 65, "
+    "66,\n"
+    "70, 73 as of the other commands.\n";
+
+/* ---- What is asked for ---------------------------------------------------------------
+ */
+
+static rb_case_parameter *parameter_of(fitting *f, const char *name, size_t n)
+{
+    for (int j = 0; j < f->fit.n; j++)
+        if (strlen(f->fit.parameter[j].name) == n &&
+            strncmp(f->fit.parameter[j].name, name, n) == 0)
+            return &f->fit.parameter[j];
+    return NULL;
+}
+
+static cli_exit read_names(fitting *f)
+{
+    if (!f->names)
+        return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
+    for (const char *at = f->names; *at;) {
+        const size_t n = strcspn(at, ",");
+        if (n == 0 || n > 39 || parameter_of(f, at, n))
+            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'",
+                            f->names);
+        if (f->fit.n == RB_CASE_FIT_MAX)
+            return cli_fail(CLI_USAGE, "--fit: expected at most %d names",
+                            RB_CASE_FIT_MAX);
+        rb_case_parameter *p = &f->fit.parameter[f->fit.n++];
+        memcpy(p->name, at, n);
+        p->start = NAN;
+        p->low = -INFINITY;
+        p->high = INFINITY;
+        at += n + (at[n] == ',');
+    }
+    return CLI_CONTINUE;
+}
+
+/* NAME=X or NAME=A:B, commas between. */
+static cli_exit read_values(fitting *f, const char *option, const char *text, int ranges)
+{
+    for (const char *at = text; at && *at;) {
+        const size_t n = strcspn(at, "=,"), all = strcspn(at, ",");
+        rb_case_parameter *p = parameter_of(f, at, n);
+        double x, y;
+        char end;
+        const int found = at[n] != '=' ? 0
+                          : ranges     ? sscanf(at + n + 1, "%lf:%lf%c", &x, &y, &end)
+                                       : sscanf(at + n + 1, "%lf%c", &x, &end);
+        if (!p ||
+            (ranges ? found != 2 && !(found == 3 && end == ',')
+                    : found != 1 && !(found == 2 && end == ',')) ||
+            (ranges && !(x < y)))
+            return cli_fail(CLI_USAGE, "--%s: expected %s of a fitted number, got '%.*s'",
+                            option, ranges ? "NAME=A:B" : "NAME=X", (int)all, at);
+        if (ranges) {
+            p->low = x;
+            p->high = y;
+        } else {
+            p->start = x;
+        }
+        at += all + (at[all] == ',');
+    }
+    return CLI_CONTINUE;
+}
+
+/* A column in mm, N, MPa; NULL: there is none. */
+static const double *column(fitting *f, const char *name, const char *unit,
+                            rb_units units)
+{
+    for (int j = 0; j < f->table.columns && f->table.name; j++)
+        if (strncmp(f->table.name[j], name, strlen(name)) == 0) {
+            const char *rest = f->table.name[j] + strlen(name);
+            if (*rest == '\0' ||
+                (*rest == '_' && strcmp(unit, "-") != 0 &&
+                 strncmp(rest, "_ratio", 6) != 0 && strncmp(rest, "_over", 5) != 0)) {
+                rb_io_table_convert(&f->table, j, unit, units);
+                return f->table.x + (size_t)j * (size_t)f->table.rows;
+            }
+        }
+    return NULL;
+}
+
+static cli_exit read_data(fitting *f, const char *path, rb_units units)
+{
+    rb_message why = {""};
+    rb_case_data *d = &f->data;
+    const cli_exit code = cli_say(rb_io_table_read(path, &f->table, &why), &why);
+    if (code != CLI_CONTINUE)
+        return code;
+    d->n = f->table.rows;
+    d->creep = column(f, "creep", "-", units);
+    d->is_ratio = !d->creep;
+    if (!d->creep)
+        d->creep = column(f, "creep_ratio", "-", units);
+    d->force = column(f, "force", "N/mm", units);
+    d->measure = RB_CASE_FORCE;
+    if (!d->force && (d->force = column(f, "force_ratio", "-", units)) != NULL)
+        d->measure = RB_CASE_FORCE_RATIO;
+    if (!d->force && (d->force = column(f, "force_over_load", "-", units)) != NULL)
+        d->measure = RB_CASE_FORCE_OVER_LOAD;
+    d->load = column(f, "load", "N/mm", units);
+    d->speed = column(f, "speed", "mm/s", units);
+    d->temperature = column(f, "temperature", "K", units);
+    d->sigma = column(f, "sigma", d->measure == RB_CASE_FORCE ? "N/mm" : "-", units);
+    if (!d->creep || !d->force)
+        return cli_fail(CLI_DATA,
+                        "%s: expected a column creep or creep_ratio, and one of force, "
+                        "force_ratio, force_over_load",
+                        path);
+    for (int k = 0; k < d->n && d->sigma; k++)
+        if (!(d->sigma[k] > 0.0))
+            return cli_fail(CLI_DATA, "%s:%d: sigma: expected > 0, got %g", path,
+                            f->table.line[k], d->sigma[k]);
+    if (!d->sigma && !isnan(f->sigma)) {
+        f->sigmas = rb_alloc((size_t)d->n, 1);
+        for (int k = 0; k < d->n && f->sigmas; k++)
+            f->sigmas[k] = d->measure == RB_CASE_FORCE
+                               ? rb_unit_stored(units, "N/mm", f->sigma)
+                               : f->sigma;
+        d->sigma = f->sigmas;
+    }
+    return CLI_CONTINUE;
+}
+
+/* ---- Results -------------------------------------------------------------------------
+ */
+
+typedef struct {
+    const fitting *f;
+    rb_case *words;
+    const cli_output *o;
+} results;
+
+static rb_status write_results(FILE *out, const void *context, rb_message *why)
+{
+    const results *r = context;
+    (void)why;
+    const rb_units units = rb_case_resolved(r->words)->units;
+    const rb_report_fit shown = {&r->f->fit, &r->f->data, units};
+    if (r->o->style.format != RB_REPORT_JSON)
+        return rb_report_fit_table(out, &shown, cli_command_line(), &r->o->style);
+    json_t *root = cli_case_json(r->words, NULL, NULL, rb_report_json_inputs(r->words));
+    rb_report_json_fit(&root, &shown);
+    return rb_report_json_write(out, root);
+}
+
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
+                      rb_message *why)
+{
+    const results *r = context;
+    const rb_report_fit shown = {&r->f->fit, &r->f->data,
+                                 rb_case_resolved(r->words)->units};
+    return rb_report_fit_picture(out, canvas, &shown, why);
+}
+
+static int tell(int iteration, double chi_square, int n, const double *value,
+                void *context)
+{
+    const fitting *f = context;
+    if (f->tells) {
+        fprintf(stderr, "step %d: sum of squares %.6g;", iteration, chi_square);
+        for (int j = 0; j < n; j++)
+            fprintf(stderr, " %s=%.6g", f->fit.parameter[j].name, value[j]);
+        fputc('\n', stderr);
+    }
+    return cli_interrupted();
+}
+
+/* The best numbers so far are kept, so that --start goes on from there. */
+static cli_exit run(fitting *f, rb_case *words, cli_output *o)
+{
+    rb_message why = {""};
+    const rb_case_fit_observer observer = {tell, f};
+    f->tells = !o->quiet && isatty(STDERR_FILENO);
+    cli_interrupts_catch();
+    const rb_status s = rb_case_fit_solve(words, &f->data, &observer, &f->fit, &why);
+    cli_interrupts_leave();
+    cli_exit code = CLI_OK;
+    const results r = {f, words, o};
+    if (s == RB_OK)
+        code = cli_write_file(o->output, write_results, &r);
+    else if (s > 0 && s != RB_INACCURATE) {
+        fprintf(stderr, "so far: --start ");
+        for (int j = 0; j < f->fit.n; j++)
+            fprintf(stderr, "%s%s=%.17g", j ? "," : "", f->fit.parameter[j].name,
+                    f->fit.parameter[j].value);
+        fputc('\n', stderr);
+    }
+    if (code == CLI_OK && s == RB_OK && !o->quiet) {
+        const rb_report_fit shown = {&f->fit, &f->data, rb_case_resolved(words)->units};
+        rb_report_fit_summary(stderr, &shown);
+    }
+    if (code == CLI_OK && s == RB_OK)
+        code = cli_draw_file(&o->pictures, "plot", o->plot, draw, &r);
+    if (s != RB_OK)
+        return cli_case_refused(words, s, &why);
+    return code == CLI_OK && f->fit.unidentified > 0 ? CLI_UNSOLVED : code;
+}
+
+/* ---- Command
+ * --------------------------------------------------------------------------- */
+
+int cli_fit(int argc, char **argv)
+{
+    fitting f = {.sigma = NAN, .level = 0.95};
+    cli_output o = {.output = NULL};
+    cli_args args = {0};
+    rb_message why = {""};
+    int given[OPTIONS] = {0};
+    rb_case *words = cli_case_create(RB_CASE_CURVE);
+    if (!words)
+        return CLI_INTERNAL;
+    const cli_spec spec = {
+        "rollbem fit DATA --fit NAME,... [OPTION...] [CASE.ini]",
+        about,
+        notes,
+        {rb_case_options(words), {options, OPTIONS, &f, given, NULL}, cli_output_set(&o)},
+        3};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && (args.operands < 1 || args.operands > 2))
+        code = cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
+    if (code == CLI_CONTINUE && args.operands == 2)
+        code =
+            cli_say(rb_case_read(words, args.operand[1], 2, spec.sets + 1, &why), &why);
+    if (code == CLI_CONTINUE)
+        code = read_names(&f);
+    if (code == CLI_CONTINUE)
+        code = read_values(&f, "start", f.start, 0);
+    if (code == CLI_CONTINUE)
+        code = read_values(&f, "bounds", f.bounds, 1);
+    if (code == CLI_CONTINUE)
+        code = read_data(&f, args.operand[0], rb_case_units(words, RB_GIVEN_ARGUMENT));
+    if (code == CLI_CONTINUE)
+        code = cli_say(rb_case_prepare_fit(words, &f.data, &f.fit, &why), &why);
+    if (code == CLI_CONTINUE)
+        code = cli_case_resolve(&spec, words, &args);
+    f.fit.level = f.level;
+    if (code == CLI_CONTINUE)
+        code = run(&f, words, &o);
+    rb_case_fit_free(&f.fit);
+    rb_io_table_free(&f.table);
+    free(f.sigmas);
+    cli_args_free(&args);
+    rb_case_free(words);
+    return code;
+}

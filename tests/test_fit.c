@@ -1,0 +1,339 @@
+/* Fits to creep curves: what made the data is found again, with intervals; what the data
+ * do not tell is said; a model with several solutions is refused; the command. */
+#include "check.h"
+#include "cli_run.h"
+
+#include "rollbem/rollbem.h"
+
+#include <jansson.h>
+#include <string.h>
+
+enum { POINTS = 14 };
+
+static const double MU = 0.24, FALL = 0.16, SCALE = 1.5, LAYER = 5e-4, OFFSET = 1e-4;
+
+static const char *const bodies[][2] = {
+    {"support", "halfplane"}, {"similar", "yes"}, {"young", "364"},
+    {"poisson", "0.3"},       {"radius", "100"},  {"half-width", "1"},
+    {"mesh", "uniform"},      {"zone", "1.2"},    {"contact-elements", "36"},
+    {"formulation", "steady"}};
+
+static rb_case *case_of(rb_case_purpose purpose)
+{
+    rb_message why = {""};
+    rb_case *c = rb_case_create(purpose);
+    assert_non_null(c);
+    for (size_t k = 0; k < sizeof bodies / sizeof *bodies; k++)
+        if (rb_case_set(c, bodies[k][0], bodies[k][1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
+            fail_msg("%s", why.text);
+    return c;
+}
+
+static void set_number(rb_case *c, const char *name, double x)
+{
+    rb_message why = {""};
+    if (rb_case_set_number(c, name, x, &why) != RB_OK)
+        fail_msg("%s", why.text);
+}
+
+/* Q/P at a creepage, of friction that falls behind a third body. */
+static double force_at(double creep)
+{
+    rb_message why = {""};
+    rb_case *c = case_of(RB_CASE_SINGLE);
+    rb_case_result r;
+    CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why),
+                 RB_OK);
+    set_number(c, "mu", MU);
+    set_number(c, "mu-fall", FALL);
+    set_number(c, "slip-scale", SCALE);
+    set_number(c, "interlayer-tangential", LAYER);
+    set_number(c, "speed", 200.0);
+    set_number(c, "creep", creep);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    const double f = r.solution.tangential_load / r.solution.normal_load;
+    rb_case_result_free(&r);
+    rb_case_free(c);
+    return f;
+}
+
+static double creep[POINTS], exact[POINTS], noisy[POINTS];
+
+static int make_data(void **state)
+{
+    /* normal deviates of standard deviation 1, fixed */
+    static const double noise[POINTS] = {0.50, -1.09, 0.30, 1.42,  -0.64, 0.07,  -0.93,
+                                         0.88, -0.21, 0.61, -1.33, 1.05,  -0.38, 0.17};
+    for (int k = 0; k < POINTS; k++) {
+        creep[k] = k < 7 ? -(4e-4 + 4e-4 * k) : -(3.5e-3 + 4.4e-3 * (k - 7));
+        exact[k] = force_at(creep[k] + OFFSET);
+        noisy[k] = exact[k] + 1e-3 * noise[k];
+    }
+    return enter_folder(state);
+}
+
+static rb_case_fit fit_of(int n, const char *const *names)
+{
+    rb_case_fit fit = {.n = n, .level = 0.95};
+    for (int j = 0; j < n; j++) {
+        snprintf(fit.parameter[j].name, sizeof fit.parameter[j].name, "%s", names[j]);
+        fit.parameter[j].start = NAN;
+        fit.parameter[j].low = -INFINITY;
+        fit.parameter[j].high = INFINITY;
+    }
+    return fit;
+}
+
+static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit,
+                       rb_message *why)
+{
+    rb_case *c = case_of(RB_CASE_CURVE);
+    if (speed > 0.0)
+        set_number(c, "speed", speed);
+    rb_status s = rb_case_prepare_fit(c, data, fit, why);
+    if (s == RB_OK)
+        s = rb_case_resolve(c, why);
+    if (s == RB_OK)
+        s = rb_case_fit_solve(c, data, NULL, fit, why);
+    rb_case_free(c);
+    return s;
+}
+
+static const char *const all[] = {"mu", "mu-fall", "slip-scale", "interlayer-tangential",
+                                  "creep-offset"};
+static const double *const truth[] = {&MU, &FALL, &SCALE, &LAYER, &OFFSET};
+
+static void exact_data_give_the_truth(void **state)
+{
+    const rb_case_data data = {
+        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL, NULL, NULL};
+    rb_case_fit fit = fit_of(5, all);
+    rb_message why = {""};
+    (void)state;
+    if (solve(&data, 200.0, &fit, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    for (int j = 0; j < 5; j++)
+        CHECK_REL(fit.parameter[j].value, *truth[j], 1e-5, "%s", all[j]);
+    rb_case_fit_free(&fit);
+}
+
+static void noise_leaves_it_in_the_intervals(void **state)
+{
+    const rb_case_data data = {
+        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    rb_case_fit fit = fit_of(5, all);
+    rb_message why = {""};
+    (void)state;
+    if (solve(&data, 200.0, &fit, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(fit.unidentified, 0);
+    CHECK_ABS(fit.noise, 1e-3, 0.5e-3, "noise");
+    for (int j = 0; j < 5; j++) {
+        const rb_case_parameter *p = &fit.parameter[j];
+        if (!(p->interval[0] < *truth[j] && *truth[j] < p->interval[1]))
+            fail_msg("%s: %g is not in %g ... %g", p->name, *truth[j], p->interval[0],
+                     p->interval[1]);
+        CHECK_REL(p->correlation[j], 1.0, 1e-12, "with itself");
+        CHECK_REL(p->correlation[(j + 1) % 5], fit.parameter[(j + 1) % 5].correlation[j],
+                  1e-10, "both ways");
+    }
+    rb_case_fit_free(&fit);
+}
+
+/* The derivative of the sum of squares is zero at the fit, in other units of force too.
+ */
+static void forces_and_ratios_agree(void **state)
+{
+    static const char *const names[] = {"mu"};
+    double ratio[7], force[7], P;
+    rb_case_fit fits[2];
+    (void)state;
+    {
+        rb_case *c = case_of(RB_CASE_CURVE);
+        CHECK_STATUS(rb_case_resolve(c, NULL), RB_OK);
+        P = rb_case_resolved(c)->derived.load;
+        rb_case_free(c);
+    }
+    for (int k = 0; k < 7; k++) {
+        ratio[k] = noisy[k];
+        force[k] = noisy[k] * P;
+    }
+    for (int j = 0; j < 2; j++) {
+        const rb_case_data data = {7,
+                                   0,
+                                   j ? RB_CASE_FORCE : RB_CASE_FORCE_OVER_LOAD,
+                                   creep,
+                                   j ? force : ratio,
+                                   NULL,
+                                   NULL,
+                                   NULL,
+                                   NULL};
+        rb_message why = {""};
+        fits[j] = fit_of(1, names);
+        if (solve(&data, 0.0, &fits[j], &why) != RB_OK)
+            fail_msg("%s", why.text);
+    }
+    CHECK_REL(fits[1].parameter[0].value, fits[0].parameter[0].value, 1e-6, "mu");
+    CHECK_REL(fits[1].parameter[0].deviation, fits[0].parameter[0].deviation, 1e-5,
+              "deviation");
+    CHECK_REL(fits[1].noise, fits[0].noise * P, 1e-6, "noise");
+    rb_case_fit_free(&fits[0]);
+    rb_case_fit_free(&fits[1]);
+}
+
+static void no_falling_part_is_said(void **state)
+{
+    const rb_case_data data = {
+        7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
+    rb_case_fit fit = fit_of(3, names);
+    rb_message why = {""};
+    (void)state;
+    if (solve(&data, 200.0, &fit, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_non_null(strstr(fit.sentences,
+                           "no point in the falling part: slip-scale is not identified"));
+    assert_false(fit.parameter[2].identified);
+    rb_case_fit_free(&fit);
+}
+
+static void refusals(void **state)
+{
+    const rb_case_data data = {
+        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    static const char *const nonsense[] = {"zone"};
+    rb_case_fit fit = fit_of(1, nonsense);
+    rb_message why = {""};
+    (void)state;
+    CHECK_STATUS(solve(&data, 0.0, &fit, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "'zone' is no number"));
+    rb_case_fit_free(&fit);
+    fit = fit_of(5, all);
+    rb_case_data few = data;
+    few.n = 5;
+    CHECK_STATUS(solve(&few, 200.0, &fit, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "5 points do not tell 5"));
+    rb_case_fit_free(&fit);
+}
+
+/* ---- The command
+ * ------------------------------------------------------------------------ */
+
+static void write_data(const char *path, const char *names)
+{
+    FILE *data = fopen(path, "w");
+    assert_non_null(data);
+    fprintf(data, "%s\n", names);
+    for (int k = 0; k < 7; k++)
+        fprintf(data, "%.17g\t%.17g\n", creep[k], noisy[k]);
+    fclose(data);
+}
+
+#define BODIES                                                                           \
+    " --support halfplane --similar --young 364 --poisson 0.3 --radius 100 "             \
+    "--half-width 1"                                                                     \
+    " --mesh uniform --zone 1.2 --contact-elements 36"
+
+static void command_prints_parameters(void **state)
+{
+    (void)state;
+    write_data("creep.tsv", "creep\tforce_over_load");
+    json_t *root = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
+    json_t *mu = json_object_get(json_object_get(root, "parameters"), "mu");
+    const double value = json_number_value(json_object_get(mu, "value"));
+    json_t *interval = json_object_get(mu, "interval");
+    assert_int_equal(json_array_size(interval), 2);
+    assert_true(json_number_value(json_array_get(interval, 0)) < value);
+    assert_true(json_number_value(json_array_get(interval, 1)) > value);
+    assert_true(json_is_number(
+        json_object_get(json_object_get(mu, "correlation"), "interlayer-tangential")));
+    assert_int_equal(json_array_size(json_object_get(root, "residuals")), 7);
+    json_decref(root);
+    write_data("wrong.tsv", "slip\tforce_over_load");
+    assert_int_equal(rollbem("fit wrong.tsv --fit mu" BODIES), 65);
+    assert_non_null(strstr(err, "expected a column creep"));
+    assert_int_equal(rollbem("fit nowhere.tsv --fit mu" BODIES), 66);
+    assert_int_equal(rollbem("fit creep.tsv" BODIES), 64);
+    assert_int_equal(rollbem("fit creep.tsv --fit mu,mu" BODIES), 64);
+    assert_int_equal(rollbem("fit creep.tsv --fit mu --bounds mu=2:1" BODIES), 64);
+}
+
+/* ---- --derivatives and --tolerance
+ * ------------------------------------------------------- */
+
+static void command_prints_derivatives(void **state)
+{
+    (void)state;
+    json_t *root = run_json("--derivatives" BODIES " --formulation steady --creep -2e-3 "
+                            "--tolerance mu=0.02,radius=1%");
+    json_t *all_of = json_object_get(root, "derivatives");
+    json_t *load = json_object_get(all_of, "tangential_load");
+    assert_true(json_is_number(json_object_get(load, "mu")));
+    json_t *layer = json_object_get(load, "interlayer-tangential");
+    assert_int_equal(json_array_size(layer), 2);
+    assert_true(json_is_null(json_array_get(layer, 0)));
+    const double by_mu = json_number_value(json_object_get(load, "mu")),
+                 by_radius = json_number_value(json_object_get(load, "radius"));
+    CHECK_REL(json_number_value(json_object_get(json_object_get(root, "tolerances"),
+                                                "tangential_load")),
+              hypot(0.02 * by_mu, 1.0 * by_radius), 1e-9, "tolerance");
+    assert_null(json_object_get(all_of, "stick_length"));
+    json_decref(root);
+    root = run_json("--derivatives p" BODIES " --formulation steady --creep -2e-3");
+    assert_int_equal(
+        json_array_size(json_object_get(
+            json_object_get(json_object_get(root, "derivatives"), "p"), "radius")),
+        36);
+    json_decref(root);
+    assert_int_equal(rollbem("--derivatives nonsense" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance mu=-1" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance zone=1" BODIES), 64);
+    assert_int_equal(rollbem("--derivatives --error" BODIES), 64);
+    assert_int_equal(rollbem("--derivatives --increments 3" BODIES), 64);
+}
+
+/* A sample scatters as the first-order propagation says; the same seed gives the same. */
+static void samples_scatter_as_tolerances(void **state)
+{
+    (void)state;
+    const char *const line =
+        "sweep --sample 60 --tolerance mu=0.01,load=1% --jobs 1 --seed 3 "
+        "--similar --support halfplane --load 500 --formulation steady "
+        "--mesh uniform --zone 1.2 --contact-elements 36 --creep -2e-3";
+    assert_int_equal(rollbem(line), 0);
+    static char first[sizeof out];
+    memcpy(first, out, sizeof out);
+    const char *at = strstr(err, "tangential_load_N/mm");
+    double mean, deviation;
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "tangential_load_N/mm %lf +- %lf", &mean, &deviation), 2);
+    assert_int_equal(rollbem(line), 0);
+    assert_string_equal(out, first);
+    json_t *root = run_json("--tolerance mu=0.01,load=1% --similar --support halfplane "
+                            "--load 500 --formulation steady --mesh uniform --zone 1.2 "
+                            "--contact-elements 36 --creep -2e-3");
+    CHECK_REL(deviation,
+              json_number_value(json_object_get(json_object_get(root, "tolerances"),
+                                                "tangential_load")),
+              0.1, "standard deviation");
+    json_decref(root);
+    assert_int_equal(rollbem("sweep --sample 3"), 64);
+    assert_int_equal(rollbem("sweep --sample 3 --tolerance zone=1"), 64);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_data_give_the_truth),
+        cmocka_unit_test(noise_leaves_it_in_the_intervals),
+        cmocka_unit_test(forces_and_ratios_agree),
+        cmocka_unit_test(no_falling_part_is_said),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(command_prints_parameters),
+        cmocka_unit_test(command_prints_derivatives),
+        cmocka_unit_test(samples_scatter_as_tolerances),
+    };
+    return cmocka_run_group_tests(tests, make_data, leave_folder);
+}
