@@ -849,6 +849,102 @@ static void what_cannot_be_checked_is_refused(void **state)
     assert_int_equal(rollbem("check"), 64);
 }
 
+/* ---- Files that somebody else names ------------------------------------------------ */
+
+/* A result from anybody names devices, pipes, files that are nobody's business. */
+static void files_of_others_are_left_alone(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *file, *part;
+    } bad[] = {
+        {"/dev/zero", "/dev/zero: expected a regular file"},
+        {"/dev/urandom", "/dev/urandom: expected a regular file"},
+        {"pipe", "pipe: expected a regular file"},
+        {"../outside.txt", "../outside.txt: not in the folder of/"},
+        {"of/link", "of/link: not in the folder of/"},
+        {"of/../secret.txt", "of/../secret.txt: not in the folder of/"},
+        {"/etc/passwd", "/etc/passwd: not in the folder of/"},
+        {"of/large", "of/large: more than 64 MB"},
+        {"of", "of: expected a regular file"},
+        {"of/none.txt", "of/none.txt: No such file"},
+        {"of/secret.txt", "of/secret.txt: not what is expected of this file"},
+        {"of/names.txt", "of/names.txt: not what is expected of this file"},
+    };
+    static const char *const options[] = {"gap", "worn", "friction-law", "history"};
+    assert_int_equal(
+        shell(
+            "mkdir -p of; mkfifo pipe; echo 'Xy9 Zq7' > secret.txt; cp secret.txt of; "
+            "ln -s /etc/hostname of/link; echo 'load mu Xy9' > of/names.txt; echo '1 1 "
+            "1' >> "
+            "of/names.txt; truncate -s 65M of/large; echo '0 0' > ../outside.txt; awk "
+            "'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > g.txt; "
+            "cp g.txt of; \"$R\" --support halfplane --load 100 --mu 0.3 --gap of/g.txt "
+            "--contact-elements 12 --json --quiet --output of/r.json && \"$R\" check "
+            "of/r.json"),
+        0);
+    json_t *root = json_load_file("of/r.json", 0, NULL);
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+            json_t *wrong = json_deep_copy(root),
+                   *inputs = json_object_get(wrong, "inputs");
+            if (i > 0)
+                json_object_set_new(inputs, "gap", json_string("exact"));
+            json_object_set_new(inputs, options[i], json_string(bad[k].file));
+            if (strcmp(options[i], "history") == 0)
+                json_object_set_new(wrong, "history", json_pack("{s:{}}", "states"));
+            assert_int_equal(json_dump_file(wrong, "of/wrong.json", 0), 0);
+            json_decref(wrong);
+            const int code = shell("timeout 20 \"$R\" check of/wrong.json");
+            if ((code != 65 && code != 66) || !strstr(err, bad[k].part))
+                print_error("%s = %s: exit %d\n%s", options[i], bad[k].file, code, err);
+            assert_true(code == 65 || code == 66);
+            assert_non_null(strstr(err, bad[k].part));
+            assert_null(strstr(err, "Xy9"));
+        }
+    /* whoever knows where the result comes from may allow it */
+    json_object_set_new(json_object_get(root, "inputs"), "gap", json_string("g.txt"));
+    assert_int_equal(json_dump_file(root, "of/wrong.json", 0), 0);
+    assert_int_equal(shell("\"$R\" check of/wrong.json"), 65);
+    assert_non_null(strstr(err, "g.txt: not in the folder of/"));
+    assert_int_equal(shell("\"$R\" check --any-folder of/wrong.json"), 1);
+    assert_non_null(strstr(out, "(input_hash)")); /* the path is one of the inputs */
+    json_decref(root);
+    /* the command line in the comments of a table names files, too */
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        char line[300];
+        for (int is_case = 0; is_case < 2; is_case++) {
+            snprintf(line, sizeof line,
+                     "printf 'x_mm p_MPa\n# rollbem 0.1.0\n# rollbem %s%s\n' > of/t; "
+                     "timeout 20 \"$R\" check of/t",
+                     is_case ? "" : "--gap ", bad[k].file);
+            const int code = shell(line);
+            if (code != 65 || !strstr(err, bad[k].part))
+                print_error("table, %s: exit %d\n%s", bad[k].file, code, err);
+            assert_int_equal(code, 65);
+            assert_non_null(strstr(err, bad[k].part));
+            assert_null(strstr(err, "Xy9"));
+        }
+    }
+    assert_int_equal(shell("rm -f ../outside.txt"), 0);
+}
+
+/* An empty file has no lines; a name that is no UTF-8 is a name that is not expected. */
+static void odd_bytes_are_named(void **state)
+{
+    (void)state;
+    assert_int_equal(shell(": > empty; \"$R\" check empty"), 65);
+    assert_non_null(strstr(err, "empty: cannot be checked: expected the JSON"));
+    assert_int_equal(shell("printf 'x_mm' > empty; \"$R\" check empty"), 65);
+    assert_int_equal(
+        shell(
+            "\"$R\" --support halfplane --load 100 --mu 0.3 --contact-elements 12 "
+            "--output t.tsv --quiet; LC_ALL=C sed '1s/un_mm/u\\xffn_mm/' t.tsv > u.tsv; "
+            "\"$R\" check u.tsv"),
+        1);
+    assert_non_null(strstr(out, "violated: un_mm: 0 numbers, expected"));
+}
+
 /* ---- Results that somebody has changed --------------------------------------------- */
 
 /* A line for each thing that is missing, of another kind, or against a law. */
@@ -1082,6 +1178,8 @@ int main(void)
         cmocka_unit_test(tables_are_valid_by_their_comments),
         cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
         cmocka_unit_test(what_cannot_be_checked_is_refused),
+        cmocka_unit_test(files_of_others_are_left_alone),
+        cmocka_unit_test(odd_bytes_are_named),
         cmocka_unit_test(every_edit_is_named)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

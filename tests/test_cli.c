@@ -642,6 +642,39 @@ static void interrupted_run_keeps_its_steps(void **state)
     json_decref(root);
 }
 
+/* Files and pipes end, devices need not. */
+static void devices_are_refused(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "--support halfplane --load 100 --gap /dev/zero",
+        "--support halfplane --load 100 --worn /dev/urandom",
+        "--support halfplane --load 100 --history /dev/zero",
+        "/dev/zero",
+        "stress --points /dev/zero",
+        "lcp /dev/zero",
+        "friction /dev/zero",
+        "contact /dev/urandom",
+        "check /dev/zero",
+        "sweep /dev/zero"};
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        char line[200];
+        snprintf(line, sizeof line, "ulimit -t 10; timeout 20 \"$R\" %s", lines[k]);
+        const int code = shell(line);
+        if (code != 65 || !strstr(err, ": a device, expected a file or a pipe"))
+            print_error("%s: exit %d: %s", lines[k], code, err);
+        assert_int_equal(code, 65);
+        assert_non_null(strstr(err, ": a device, expected a file or a pipe"));
+    }
+    assert_int_equal(shell("yes '1 2' | head -c 300M | \"$R\" --support halfplane --load "
+                           "100 --gap /dev/stdin"),
+                     65);
+    assert_non_null(strstr(err, "/dev/stdin: more than 256 MB"));
+    assert_int_equal(shell("printf -- '-3 0.09\n0 0\n3 0.09\n' | \"$R\" --support "
+                           "halfplane --load 100 --gap /dev/stdin --quiet"),
+                     0);
+}
+
 /* So many threads ended in a signal of OpenMP's. */
 static void threads_are_bounded(void **state)
 {
@@ -974,6 +1007,7 @@ int main(void)
         cmocka_unit_test(transient_rolls_step_by_step),
         cmocka_unit_test(bad_histories_are_refused),
         cmocka_unit_test(interrupted_run_keeps_its_steps),
+        cmocka_unit_test(devices_are_refused),
         cmocka_unit_test(threads_are_bounded),
         cmocka_unit_test(a_terminal_that_goes_interrupts_unless_nohup),
         cmocka_unit_test(error_bars_hold_the_truth),

@@ -212,6 +212,15 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
 /* Solvers that the option `solver` may name beside those of contact.h; borrowed.  Without
  * this there are none. */
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers);
+/* For options that come from somebody else's file, such as a result to be checked: a file
+ * that one of them names must be a regular one of at most 64 MB that lies, links
+ * followed, below the folder (borrowed; NULL: anywhere), and no message quotes what it
+ * holds. */
+void rb_case_confine(rb_case *c, const char *folder);
+/* The text of a file that an option or the command line names, with a zero behind it;
+ * owned by the caller.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
+                             size_t *size, rb_message *why);
 /* Borrows files and texts of c, which must live longer.  NULL: no memory. */
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);

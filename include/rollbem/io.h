@@ -43,8 +43,14 @@ rb_status rb_io_make_folder(const char *path, rb_message *why);
 rb_status rb_io_folder_check(const char *path, rb_message *why);
 
 /* The text of an input file and a zero behind it; owned by the caller.  RB_ENOENT;
- * RB_EFORMAT: UTF-16, or a zero byte in it; RB_ENOMEM. */
+ * RB_EFORMAT: UTF-16, or a zero byte in it; a device other than a terminal or /dev/null;
+ * more than 2 GB, of a pipe 256 MB; RB_ENOMEM. */
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why);
+
+/* For paths that come from somebody else's file.  RB_EFORMAT unless path is a regular
+ * file of at most 64 MB and lies, links followed, below the folder (NULL: anywhere);
+ * RB_ENOENT.  Not against somebody who changes files meanwhile. */
+rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
@@ -65,6 +71,8 @@ rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t,
                             rb_message *why);
 /* The same for a table of exactly that many columns. */
+rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
+                                     rb_message *why);
 rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
                                    rb_message *why);
 /* rows numbers; NULL when there is no such column. */

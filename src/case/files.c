@@ -2,7 +2,46 @@
 #include "case/internal.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+void rb_case_confine(rb_case *c, const char *folder)
+{
+    c->confined = 1;
+    c->folder = folder;
+}
+
+rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s,
+                                  rb_message *why)
+{
+    return c->confined && s == RB_EFORMAT
+               ? rb_fail(why, s, "%s: not what is expected of this file", path)
+               : s;
+}
+
+rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
+                             size_t *size, rb_message *why)
+{
+    const rb_status s = c->confined ? rb_io_check_harmless(path, c->folder, why) : RB_OK;
+    *text = NULL;
+    return s == RB_OK ? rb_io_read_text(path, text, size, why) : s;
+}
+
+/* columns: how many there must be; 0: any. */
+static rb_status read_table(const rb_case *c, const char *path, int columns,
+                            rb_io_table *t, rb_message *why)
+{
+    char *text;
+    size_t size;
+    rb_status s = rb_case_read_input(c, path, &text, &size, why);
+    if (s != RB_OK)
+        return s;
+    s = rb_io_table_parse(path, text, t, why);
+    if (s == RB_OK && columns > 0)
+        s = rb_io_table_expect_columns(path, columns, t, why);
+    free(text);
+    return rb_case_without_content(c, path, s, why);
+}
 
 static void free_table(case_table *t)
 {
@@ -30,12 +69,13 @@ static rb_units units_of_file(const rb_case *c, const char *option)
 }
 
 /* Two columns, of which the first `lengths` are in mm: the second over the first. */
-static rb_status read_over_x(case_table *t, const char *path, rb_units units, int lengths,
-                             rb_rolling_table *over_x, rb_message *why)
+static rb_status read_over_x(const rb_case *c, case_table *t, const char *path,
+                             rb_units units, int lengths, rb_rolling_table *over_x,
+                             rb_message *why)
 {
     if (!is_read(t, path, units)) {
         free_table(t);
-        const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
+        const rb_status s = read_table(c, path, 2, &t->table, why);
         if (s != RB_OK)
             return s;
         t->path = path;
@@ -59,7 +99,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
         c->profile.noise != noise)
         free_profile(&c->profile);
     rb_status s =
-        read_over_x(&c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
+        read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
@@ -75,11 +115,11 @@ static rb_status read_surfaces(rb_case *c, rb_message *why)
     rb_resolved_case *resolved = &c->resolved;
     rb_status s = RB_OK;
     if (resolved->irregularity_file)
-        s = read_over_x(&c->table[CASE_IRREGULARITY], resolved->irregularity_file,
+        s = read_over_x(c, &c->table[CASE_IRREGULARITY], resolved->irregularity_file,
                         units_of_file(c, "irregularity"), 2, &resolved->rc.irregularity,
                         why);
     if (s == RB_OK && resolved->worn_file)
-        s = read_over_x(&c->table[CASE_WORN], resolved->worn_file,
+        s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file,
                         units_of_file(c, "worn"), 2, &resolved->rc.worn, why);
     return s;
 }
@@ -102,7 +142,7 @@ static rb_status read_friction(rb_case *c, rb_message *why)
     rb_resolved_case *resolved = &c->resolved;
     if (resolved->rc.friction.law != RB_FRICTION_table)
         return RB_OK;
-    const rb_status s = read_over_x(&c->table[CASE_FRICTION], resolved->friction_file,
+    const rb_status s = read_over_x(c, &c->table[CASE_FRICTION], resolved->friction_file,
                                     units_of_file(c, "friction-law"), 1,
                                     &resolved->rc.friction.table, why);
     return s == RB_OK ? resolve_table_and_mu(c, why) : s;
@@ -183,13 +223,13 @@ static rb_status resolve_columns(rb_case *c, rb_message *why)
 }
 
 /* Columns named like options, in the units of those or in their own: load_kN/m. */
-static rb_status read_program_table(case_table *t, const char *path, rb_units units,
-                                    rb_message *why)
+static rb_status read_program_table(const rb_case *c, case_table *t, const char *path,
+                                    rb_units units, rb_message *why)
 {
     if (is_read(t, path, units))
         return RB_OK;
     free_table(t);
-    rb_status s = rb_io_table_read(path, &t->table, why);
+    rb_status s = read_table(c, path, 0, &t->table, why);
     if (s == RB_OK && !t->table.name)
         s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
     t->path = s == RB_OK ? path : NULL;
@@ -208,10 +248,11 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
     const char *path = c->words.history_file;
     if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
-    rb_status s = read_program_table(&c->table[CASE_HISTORY], path,
+    rb_status s = read_program_table(c, &c->table[CASE_HISTORY], path,
                                      units_of_file(c, "history"), why);
     if (s == RB_OK)
-        s = set_program(t, path, &c->words.program, why);
+        s = rb_case_without_content(c, path, set_program(t, path, &c->words.program, why),
+                                    why);
     return s == RB_OK ? resolve_columns(c, why) : s;
 }
 

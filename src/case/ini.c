@@ -163,12 +163,12 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
 {
     char *text;
     size_t size;
-    rb_status s = rb_io_read_text(path, &text, &size, why);
+    rb_status s = rb_case_read_input(c, path, &text, &size, why);
     if (s != RB_OK)
         return s;
     s = read_text(c, path, text, n, also, why);
     free(text);
-    return s;
+    return rb_case_without_content(c, path, s, why);
 }
 
 rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,

@@ -33,6 +33,8 @@ struct rb_case {
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table table[CASE_TABLES];
     case_profile profile;
+    int confined;       /* 1: rb_case_confine was called */
+    const char *folder; /* of it; borrowed */
     char **text; /* copies of values; owned */
     int texts;
 };
@@ -51,6 +53,10 @@ const char *rb_case_keep(rb_case *c, const char *text);
  * RB_EINVAL.  RB_OK where nobody did. */
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
                                rb_message *why);
+
+/* A failure of what was read from that file, without its content where c is confined. */
+rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s,
+                                  rb_message *why);
 
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 

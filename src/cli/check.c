@@ -4,6 +4,7 @@
 #include "rollbem/report.h"
 
 #include <jansson.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,10 @@ static const char about[] =
     "iterations, seconds, and which solver it was. Refused: histories without states,\n"
     "or with friction that depends on the slip or the temperature, or an interface that\n"
     "yields; curves, error bars, units other than mm, N, MPa; CSV.\n"
+    "A result may come from anybody: the files that it names (a gap, a history) are "
+    "read\n"
+    "only if they are regular ones of at most 64 MB below its own folder, unless\n"
+    "--any-folder is given, and no message quotes them.\n"
     "\n"
     "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
 
@@ -115,7 +120,25 @@ static cli_exit check_table(const char *path, const char *text, rb_case *words)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
-static cli_exit check_file(const char *path)
+typedef struct {
+    int any_folder;
+} check_options;
+
+static const rb_option options[] = {
+    RB_FLAG_LINE("any-folder", offsetof(check_options, any_folder),
+                 "files that a result names may lie outside its own folder"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+/* The folder of a file; owned by the caller, NULL: no memory. */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+}
+
+static cli_exit check_file(const char *path, const check_options *o)
 {
     char *text = NULL;
     size_t size;
@@ -124,20 +147,30 @@ static cli_exit check_file(const char *path)
     if (s != RB_OK)
         return cli_say(s, &why);
     rb_case *words = cli_case_create(RB_CASE_SINGLE);
+    char *folder = folder_of(path);
     const char first = text[strspn(text, " \t\r\n")];
     cli_exit code = CLI_INTERNAL;
-    if (words)
+    if (words && !folder)
+        code = cli_fail(code, "%s: out of memory", path);
+    if (words && folder)
+        rb_case_confine(words, o->any_folder ? NULL : folder);
+    if (words && folder)
         code = first == '{' || first == '[' ? check_json(path, text, size, words)
                                             : check_table(path, text, words);
     rb_case_free(words);
+    free(folder);
     free(text);
     return code;
 }
 
 int cli_check(int argc, char **argv)
 {
-    static const cli_spec spec = {.synopsis = "rollbem check RESULT.json|TABLE...",
-                                  .about = about};
+    check_options o = {0};
+    int given[OPTIONS] = {0};
+    const cli_spec spec = {.synopsis = "rollbem check [OPTION...] RESULT.json|TABLE...",
+                           .about = about,
+                           .sets = {{options, OPTIONS, &o, given, NULL}},
+                           .set_n = 1};
     cli_args args = {0};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands == 0)
@@ -145,7 +178,7 @@ int cli_check(int argc, char **argv)
     else if (code == CLI_CONTINUE) {
         code = CLI_OK;
         for (int k = 0; k < args.operands; k++) {
-            const cli_exit one = check_file(args.operand[k]);
+            const cli_exit one = check_file(args.operand[k], &o);
             code = one > code ? one : code;
         }
     }

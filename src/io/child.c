@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -63,7 +64,7 @@ rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
     }
     close(end[1]);
     FILE *from = pid > 0 ? fdopen(end[0], "rb") : NULL;
-    char *all = from ? rb_io_read_all(from, size) : NULL;
+    char *all = from ? rb_io_read_all(from, SIZE_MAX, size) : NULL;
     if (from)
         fclose(from);
     else

@@ -258,14 +258,20 @@ rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
     return s;
 }
 
+rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
+                                     rb_message *why)
+{
+    if (t->columns == columns)
+        return RB_OK;
+    const rb_status s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d",
+                                path, t->line[0], columns, t->columns);
+    rb_io_table_free(t);
+    return s;
+}
+
 rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
                                    rb_message *why)
 {
-    rb_status s = rb_io_table_read(path, t, why);
-    if (s == RB_OK && t->columns != columns) {
-        s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path,
-                    t->line[0], columns, t->columns);
-        rb_io_table_free(t);
-    }
-    return s;
+    const rb_status s = rb_io_table_read(path, t, why);
+    return s == RB_OK ? rb_io_table_expect_columns(path, columns, t, why) : s;
 }

@@ -6,8 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-char *rb_io_read_all(FILE *file, size_t *size)
+/* A pipe does not say how much there is to come. */
+static const size_t largest_file = (size_t)1 << 31, largest_from_pipe = (size_t)1 << 28,
+                    largest_harmless = (size_t)1 << 26;
+
+char *rb_io_read_all(FILE *file, size_t most, size_t *size)
 {
     size_t room = 0, got;
     char *text = NULL;
@@ -24,13 +29,31 @@ char *rb_io_read_all(FILE *file, size_t *size)
         }
         got = fread(text + *size, 1, room - *size - 1, file);
         *size += got;
-    } while (got);
-    if (ferror(file)) {
+    } while (got && *size <= most);
+    if (ferror(file) || *size > most) {
+        if (*size > most)
+            errno = EFBIG;
         free(text);
         return NULL;
     }
     text[*size] = '\0';
     return text;
+}
+
+static rb_status too_large(const char *path, size_t most, rb_message *why)
+{
+    return rb_fail(why, RB_EFORMAT, "%s: more than %zu MB, expected a text", path,
+                   most >> 20);
+}
+
+/* Of them terminals end, and /dev/null is empty. */
+static int is_endless(FILE *file, const struct stat *st)
+{
+    struct stat null;
+    if (S_ISBLK(st->st_mode))
+        return 1;
+    return S_ISCHR(st->st_mode) && !isatty(fileno(file)) &&
+           !(stat("/dev/null", &null) == 0 && null.st_rdev == st->st_rdev);
 }
 
 static rb_status cannot_read(const char *path, rb_message *why)
@@ -62,10 +85,21 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     FILE *file = fopen(path, "rb");
     if (!file)
         return cannot_read(path, why);
-    if (fstat(fileno(file), &st) == 0 && S_ISDIR(st.st_mode))
+    const int known = fstat(fileno(file), &st) == 0;
+    if (known && is_endless(file, &st)) {
+        fclose(file);
+        return rb_fail(why, RB_EFORMAT, "%s: a device, expected a file or a pipe", path);
+    }
+    const size_t most = known && !S_ISREG(st.st_mode) ? largest_from_pipe : largest_file;
+    errno = 0;
+    if (known && S_ISDIR(st.st_mode))
         errno = EISDIR;
     else
-        *text = rb_io_read_all(file, size);
+        *text = rb_io_read_all(file, most, size);
+    if (!*text && errno == EFBIG) {
+        fclose(file);
+        return too_large(path, most, why);
+    }
     rb_status s = *text ? check_text(path, *text, *size, why) : cannot_read(path, why);
     fclose(file);
     if (s == RB_OK && strncmp(*text, "\xef\xbb\xbf", 3) == 0) /* some editors' mark */
@@ -75,4 +109,35 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
         *text = NULL;
     }
     return s;
+}
+
+/* The canonical path of the folder is the beginning of that of the file. */
+static rb_status check_below(const char *path, const char *folder, rb_message *why)
+{
+    char *file = realpath(path, NULL), *above = realpath(folder, NULL);
+    rb_status s = RB_OK;
+    if (!file || !above)
+        s = cannot_read(file ? folder : path, why);
+    else {
+        size_t n = strlen(above);
+        while (n > 0 && above[n - 1] == '/')
+            n--;
+        if (strncmp(file, above, n) != 0 || file[n] != '/')
+            s = rb_fail(why, RB_EFORMAT, "%s: not in the folder %s", path, folder);
+    }
+    free(file);
+    free(above);
+    return s;
+}
+
+rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why)
+{
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return cannot_read(path, why);
+    if (!S_ISREG(st.st_mode))
+        return rb_fail(why, RB_EFORMAT, "%s: expected a regular file", path);
+    if ((unsigned long long)st.st_size > largest_harmless)
+        return too_large(path, largest_harmless, why);
+    return folder ? check_below(path, folder, why) : RB_OK;
 }

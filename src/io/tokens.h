@@ -10,8 +10,8 @@
 #include <stdio.h>
 
 /* All that is left of a file, or of a pipe, and a zero behind it; owned by the caller.
- * NULL: errno says why. */
-char *rb_io_read_all(FILE *file, size_t *size);
+ * NULL: errno says why, EFBIG: there are more bytes than most. */
+char *rb_io_read_all(FILE *file, size_t most, size_t *size);
 
 typedef struct {
     const char *path; /* borrowed */

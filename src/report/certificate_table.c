@@ -12,11 +12,13 @@
 static const char *line_behind(const char *text, const char *start)
 {
     const size_t n = strlen(start);
-    while (text && strncmp(text, start, n) != 0) {
+    while (strncmp(text, start, n) != 0) {
         text = strchr(text, '\n');
-        text += text != NULL;
+        if (!text)
+            return NULL;
+        text++;
     }
-    return text ? text + n : NULL;
+    return text + n;
 }
 
 rb_status rb_report_table_command(const char *text, char **line)
@@ -94,9 +96,10 @@ static rb_status check_inputs(const char *name, const rb_resolved_case *resolved
 static json_t *json_of(const rb_io_table *t)
 {
     json_t *table = json_object();
+    char name[80]; /* JSON has no bytes that are not UTF-8; no column of ours is longer */
     for (int j = 0; t->name && j < t->columns; j++)
         rb_report_json_set(
-            &table, t->name[j],
+            &table, rb_printable(t->name[j], name, sizeof name),
             rb_report_json_numbers(t->rows, t->x + (size_t)j * (size_t)t->rows));
     return table;
 }

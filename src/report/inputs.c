@@ -63,7 +63,7 @@ static rb_status add_files(const rb_case *c, uint64_t *hash, rb_message *why)
         size_t size;
         if (!path || o[i].file != RB_FILE_READ)
             continue;
-        const rb_status s = rb_io_read_text(path, &text, &size, why);
+        const rb_status s = rb_case_read_input(c, path, &text, &size, why);
         if (s != RB_OK)
             return s;
         *hash = rb_hash(*hash, text, size);
