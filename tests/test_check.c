@@ -4,6 +4,7 @@
 #include "rollbem/report.h"
 
 #define SMALL " --contact-elements 16 --mu 0.3 "
+#define TINY " --contact-elements 8 --mu 0.3 "
 #define STEADY " --formulation steady "
 #define STATES " --states "
 
@@ -635,7 +636,7 @@ static void all_solutions_are_judged(void **state)
         for (size_t i = 0; i < json_array_size(q); i++)
             json_array_set_new(q, i, json_real(0.0));
     }
-    assert_non_null(strstr(said_of(still, "notes", "[]"),
+    assert_non_null(strstr(said_of(still, "summary/iterations", "1000"),
                            "r: violated: solutions 1 and 2 are the same\n"));
     json_decref(still);
 
@@ -647,7 +648,7 @@ static void all_solutions_are_judged(void **state)
         "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY);
     json_array_set(member(root, "solutions"), 2,
                    member(member(coarse, "solutions"), "0"));
-    assert_string_equal(said_of(root, "notes", "[]"), "");
+    assert_string_equal(said_of(root, "summary/iterations", "1000"), "");
     json_decref(coarse);
     rb_case_free(words);
     json_decref(root);
@@ -849,6 +850,144 @@ static void what_cannot_be_checked_is_refused(void **state)
     assert_int_equal(rollbem("check"), 64);
 }
 
+/* ---- Everything that a result says ------------------------------------------------- */
+
+/* What only solving again would tell, and what is of the machine. */
+static int is_beyond_checking(const char *key)
+{
+    static const char *const keys[] = {"iterations", "free_creepage", "seconds",
+                                       "integrals", "openblas"};
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (strcmp(key, keys[k]) == 0)
+            return 1;
+    return 0;
+}
+
+typedef struct {
+    json_t *root;
+    const char *given;
+    int changes, missed;
+} tampering;
+
+/* The command line is the program's to read. */
+static void expect_noticed(tampering *t, const char *path)
+{
+    const int is_program = strstr(path, "/command") || strstr(path, "yield_shear");
+    rb_report_certificate found;
+    rb_message why = {""};
+    t->changes++;
+    if (is_program) {
+        assert_int_equal(json_dump_file(t->root, "changed.json", JSON_REAL_PRECISION(17)),
+                         0);
+        if (shell("\"$R\" check changed.json") != 0)
+            return;
+    } else if (certify(t->root, &found, &why) != RB_OK || found.violations > 0)
+        return;
+    print_error("%s: a change of %s was not noticed\n", t->given, path);
+    t->missed++;
+}
+
+/* A part in ten thousand; a word loses its first letter, or gets one.  At the place of a
+ * largest stress it is flat: there a part in a hundred. */
+static json_t *other_value(const char *path, const json_t *value)
+{
+    const char *end = strrchr(path, '/');
+    const int is_flat = strstr(path, "maxima/") && end[2] == '\0';
+    if (json_is_string(value))
+        return json_string(json_string_value(value)[0] ? json_string_value(value) + 1
+                                                       : "x");
+    if (json_is_integer(value))
+        return json_integer(json_integer_value(value) + 1);
+    if (json_is_real(value)) {
+        const double x = json_real_value(value);
+        return json_real(is_flat          ? x + 0.01
+                         : fabs(x) > 1e-9 ? x * (1.0 + 1e-4)
+                                          : x + 1e-3);
+    }
+    return json_is_boolean(value) ? json_boolean(!json_is_true(value)) : NULL;
+}
+
+/* Each value of the tree in turn; of lists two entries, unless ROLLBEM_TEST_ALL. */
+static void tamper(tampering *t, json_t *at, const char *path)
+{
+    const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
+    const size_t n = json_array_size(at);
+    char own[200];
+    const char *key;
+    json_t *value, *names = json_is_object(at) ? json_copy(at) : NULL;
+    json_object_foreach(names, key, value)
+    {
+        snprintf(own, sizeof own, "%s/%s", path, key);
+        json_t *other = is_beyond_checking(key) ? NULL : other_value(own, value);
+        if (other) {
+            json_object_set_new(at, key, other);
+            expect_noticed(t, own);
+            json_object_set(at, key, value);
+        } else if (!is_beyond_checking(key))
+            tamper(t, value, own);
+    }
+    json_decref(names);
+    for (size_t i = 0; i < n; i++) {
+        if (!all && n > 2 && i != n / 3 && i != 2 * n / 3)
+            continue;
+        value = json_incref(json_array_get(at, i));
+        snprintf(own, sizeof own, "%s/%zu", path, i);
+        json_t *other = other_value(own, value);
+        if (other) {
+            json_array_set_new(at, i, other);
+            expect_noticed(t, own);
+            json_array_set(at, i, value);
+        } else
+            tamper(t, value, own);
+        json_decref(value);
+    }
+}
+
+/* One result of each kind, by the program, so that a value that is never compared is
+ * found here, also one that is not there yet. */
+static void whatever_is_changed_is_noticed(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {
+        TINY "--support halfplane --load 100 --creep-ratio 0.4" STEADY,
+        TINY "--support halfplane --load 100 --shift 1e-4 --increments 2" STATES,
+        TINY "--support halfplane --half-width 0.3 --formulation transient --distance "
+             "0.2 --steps 2 --force-ratio 0.3" STATES,
+        TINY "--support halfplane --load 100 --relaxation-time 0.01 --relaxation-ratio 1 "
+             "--speed 100 --formulation transient --distance 0.2 --creep 1e-3" STATES,
+        TINY "--support hub --history calm.txt --relaxation-time 1e-3 "
+             "--relaxation-ratio 1" STATES,
+        "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --grid 2x2 "
+        "--shakedown --yield-shear 300" STEADY,
+        "stress " TINY "--load 100 --creep-ratio 0.5 --points near.txt" STEADY};
+    tampering t = {.changes = 0};
+    write_controls();
+    assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n' > near.txt"), 0);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        t.given = kinds[k];
+        t.root = run_json(kinds[k]);
+        assert_int_equal(json_dump_file(t.root, "changed.json", JSON_REAL_PRECISION(17)),
+                         0);
+        assert_int_equal(shell("\"$R\" check changed.json"), 0);
+        if (k > 0 && !getenv("ROLLBEM_TEST_ALL")) { /* they are the same of all kinds */
+            json_t *inputs = json_incref(json_object_get(t.root, "inputs"));
+            json_t *parts = json_copy(t.root), *part;
+            const char *key;
+            json_object_foreach(parts, key, part)
+            {
+                if (json_is_object(part) && part != inputs)
+                    tamper(&t, part, key);
+            }
+            json_decref(parts);
+            json_decref(inputs);
+        } else
+            tamper(&t, t.root, "");
+        json_decref(t.root);
+    }
+    assert_true(t.changes > 400);
+    assert_int_equal(t.missed, 0);
+}
+
 /* ---- Files that somebody else names ------------------------------------------------ */
 
 /* A result from anybody names devices, pipes, files that are nobody's business. */
@@ -960,7 +1099,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
          {
-             {"notes", "[]", ""},
+             {"summary/iterations", "1000", ""},
              {"schema", "\"rollbem/2\"", "r: cannot be checked: not a result of schema"},
              {"inputs", "", "inputs, summary or table is missing"},
              {"summary", "[]", "inputs, summary or table is missing"},
@@ -1047,7 +1186,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.3 --yield-stress 20 "
          "--interlayer-tangential 1e-5 --mesh uniform --contact-elements 14" STEADY,
          {
-             {"notes", "[]", ""},
+             {"summary/iterations", "1000", ""},
              {"table/zone/9", "4", "violated: yield of element 10: |q| is off its yield"},
              {"table/zone/9", "6", "r: table: zone of element 10 is 6"},
              {"table/q_MPa/5", "-30", "yield stress of element 6: |q| exceeds it by"},
@@ -1067,7 +1206,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --increments 3 --shift 1e-4 "
          "--contact-elements 12" STATES,
          {
-             {"notes", "[]", ""},
+             {"summary/iterations", "1000", ""},
              {"history", "", "its inputs and its history do not belong together"},
              {"history", "[]", "its inputs and its history do not belong together"},
              {"history/states", "", "depends on the steps before it: take --states"},
@@ -1100,7 +1239,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
          "--grid 3x4 --shakedown",
          {
-             {"notes", "[]", ""},
+             {"summary/iterations", "1000", ""},
              {"grid", "", "r: cannot be checked: "},
              {"grid/nx", "4", "cannot be checked: its grid is not nx by ny points"},
              {"grid/nx", "1", "cannot be checked: its grid is not nx by ny points"},
@@ -1178,6 +1317,7 @@ int main(void)
         cmocka_unit_test(tables_are_valid_by_their_comments),
         cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
         cmocka_unit_test(what_cannot_be_checked_is_refused),
+        cmocka_unit_test(whatever_is_changed_is_noticed),
         cmocka_unit_test(files_of_others_are_left_alone),
         cmocka_unit_test(odd_bytes_are_named),
         cmocka_unit_test(every_edit_is_named)};

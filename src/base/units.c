@@ -139,12 +139,12 @@ static double move_point(double x, int power)
     if (power == 0 || x == 0.0 || !isfinite(x))
         return x;
     snprintf(digits, sizeof digits, "%.14e", x);
-    if (strtod(digits, NULL) != x)
+    if (rb_read_number(digits, NULL) != x)
         snprintf(digits, sizeof digits, "%.16e", x);
     char *exponent = strchr(digits, 'e');
     *exponent = '\0';
     snprintf(moved, sizeof moved, "%se%d", digits, atoi(exponent + 1) + power);
-    return strtod(moved, NULL);
+    return rb_read_number(moved, NULL);
 }
 
 static double to_stored(const unit_row *u, double x)
@@ -205,7 +205,7 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
         why->text[0] = '\0';
     if (*text == '\0' || strchr(" \t\n", *text))
         return RB_EINVAL;
-    *value = strtod(text, &end);
+    *value = rb_read_number(text, &end);
     if (end == text || !isfinite(*value))
         return RB_EINVAL;
     *plain = *end == '\0';

@@ -13,7 +13,7 @@ int rb_option_number(const char *text, double *value)
     char *end;
     if (strchr(" \t\n", *text)) /* or empty */
         return 0;
-    *value = strtod(text, &end);
+    *value = rb_read_number(text, &end);
     return *end == '\0' && isfinite(*value);
 }
 

@@ -192,7 +192,7 @@ static cli_case_run run_of(const cli_case_command *command, void *own, int *give
 }
 
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
-                         char **argv, rb_case *words)
+                         char **argv, rb_case *words, int *files)
 {
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run = run_of(command, own, given, plain, words);
@@ -201,6 +201,7 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_say(rb_case_resolve(words, &why), &why);
+    *files = run.args.operands;
     cli_args_free(&run.args);
     return code;
 }

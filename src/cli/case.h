@@ -111,9 +111,12 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
 
 /* The resolved case of a command line of `rollbem` itself; what it would write is neither
  * looked at nor written.  CLI_CONTINUE, or the exit code after the line of why. */
-cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words);
-/* The same of any such command. */
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files);
+/* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
+cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files,
+                           double *yield_shear);
+/* The same of any such command; files: written, how many case files it names. */
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
-                         char **argv, rb_case *words);
+                         char **argv, rb_case *words, int *files);
 
 #endif

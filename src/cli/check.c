@@ -4,6 +4,7 @@
 #include "rollbem/report.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,8 +41,77 @@ static cli_exit tell(const char *path, rb_status s, const rb_report_certificate 
     return found->violations ? CLI_UNSOLVED : CLI_OK;
 }
 
+/* The command that a result is of, where it is not `rollbem` itself; or NULL. */
+static const char *other_command(const char *word)
+{
+    const char *name;
+    for (int k = 0; word && (name = cli_command_name(k)); k++)
+        if (strcmp(name, word) == 0)
+            return name;
+    return NULL;
+}
+
+/* yield_shear: as printed; NAN: nowhere. */
+static const char *fault_of_command(const json_t *root, char **argv, int argc,
+                                    const char *folder, int is_confined)
+{
+    const char *other = other_command(argv[1]);
+    const int is_stress = other && strcmp(other, "stress") == 0;
+    double given = NAN;
+    int files = 0;
+    const char *fault = NULL;
+    if ((other && !is_stress) || is_stress != (json_object_get(root, "maxima") != NULL))
+        return "it is another command's";
+    rb_case *words = cli_case_create(is_stress ? RB_CASE_STRESS : RB_CASE_SINGLE);
+    if (!words)
+        return "out of memory";
+    if (is_confined)
+        rb_case_confine(words, folder);
+    const cli_exit code =
+        is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
+                  : cli_solve_inputs(argc, argv, words, &files);
+    json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
+    const json_t *printed = json_object_get(root, "shakedown");
+    const double yield = json_number_value(json_object_get(printed, "yield_shear"));
+    if (files > 0)
+        ; /* a case file may have changed since, or be elsewhere */
+    else if (code != CLI_CONTINUE)
+        fault = "it is no command line of rollbem";
+    else if (!json_equal(inputs, json_object_get(root, "inputs")))
+        fault = "it has other inputs than `inputs`";
+    else if (printed &&
+             (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
+        fault = "yield_shear of shakedown is not --yield-shear";
+    json_decref(inputs);
+    rb_case_free(words);
+    return fault;
+}
+
+/* The command line that the result quotes against its inputs. */
+static void compare_command(const char *path, const json_t *root, const char *folder,
+                            int is_confined, rb_report_certificate *found)
+{
+    const char *text = json_string_value(json_object_get(root, "command"));
+    const char *fault = "it is no command line of rollbem";
+    if (text && strncmp(text, "rollbem", 7) == 0 && strchr(" ", text[7])) {
+        char *line = strdup(text + 7);
+        int argc;
+        char **argv = line ? cli_split_line(line, &argc) : NULL;
+        const int kept = cli_keep_failures(1);
+        fault = argv ? fault_of_command(root, argv, argc, folder, is_confined)
+                     : "out of memory";
+        cli_keep_failures(kept);
+        free(argv);
+        free(line);
+    }
+    if (fault) {
+        printf("%s: violated: command: %s\n", path, fault);
+        found->violations++;
+    }
+}
+
 static cli_exit check_json(const char *path, const char *text, size_t size,
-                           rb_case *words)
+                           const char *folder, int is_confined, rb_case *words)
 {
     rb_report_certificate found = {0};
     rb_message why = {""};
@@ -57,32 +127,24 @@ static cli_exit check_json(const char *path, const char *text, size_t size,
     }
     const rb_status s =
         rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    if (s == RB_OK)
+        compare_command(path, root, folder, is_confined, &found);
     json_decref(root);
     return tell(path, s, &found, &why);
 }
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-/* The command that a table is of, where it is not `rollbem` itself; or NULL. */
-static const char *other_command(const char *word)
-{
-    const char *name;
-    for (int k = 0; word && (name = cli_command_name(k)); k++)
-        if (strcmp(name, word) == 0)
-            return name;
-    return NULL;
-}
-
 /* Settles `words` by the command line that the table quotes. */
 static cli_exit read_inputs(const char *path, char *line, rb_case *words)
 {
-    int argc;
+    int argc, files;
     char **argv = cli_split_line(line, &argc);
     if (!argv)
         return cli_fail(CLI_INTERNAL, "%s: out of memory", path);
     const char *other = other_command(argv[1]);
     const int kept = cli_keep_failures(1);
-    cli_exit code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words);
+    cli_exit code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files);
     cli_keep_failures(kept);
     free(argv);
     if (code == CLI_CONTINUE)
@@ -155,8 +217,9 @@ static cli_exit check_file(const char *path, const check_options *o)
     if (words && folder)
         rb_case_confine(words, o->any_folder ? NULL : folder);
     if (words && folder)
-        code = first == '{' || first == '[' ? check_json(path, text, size, words)
-                                            : check_table(path, text, words);
+        code = first == '{' || first == '['
+                   ? check_json(path, text, size, folder, !o->any_folder, words)
+                   : check_table(path, text, words);
     rb_case_free(words);
     free(folder);
     free(text);

@@ -335,10 +335,10 @@ static const cli_case_command command = {
     .summarise = summarise,
 };
 
-cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words)
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files)
 {
     solved it = {.steps.every = 1};
-    return cli_case_inputs(&command, &it, argc, argv, words);
+    return cli_case_inputs(&command, &it, argc, argv, words, case_files);
 }
 
 int cli_solve(int argc, char **argv)

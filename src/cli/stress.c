@@ -322,6 +322,15 @@ static const cli_case_command command = {
     .summarise = summarise,
 };
 
+cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *case_files,
+                           double *yield_shear)
+{
+    stress st = {.yield_shear = NAN};
+    const cli_exit code = cli_case_inputs(&command, &st, argc, argv, words, case_files);
+    *yield_shear = st.yield_shear;
+    return code;
+}
+
 int cli_stress(int argc, char **argv)
 {
     stress st = {.yield_shear = NAN};

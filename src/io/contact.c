@@ -55,7 +55,7 @@ static void read_numbers(reading *r, int n, double *x, const char *names, int *d
     const char *line = r->status == RB_OK ? next_line(r) : NULL, *at = line ? line : "";
     for (int k = 0; k < n && r->status == RB_OK; k++) {
         char *end;
-        x[k] = strtod(at, &end);
+        x[k] = rb_read_number(at, &end);
         if (end == at || !isfinite(x[k])) {
             fail(r, names, line);
             return;

@@ -68,7 +68,7 @@ static int count_words(const char *text)
 static int is_number(const char *word, size_t n, double *value)
 {
     char *end;
-    *value = strtod(word, &end);
+    *value = rb_read_number(word, &end);
     return end == word + n && isfinite(*value);
 }
 

@@ -112,7 +112,7 @@ double rb_io_tokens_real(io_tokens *t, const char *what)
         return 0.0;
     const size_t length = peek(t);
     char *stop;
-    const double value = strtod(t->at, &stop);
+    const double value = rb_read_number(t->at, &stop);
     if (length && stop == t->at + length && allowed(t, value)) {
         t->at = stop;
         return value;
@@ -126,7 +126,7 @@ void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what)
     for (size_t i = 0; i < n && t->status == RB_OK; i++) {
         char *stop;
         skip_space(t);
-        x[i] = strtod(t->at, &stop);
+        x[i] = rb_read_number(t->at, &stop);
         if (stop > t->at && (stop == t->end || space(*stop)) && allowed(t, x[i])) {
             t->at = stop;
         } else {

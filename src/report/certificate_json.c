@@ -1,6 +1,7 @@
 /* The certificate of a result in JSON. */
 #include "report/certificate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,6 +62,8 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
         return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
     if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
         return rb_certificate_refuse(name, "it says itself that it is not solved", why);
+    if (strcmp(rb_certificate_word(root, "version"), RB_VERSION) != 0)
+        return rb_certificate_refuse(name, "it is of another version of rollbem", why);
     return RB_OK;
 }
 
@@ -177,6 +180,52 @@ static rb_status compare_hash(rb_certificate *c, const json_t *printed,
     return RB_OK;
 }
 
+/* Two texts in which numbers may differ by one in their second digit: they are rounded.
+ */
+static int is_same_note(const char *a, const char *b)
+{
+    while (*a && *b) {
+        char *end_a, *end_b;
+        const double x = rb_read_number(a, &end_a), y = rb_read_number(b, &end_b);
+        if (end_a > a && end_b > b) {
+            if (!(fabs(x - y) <= 0.1 * fmax(fabs(x), fabs(y))))
+                return 0;
+            a = end_a;
+            b = end_b;
+        } else if (*a++ != *b++)
+            return 0;
+    }
+    return *a == *b;
+}
+
+/* Texts that follow from the case and from what was computed again. */
+static rb_status compare_texts(rb_certificate *c, const json_t *root,
+                               const rb_resolved_case *resolved)
+{
+    json_t *again = rb_report_json_start(""), *units = rb_report_json_units(RB_UNITS_MM);
+    json_t *notes = rb_report_json_notes(&resolved->rc, &c->again);
+    const json_t *printed = json_object_get(root, "notes");
+    const rb_status s = again && units && notes ? RB_OK : RB_ENOMEM;
+    size_t same = 0;
+
+    if (s == RB_OK && !json_equal(json_object_get(again, "conventions"),
+                                  json_object_get(root, "conventions")))
+        rb_certificate_violated(c, "conventions are not those of rollbem");
+    if (s == RB_OK && !json_equal(units, json_object_get(root, "units")))
+        rb_certificate_violated(c, "units are not those of mm, N, MPa");
+    for (size_t k = 0; k < json_array_size(notes) && s == RB_OK; k++) {
+        const char *text = json_string_value(json_array_get(printed, k));
+        same += text && is_same_note(text, json_string_value(json_array_get(notes, k)));
+    }
+    if (s == RB_OK && printed &&
+        (same != json_array_size(notes) || same != json_array_size(printed)))
+        rb_certificate_violated(c, "notes are not those of this result");
+    json_decref(again);
+    json_decref(units);
+    json_decref(notes);
+    return s;
+}
+
 rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
                             rb_case *words, rb_report_certificate *found, rb_message *why)
 {
@@ -203,6 +252,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
         s = rb_certificate_rebuild(&c, rb_case_resolved(words), n, why);
     if (s == RB_OK)
         s = rb_certificate_assess(&c, rb_certificate_member(c.summary, "residual"), why);
+    if (s == RB_OK)
+        s = compare_texts(&c, root, rb_case_resolved(words));
     if (s == RB_OK && history)
         s = rb_certificate_compare_history(&c, history, &again);
     if (s == RB_OK && json_object_get(root, "maxima"))

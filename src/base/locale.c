@@ -1,0 +1,34 @@
+/* Numbers as text in the C locale, whatever the host program has set for its own. */
+#include "rollbem/base.h"
+
+#include <locale.h>
+#include <stdlib.h>
+
+/* Made once; two threads that come first both make one, which costs a few bytes. */
+static locale_t c_locale(void)
+{
+    static _Atomic(locale_t) made;
+    if (!made)
+        made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    return made;
+}
+
+void *rb_locale_begin(void)
+{
+    const locale_t own = c_locale();
+    return own ? (void *)uselocale(own) : NULL;
+}
+
+void rb_locale_end(void *before)
+{
+    if (before)
+        uselocale((locale_t)before);
+}
+
+double rb_read_number(const char *text, char **end)
+{
+    void *before = rb_locale_begin();
+    const double x = strtod(text, end);
+    rb_locale_end(before);
+    return x;
+}
