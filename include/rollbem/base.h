@@ -105,8 +105,13 @@ char *rb_number_text(double x, char text[RB_NUMBER_TEXT]);
  * whatever the host program has set; before: what rb_locale_begin returned. */
 void *rb_locale_begin(void);
 void rb_locale_end(void *before);
-/* strtod in the C locale. */
+/* strtod and snprintf in the C locale. */
 double rb_read_number(const char *text, char **end);
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+int
+rb_format(char *text, size_t size, const char *format, ...);
 
 /* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
  * product overflows.  Released with free(). */

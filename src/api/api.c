@@ -338,7 +338,7 @@ static const char *write_default(const rb_option *o, char *text, int size)
 
 static const char *written_number(double x, char *text, int size)
 {
-    snprintf(text, (size_t)size, "%.17g", x);
+    rb_format(text, (size_t)size, "%.17g", x);
     return text;
 }
 

@@ -14,9 +14,11 @@ rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
 {
     if (why) {
         va_list args;
+        void *before = rb_locale_begin();
         va_start(args, format);
         vsnprintf(why->text, sizeof why->text, format, args);
         va_end(args);
+        rb_locale_end(before);
     }
     return s;
 }
@@ -25,9 +27,11 @@ void rb_append(char *text, size_t size, const char *format, ...)
 {
     const size_t used = strlen(text);
     va_list args;
+    void *before = rb_locale_begin();
     va_start(args, format);
     vsnprintf(text + used, size - used, format, args);
     va_end(args);
+    rb_locale_end(before);
 }
 
 const char *rb_version(void)

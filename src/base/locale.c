@@ -2,6 +2,8 @@
 #include "rollbem/base.h"
 
 #include <locale.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Made once; two threads that come first both make one, which costs a few bytes. */
@@ -31,4 +33,15 @@ double rb_read_number(const char *text, char **end)
     const double x = strtod(text, end);
     rb_locale_end(before);
     return x;
+}
+
+int rb_format(char *text, size_t size, const char *format, ...)
+{
+    va_list args;
+    void *before = rb_locale_begin();
+    va_start(args, format);
+    const int n = vsnprintf(text, size, format, args);
+    va_end(args);
+    rb_locale_end(before);
+    return n;
 }

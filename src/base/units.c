@@ -138,9 +138,9 @@ static double move_point(double x, int power)
     char digits[40], moved[60];
     if (power == 0 || x == 0.0 || !isfinite(x))
         return x;
-    snprintf(digits, sizeof digits, "%.14e", x);
+    rb_format(digits, sizeof digits, "%.14e", x);
     if (rb_read_number(digits, NULL) != x)
-        snprintf(digits, sizeof digits, "%.16e", x);
+        rb_format(digits, sizeof digits, "%.16e", x);
     char *exponent = strchr(digits, 'e');
     *exponent = '\0';
     snprintf(moved, sizeof moved, "%se%d", digits, atoi(exponent + 1) + power);

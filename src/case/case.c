@@ -194,7 +194,7 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
         return RB_EINVAL;
     if (o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER)
         return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
-    snprintf(text, sizeof text, "%.17g", value);
+    rb_format(text, sizeof text, "%.17g", value);
     return set(c, o, text, RB_GIVEN_NUMBER, why);
 }
 

@@ -38,12 +38,12 @@ static int in_range(double v, const rb_range *r)
 static void range_text(const rb_range *r, char *text, size_t size)
 {
     if (isfinite(r->from) && isfinite(r->to))
-        snprintf(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
+        rb_format(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
                  r->to_open ? ')' : ']');
     else if (isfinite(r->from))
-        snprintf(text, size, " %s %g", r->from_open ? ">" : ">=", r->from);
+        rb_format(text, size, " %s %g", r->from_open ? ">" : ">=", r->from);
     else if (isfinite(r->to))
-        snprintf(text, size, " %s %g", r->to_open ? "<" : "<=", r->to);
+        rb_format(text, size, " %s %g", r->to_open ? "<" : "<=", r->to);
     else
         text[0] = '\0';
 }
@@ -230,7 +230,7 @@ const char *rb_option_text(const rb_option *o, const void *target, char room[64]
             return o->word;
         if (isnan(v))
             return "";
-        snprintf(room, 64, "%.15g", v);
+        rb_format(room, 64, "%.15g", v);
         return room;
     }
     case RB_OPTION_INTEGER:

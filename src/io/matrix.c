@@ -48,6 +48,7 @@ rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char 
     const rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
         return s;
+    void *before = rb_locale_begin();
     fprintf(w.file, "%s\n", BANNER);
     if (comment)
         fprintf(w.file, "%% %s\n", comment);
@@ -55,6 +56,7 @@ rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char 
     for (int j = 0; j < m.cols; j++)
         for (int i = 0; i < m.rows; i++)
             fprintf(w.file, "%.17g\n", m.x[(size_t)i + (size_t)j * (size_t)m.ld]);
+    rb_locale_end(before);
     return rb_io_writer_commit(&w, why);
 }
 

@@ -54,9 +54,17 @@ void rb_report_cell_number(rb_report_cells *c, double x)
 {
     char text[RB_NUMBER_TEXT];
     begin_cell(c);
+<<<<<<< HEAD
     if (isfinite(x))
         fputs(rb_number_text(x, text), c->out);
     else if (!is_csv(c))
+=======
+    char text[40];
+    if (isfinite(x)) {
+        rb_format(text, sizeof text, "%.17g", x);
+        fputs(text, c->out);
+    } else if (!is_csv(c))
+>>>>>>> ebfee22 (locale: numbers have points in any host program)
         fputs("NaN", c->out); /* as R spells it; the others take any case */
 }
 
@@ -91,11 +99,13 @@ void rb_report_comment(const rb_report_cells *c, const char *format, ...)
     va_list args;
     if (c->style.bare || is_csv(c))
         return;
+    void *before = rb_locale_begin();
     va_start(args, format);
     fputs("# ", c->out);
     vfprintf(c->out, format, args);
     fputc('\n', c->out);
     va_end(args);
+    rb_locale_end(before);
 }
 
 void rb_report_comment_origin(const rb_report_cells *c, const char *command)

@@ -79,13 +79,13 @@ static void option_text(const json_t *value, char *text, size_t size)
     else if (json_is_integer(value))
         snprintf(text, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
     else if (json_is_real(value))
-        snprintf(text, size, "%.17g", json_real_value(value));
+        rb_format(text, size, "%.17g", json_real_value(value));
     else
         text[0] = '\0';
     for (size_t k = 0; json_is_array(value) && k < json_array_size(value); k++) {
         const size_t n = strlen(text);
-        snprintf(text + n, size - n, "%s%.17g", k ? "," : "",
-                 rb_certificate_number(json_array_get(value, k)));
+        rb_format(text + n, size - n, "%s%.17g", k ? "," : "",
+                  rb_certificate_number(json_array_get(value, k)));
     }
 }
 

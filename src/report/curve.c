@@ -157,6 +157,7 @@ static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
 
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
+    void *before = rb_locale_begin();
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
         const int speeds = is_over_speed(c);
@@ -191,6 +192,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         else if (sliding == 0 && curves->mu[k] > 0.0)
             fprintf(out, "  full sliding at every point\n");
     }
+    rb_locale_end(before);
 }
 
 /* ---- Picture ----------------------------------------------------------------------- */

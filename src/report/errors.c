@@ -20,6 +20,7 @@ json_t *rb_report_json_errors(const rb_rolling_errors *e)
 
 void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_errors *e)
 {
+    void *before = rb_locale_begin();
     fputs("  error bars (estimated from coarser meshes)\n", out);
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
@@ -29,4 +30,5 @@ void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_
             fprintf(out, "    %-16s %.8g +- %.1g %s\n", r->name, value + 0.0, error,
                     r->unit ? rb_unit_name(s->units, r->unit) : ""); /* + 0.0: no -0 */
     }
+    rb_locale_end(before);
 }

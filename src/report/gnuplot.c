@@ -304,6 +304,7 @@ rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape sha
     FILE *file = canvas.script ? out : temporary();
     if (!file)
         return no_temporary(why);
+    void *before = rb_locale_begin();
     fprintf(file,
             "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
             "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\nset tics out "
@@ -311,6 +312,7 @@ rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape sha
             looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
             looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
     script(file, canvas, view);
+    rb_locale_end(before);
     if (canvas.script)
         return rb_report_flush(out);
     const rb_status s = rb_report_gnuplot(file, canvas.kind, SECONDS, out, why);

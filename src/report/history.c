@@ -136,6 +136,7 @@ static void print_unresolved(FILE *out, const rb_rolling_case *rc,
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
                                const rb_rolling_history *h)
 {
+    void *before = rb_locale_begin();
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
     if (h->step > 0.0)
@@ -150,4 +151,5 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
         print_unresolved(out, rc, h);
     if (h->errors)
         print_errors(out, h);
+    rb_locale_end(before);
 }

@@ -67,6 +67,7 @@ static const char *shakedown_text(const rb_report_stress *s, char *line, size_t 
 
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
+    void *before = rb_locale_begin();
     char line[400];
     fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
             rb_unit_name(s->s->units, "MPa"), s->s->half_width,
@@ -75,6 +76,7 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
         fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
+    rb_locale_end(before);
 }
 
 /* ---- Table ------------------------------------------------------------------------- */

@@ -174,6 +174,7 @@ static void print_machine(FILE *out, const rb_rolling_solution *s)
 
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
+    void *before = rb_locale_begin();
     const int newton = s->solver == RB_SOLVER_NEWTON;
     fprintf(out, "%s: %s by ", rb_case_word("formulation", (int)s->formulation),
             rb_status_text(s->status));
@@ -191,4 +192,5 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     print_heat(out, s);
     print_zones(out, s, width);
     print_machine(out, s);
+    rb_locale_end(before);
 }

@@ -233,6 +233,7 @@ static rb_status write_unstructured(FILE *out, selection *v)
 
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
 {
+    void *before = rb_locale_begin();
     selection v;
     rb_status status = select_points(s, &v);
     if (status == RB_OK && kind == RB_REPORT_VTI)
@@ -240,5 +241,6 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
     else if (status == RB_OK)
         status = write_unstructured(out, &v);
     selection_free(&v);
+    rb_locale_end(before);
     return status == RB_OK ? rb_report_flush(out) : status;
 }

@@ -53,6 +53,7 @@ json_t *rb_report_json_wear(const rb_report_wear *w)
 
 void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
 {
+    void *before = rb_locale_begin();
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
     const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
@@ -70,6 +71,7 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
             h->contact_to[0], mm);
     fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n",
             h->max_pressure[last], MPa, h->max_pressure[0], MPa, h->residual[last]);
+    rb_locale_end(before);
 }
 
 /* ---- What a picture keeps ---------------------------------------------------------- */

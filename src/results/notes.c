@@ -23,9 +23,11 @@ add(rb_rolling_note_list *list, const char *format, ...)
     va_list args;
     if (list->n == RB_ROLLING_NOTES)
         return;
+    void *before = rb_locale_begin();
     va_start(args, format);
     vsnprintf(list->text[list->n++], sizeof list->text[0], format, args);
     va_end(args);
+    rb_locale_end(before);
 }
 
 const char rb_rolling_below_zero[] =
