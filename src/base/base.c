@@ -206,8 +206,8 @@ char *rb_number_text(double x, char text[RB_NUMBER_TEXT])
     /* a decimal of 15 digits or fewer survives the way to binary and back, and %g drops
      * zeros, so that the first of these three that reads back is the shortest */
     for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, RB_NUMBER_TEXT, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
+        rb_format(text, RB_NUMBER_TEXT, "%.*g", digits, x);
+        if (rb_read_number(text, NULL) == x)
             break;
     }
     return text;

@@ -54,17 +54,9 @@ void rb_report_cell_number(rb_report_cells *c, double x)
 {
     char text[RB_NUMBER_TEXT];
     begin_cell(c);
-<<<<<<< HEAD
     if (isfinite(x))
         fputs(rb_number_text(x, text), c->out);
     else if (!is_csv(c))
-=======
-    char text[40];
-    if (isfinite(x)) {
-        rb_format(text, sizeof text, "%.17g", x);
-        fputs(text, c->out);
-    } else if (!is_csv(c))
->>>>>>> ebfee22 (locale: numbers have points in any host program)
         fputs("NaN", c->out); /* as R spells it; the others take any case */
 }
 

@@ -62,7 +62,7 @@ static const char *entry(const grid *g, int i, int j)
 static int read_number(const char *text, double *x)
 {
     char *end;
-    *x = strtod(text, &end);
+    *x = rb_read_number(text, &end);
     return *text && !*end;
 }
 
