@@ -581,14 +581,16 @@ static void friction_matrix(const rb_io_friction *p, double *M, double *q)
     }
 }
 
+/* Two of them have contacts without neighbours whose q is about -1e-16.  The first path,
+ * with no more pivots than Siconos takes, leaves z = 0 there, which is no solution in the
+ * scale of those rows; a second one, with q balanced as well, solves them. */
 static void plane_friction_problems_are_solved(void **state)
 {
     (void)state;
     const listed files[] = {
-        {"FC2D_SliderCrankLagrangian00000", 2, 6},
-        {"FrictionContactProblem00394", 6, 11},
-        {"FrictionContactProblem00031", 11, 16},
-        {"FrictionContactProblem00071", 89, 134},
+        {"FC2D_SliderCrankLagrangian00000", 2, 6}, {"FrictionContactProblem00394", 6, 11},
+        {"FrictionContactProblem00031", 11, 21},  /* 16: see below */
+        {"FrictionContactProblem00071", 89, 277}, /* 134 */
         {"FrictionContactProblem00727", 367, 678},
     };
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {

@@ -110,8 +110,9 @@ static void what_it_cannot_solve_is_said(void **state)
     rb_sparse_free(&a);
 }
 
-/* z_2 = -0.1 is rounding beside z_1 = 1e16, but not in w_1 = -1 + 1e-16 z_1 + z_2. */
-static void a_residual_too_large_is_no_solution(void **state)
+/* z_2 = -0.1 would be rounding beside z_1 = 1e16, but not in w_1 = -1 + 1e-16 z_1 + z_2:
+ * in the scale of the columns both are near 1. */
+static void columns_of_any_scale_are_solved(void **state)
 {
     (void)state;
     const double M[] = {1e-16, 0.0, 1.0, 1.0}, q[] = {-1.0, 0.1}, both[] = {1.0, 1.0};
@@ -121,8 +122,37 @@ static void a_residual_too_large_is_no_solution(void **state)
     double z[2];
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
     opt.start = both;
-    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_INACCURATE);
-    CHECK_REL(info.res, 0.1, 1e-9, "residual");
+    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_REL(z[0], 1e16, 1e-15, "z(1)");
+    CHECK_ABS(z[1], 0.0, 0.0, "z(2)");
+    rb_sparse_free(&a);
+}
+
+/* z_2 = -0.1 is rounding beside z_1 = 1e16 and becomes zero, which leaves w_3 = z_2 + z_3
+ * - 1 = 0.1 where z_3 = 1.1: that is seen, and solved in a scale that balances q too. */
+static void a_large_row_hides_no_small_one(void **state)
+{
+    (void)state;
+    const double M[] = {1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0};
+    const double q[] = {-1e16, 0.1, -1.0}, all[] = {1.0, 1.0, 1.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    rb_sparse a;
+    rb_lcp_info info;
+    double z[3];
+    CHECK_STATUS(rb_sparse_from_dense(3, 3, M, 3, &a), RB_OK);
+    opt.start = all;
+    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_ABS(z[1], 0.0, 0.0, "z(2)");
+    CHECK_REL(z[2], 1.0, 1e-15, "z(3)");
+    CHECK_MAX(info.scaled, 1e-15, "residual");
+    const double wrong[] = {1e16, 0.0, 1.1};
+    double scaled;
+    int row;
+    CHECK_STATUS(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &a, .q = q}, wrong,
+                                        &scaled, &row),
+                 RB_OK);
+    CHECK_REL(scaled, 0.1 / 2.1, 1e-9, "residual of row 3 as a part of its terms");
+    assert_int_equal(row, 2);
     rb_sparse_free(&a);
 }
 
@@ -159,7 +189,8 @@ int main(void)
         cmocka_unit_test(p_matrices_are_solved_as_by_lemke),
         cmocka_unit_test(cycling_newton_steps_end_by_single_ones),
         cmocka_unit_test(what_it_cannot_solve_is_said),
-        cmocka_unit_test(a_residual_too_large_is_no_solution),
+        cmocka_unit_test(columns_of_any_scale_are_solved),
+        cmocka_unit_test(a_large_row_hides_no_small_one),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -80,6 +80,8 @@ typedef struct {
 typedef struct {
     int iters;        /* pivots; newton: linear systems */
     double res;       /* max |min(z, Mz + q)|, recomputed from z alone */
+    double scaled;    /* the same with each row in its own scale; decides */
+    int row;          /* the row of `scaled`; -1: none */
     int ray_variable; /* RB_RAY: the entering variable that no row blocks; else -1 */
     rb_message msg;
 } rb_lcp_info;
@@ -87,9 +89,11 @@ typedef struct {
 rb_lcp_options rb_lcp_defaults(void);
 
 /* Lemke's method.  z: n, written (the last basic point when not solved).  opt NULL:
- * defaults.
+ * defaults.  Where the largest entries of rows or columns differ by more than 1024, this
+ * and the other solvers work on R M C, R q with powers of two R, C (Ruiz); covers of ones
+ * are ones there.  The trace is told of the caller's units.
  * RB_OK, RB_RAY, RB_MAXITER, RB_INTERRUPTED (time limit); RB_INACCURATE: rounding has
- * spoilt the solution, residual above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or
+ * spoilt the solution, info->scaled above 1e-10; RB_EINVAL: n < 1, ldm < n, NaN or
  * infinity, no cover; RB_ENOMEM.
  */
 rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
@@ -147,6 +151,12 @@ double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
 /* The same for sparse M and boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|;
  * w: n. */
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w);
+/* The residual with each row in its own scale: max_i |min(z_i, w_i)|, of R M C, as a part
+ * of (|M| |z| + |q|)_i there; a row that may hold nothing but the rounding of larger
+ * rows which share its unknowns is judged by 1e-4 of theirs.  Does not depend on the
+ * units of rows and columns.  row (NULL: not wanted): where, or -1.  RB_ENOMEM. */
+rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z,
+                                 double *scaled, int *row);
 /* The residual that rounding of the data allows: 1e-14 max_i (|M| |z| + |q|)_i; room: n.
  */
 double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z,

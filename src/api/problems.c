@@ -45,6 +45,7 @@ static rb_status solve_lcp(rb_api *a, int newton, const lcp *p,
                                : rb_lcp_lemke(&dense, options, p->z, &info);
     if (s >= 0)
         a->residual = rb_lcp_residual_mixed(&sparse, p->z, p->w);
+    a->scaled_residual = info.scaled;
     rb_api_call_ends();
     a->iterations = info.iters;
     a->why = info.msg;

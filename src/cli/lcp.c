@@ -50,7 +50,7 @@ static const rb_option options[] = {
         "auto: newton on sparse matrices of order 500 and more, lemke otherwise "
         "and where newton fails"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "residual that counts as solved, as a part of max |q|"),
+                   "scaled residual that counts as solved: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit", .unset = "lemke 50 n + 1000, newton 10 n + 100"),
     RB_TEXT_LINE("start", PLACE(start), "FILE",
@@ -93,7 +93,12 @@ static const char about[] =
 static const char notes[] =
     "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
     "from z,\n"
-    "seconds; with --trace, --solution or --all these stand in # lines. newton counts\n"
+    "seconds, scaled residual. The last one decides: each row's residual as a part of "
+    "its "
+    "own terms\n"
+    "|M| |z| + |q|, so that no units of rows and columns change it. With --trace, "
+    "--solution or --all\n"
+    "these stand in # lines. newton counts\n"
     "linear systems, --all bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) "
     "and the\n"
     "artificial z0. Of a game z holds the probabilities of the row and then of the "
@@ -117,9 +122,9 @@ typedef struct {
     const char *file, *status, *solver;
     int n; /* 0: not read */
     rb_lcp_info info;
-    double size, floor, seconds; /* size: the largest constant, for --tol */
-    rb_sparse M;                 /* owned, as the vectors */
-    rb_lcp_mixed_problem boxed;  /* borrows M, lower, upper, and q of the file */
+    double floor, seconds;
+    rb_sparse M;                /* owned, as the vectors */
+    rb_lcp_mixed_problem boxed; /* borrows M, lower, upper, and q of the file */
     double *lower, *upper, *cover, *start; /* n each, or NULL */
     double *z, *w;                         /* n x solutions */
     int solutions;                         /* 1 but for --all */
@@ -200,6 +205,7 @@ static void add_problem(lcp_run *run, const lcp_result *r)
     rb_report_json_set(&p, "iterations",
                        known ? json_integer(r->info.iters) : json_null());
     rb_report_json_set(&p, "residual", rb_report_json_number(r->info.res));
+    rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
     rb_report_json_set(&p, "floor", rb_report_json_number(r->floor));
     rb_report_json_set(&p, "seconds", rb_report_json_number(r->seconds));
     if (run->o->game)
@@ -238,7 +244,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
     if (run->o->trace || run->o->solution || run->o->all) {
         char residual[40] = ""; /* without a solution there is none */
         if (isfinite(r->info.res))
-            snprintf(residual, sizeof residual, ", residual %.3g", r->info.res);
+            snprintf(residual, sizeof residual, ", scaled residual %.3g", r->info.scaled);
         rb_report_comment(c, "%s: %s, n = %d, %d %s%s, %.3g s", r->file, r->status, r->n,
                           r->info.iters, run->o->all ? "bases" : "pivots", residual,
                           r->seconds);
@@ -249,6 +255,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         rb_report_cell_whole(c, r->info.iters);
         rb_report_cell_number(c, r->info.res);
         rb_report_cell_number(c, r->seconds);
+        rb_report_cell_number(c, r->info.scaled);
         rb_report_cells_end_row(c);
     }
     if ((run->o->solution || run->o->all) && r->z)
@@ -257,17 +264,26 @@ static void print_problem(lcp_run *run, const lcp_result *r)
 
 /* ---- A problem --------------------------------------------------------------------- */
 
+/* A scaled residual that rounding leaves. */
+static const double ROUNDING = 1e-14;
+
 /* "solved" is what the recomputed residual says, not the method. */
 static cli_exit assess(const lcp_options *o, lcp_result *r, rb_status s)
 {
     r->status = rb_status_text(s);
     if (s != RB_OK)
         return CLI_UNSOLVED;
-    if (r->info.res <= o->tol * r->size)
+    if (r->info.scaled <= o->tol)
         return CLI_OK;
-    r->status =
-        r->info.res <= r->floor ? "solved-to-rounding" : rb_status_text(RB_INACCURATE);
-    return r->info.res <= r->floor ? CLI_OK : CLI_UNSOLVED;
+    if (r->info.scaled <= ROUNDING) {
+        r->status = "solved-to-rounding";
+        return CLI_OK;
+    }
+    r->status = rb_status_text(RB_INACCURATE);
+    rb_fail(&r->info.msg, RB_INACCURATE,
+            "the residual of row %d is %.2g of its terms, above --tol %g",
+            r->info.row + 1, r->info.scaled, o->tol);
+    return CLI_UNSOLVED;
 }
 
 static cli_exit failed(lcp_result *r, rb_status s, const rb_message *why)
@@ -336,7 +352,7 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
     else if (code != CLI_OK)
-        cli_fail(code, "%s: %s", r->file, s == RB_OK ? r->status : r->info.msg.text);
+        cli_fail(code, "%s: %s", r->file, r->info.msg.text);
     return code;
 }
 
@@ -349,6 +365,8 @@ static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
         return invalid(r, s, &r->info.msg);
     r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
     r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
+    if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
+        return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
     return say_end(run->o, r, s);
 }
 
@@ -367,7 +385,7 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
     if (all->count)
         return say_end(o, r, RB_OK);
     r->status = "no solution";
-    r->info.res = r->floor = NAN;
+    r->info.res = r->info.scaled = r->floor = NAN;
     return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file,
                     all->bases);
 }
@@ -399,12 +417,19 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     if (s != RB_OK)
         return invalid(r, s, &r->info.msg);
     r->floor = all.count ? rb_lcp_rounding_floor(&r->boxed, r->z, r->w) : NAN;
-    r->info.res = 0.0;
+    r->info.res = r->info.scaled = 0.0;
     for (int k = 0; k < all.count; k++) {
         const double *z = r->z + (size_t)k * (size_t)r->n;
-        double *w = r->w + (size_t)k * (size_t)r->n;
+        double *w = r->w + (size_t)k * (size_t)r->n, scaled;
         const double res = rb_lcp_residual_mixed(&r->boxed, z, w);
+        int row;
+        if (rb_lcp_scaled_residual(&r->boxed, z, &scaled, &row) != RB_OK)
+            return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
         r->info.res = fmax(r->info.res, res);
+        if (!(scaled <= r->info.scaled)) {
+            r->info.scaled = scaled;
+            r->info.row = row;
+        }
     }
     return say_all(run->o, r, &all);
 }
@@ -432,7 +457,6 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, &(rb_message){""});
     r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
-    r->size = rb_norm_inf((size_t)p->n, p->q);
     return run->o->all ? run_all(run, &p->M, r) : run_solver(run, &p->M, r);
 }
 
@@ -461,8 +485,9 @@ static void measure_game(const rb_lcp_game *g, lcp_result *r)
                                                   r->w + (size_t)k * n, r->payoff);
         r->info.res = fmax(r->info.res, res);
     }
-    r->size = fmax(rb_norm_inf(entries, g->A), rb_norm_inf(entries, g->B));
-    r->floor = 1e-14 * r->size;
+    const double size = fmax(rb_norm_inf(entries, g->A), rb_norm_inf(entries, g->B));
+    r->floor = 1e-14 * size;
+    r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
 }
 
 static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
@@ -511,7 +536,7 @@ static cli_exit solve_file(void *context, const char *path)
     lcp_run *run = context;
     lcp_result r = {.file = path,
                     .solver = run->o->game ? "lemke-howson" : "lemke",
-                    .info = {.res = NAN},
+                    .info = {.res = NAN, .scaled = NAN, .row = -1},
                     .floor = NAN,
                     .seconds = NAN,
                     .solutions = 1};
@@ -540,7 +565,7 @@ static const char *columns_of(const lcp_options *o)
     return o->trace      ? "file pivot entering leaving row ratio z0"
            : o->all      ? "file solution i z w"
            : o->solution ? "file i z w"
-                         : "file status n pivots residual seconds";
+                         : "file status n pivots residual seconds scaled";
 }
 
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "

@@ -271,7 +271,7 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     rb_lcp_info unread;
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     lemke_howson l = {.opt = &o, .info = info ? info : &unread};
-    *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
+    *l.info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
     rb_status s = check_input(g, label, &l.info->msg);
     if (s != RB_OK)
         return s;
@@ -285,9 +285,11 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
         strategy(&l.of_y, g->m, g->n, z + g->m);
         l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
     }
-    if (s == RB_OK)
-        s = rb_lcp_assess(l.info,
-                          fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide));
+    if (s == RB_OK) {
+        const double size = fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide);
+        l.info->scaled = size > 0.0 ? l.info->res / size : l.info->res;
+        s = rb_lcp_assess(l.info);
+    }
     release(&l);
     free(regret);
     return s;

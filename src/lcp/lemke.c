@@ -1,14 +1,16 @@
 /* Lemke's method with a lexicographic rule (Cottle, Pang, Stone, algorithm 4.4.5): from
  * the first pivot to the ratio test, the path of complementary pivots and its end. */
 #include "lcp/lemke.h"
+#include "lcp/scale.h"
 
 #include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A solution whose residual is above this part of max |q| is spoilt by rounding. */
-static const double SPOILT = 1e-6;
+/* A solution with a row whose residual is above this part of its terms is spoilt by
+ * rounding. */
+static const double SPOILT = 1e-10;
 
 rb_lcp_options rb_lcp_defaults(void)
 {
@@ -243,14 +245,14 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int 
     return RB_OK;
 }
 
-rb_status rb_lcp_assess(rb_lcp_info *info, double size)
+rb_status rb_lcp_assess(rb_lcp_info *info)
 {
-    return info->res <= SPOILT * size
+    return info->scaled <= SPOILT
                ? RB_OK
-               : rb_fail(
-                     &info->msg, RB_INACCURATE,
-                     "lcp: rounding has spoilt the solution: residual %g after %d steps",
-                     info->res, info->iters);
+               : rb_fail(&info->msg, RB_INACCURATE,
+                         "lcp: rounding has spoilt the solution: the residual of row %d "
+                         "is %.2g of its terms after %d steps",
+                         info->row + 1, info->scaled, info->iters);
 }
 
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
@@ -285,12 +287,12 @@ static rb_status follow_path(lemke *l)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static double largest_entry(const rb_lcp_problem *p)
+static rb_status fail_memory(lemke *l)
 {
-    double most = 0.0;
-    for (int j = 0; j < p->n; j++)
-        most = fmax(most, largest(p->n, p->M + (size_t)j * (size_t)p->ldm));
-    return most;
+    const double n = l->n;
+    return rb_fail(&l->info->msg, RB_ENOMEM,
+                   "lcp: out of memory for a tableau of order %d (%.3g MB)", l->n,
+                   8e-6 * n * (n + 2.0));
 }
 
 static rb_status allocate(lemke *l)
@@ -302,9 +304,7 @@ static rb_status allocate(lemke *l)
     l->tied = rb_alloc_int(n);
     l->image = traced ? rb_alloc(n, n + 2) : NULL;
     if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
-        return rb_fail(&l->info->msg, RB_ENOMEM,
-                       "lcp: out of memory for a tableau of order %d (%.3g MB)", l->n,
-                       8e-6 * (double)n * ((double)n + 2.0));
+        return fail_memory(l);
     l->other = l->a + n;
     l->scratch = l->other + n;
     l->r = l->scratch + n;
@@ -321,25 +321,57 @@ static void release(lemke *l)
     free(l->image);
 }
 
+/* One path, of the problem in its scale.  RB_INACCURATE: its end does not solve. */
+static rb_status solve(const rb_lcp_problem *p, const rb_lcp_options *opt, int always,
+                       double *z, rb_lcp_info *info)
+{
+    const lcp_matrix M = {.n = p->n, .dense = p->M, .ld = p->ldm};
+    lemke l = {.n = p->n, .began = rb_seconds(), .info = info, .opt = *opt};
+    lcp_scale scale = {0};
+    lcp_scaled scaled = {0};
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    l.data = (lcp_data){*p, opt->cover};
+    rb_status s = rb_lcp_scale_create(&M, p->q, always, &scale);
+    l.largest = scale.largest;
+    if (s == RB_OK && scale.needed) {
+        s = rb_lcp_scaled_create(&M, &scale, p->q, NULL, NULL, opt, &scaled);
+        if (s == RB_OK) {
+            l.opt = scaled.opt;
+            l.data = (lcp_data){{p->n, scaled.dense, p->n, scaled.q}, l.opt.cover};
+            l.largest = 1.0;
+        }
+    }
+    s = s == RB_ENOMEM ? fail_memory(&l) : allocate(&l);
+    if (s == RB_OK) {
+        s = follow_path(&l);
+        rb_lcp_lemke_answer(&l, s == RB_OK, z);
+        if (scaled.q)
+            rb_lcp_scale_back(&scale, p->n, z);
+        if (rb_lcp_measure(&M, &scale, p->q, NULL, NULL, z, info) != RB_OK)
+            s = fail_memory(&l);
+    }
+    if (s == RB_OK)
+        s = rb_lcp_assess(info);
+    release(&l);
+    rb_lcp_scaled_free(&scaled);
+    rb_lcp_scale_free(&scale);
+    return s;
+}
+
 rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info)
 {
-    rb_lcp_info unread;
-    lemke l = {.n = p->n, .began = rb_seconds(), .info = info ? info : &unread};
-    *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    l.opt = opt ? *opt : rb_lcp_defaults();
-    l.data = (lcp_data){*p, l.opt.cover};
-    rb_status s = rb_lcp_check_dense(p, &l.opt, &l.info->msg);
-    if (s != RB_OK)
-        return s;
-    s = allocate(&l);
-    if (s == RB_OK) {
-        l.largest = largest_entry(p);
-        s = follow_path(&l);
-        rb_lcp_lemke_answer(&l, s == RB_OK, z);
-    }
+    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
+    rb_lcp_info unread = {0};
+    info = info ? info : &unread;
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    rb_status s = rb_lcp_check_dense(p, &o, &info->msg);
     if (s == RB_OK)
-        s = rb_lcp_assess(l.info, rb_norm_inf((size_t)p->n, p->q));
-    release(&l);
+        s = solve(p, &o, 0, z, info);
+    if (s == RB_INACCURATE) {
+        const int first = info->iters;
+        s = solve(p, &o, 1, z, info);
+        info->iters += first;
+    }
     return s;
 }

@@ -54,8 +54,9 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
  * their messages; start: on rb_seconds(). */
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
                               double start);
-/* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
-rb_status rb_lcp_assess(rb_lcp_info *info, double size);
+/* RB_INACCURATE where info->scaled is not below 1e-10, with a message that names the row.
+ */
+rb_status rb_lcp_assess(rb_lcp_info *info);
 
 /* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
 

@@ -4,6 +4,7 @@
  * and Software 5, 1995, for boxes and for starts from a given point). */
 #include "lcp/basis.h"
 #include "lcp/lemke.h"
+#include "lcp/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -571,10 +572,6 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
     p->n = f->n;
     p->of = f->of;
     p->M = M;
-    p->q = f->q;
-    p->lower = f->lower;
-    p->upper = f->upper;
-    p->opt.cover = f->cover;
     p->value = rb_alloc(n, 5);
     p->at_upper = rb_alloc_int(4 * n + 1);
     const rb_status s = rb_lcp_basis_create(M, &p->b);
@@ -589,13 +586,14 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
     return RB_OK;
 }
 
-/* z from the basic point, the halves of free ones together. */
-static void answer(const mixed *p, const split *f, int n, double *z)
+/* z from the basic point, the halves of free ones together.  col: the scale of the
+ * columns, NULL: ones. */
+static void answer(const mixed *p, const split *f, const double *col, int n, double *z)
 {
     for (int i = 0; i < p->n; i++) {
         const int slot = p->b.slot[p->n + i];
         double x = slot >= 0 ? p->value[slot] : nonbasic_z(p, i);
-        x = fmin(fmax(x, p->lower[i]), p->upper[i]);
+        x = fmin(fmax(x, p->lower[i]), p->upper[i]) * (col ? col[i] : 1.0);
         if (i < n)
             z[i] = x;
         else
@@ -629,60 +627,71 @@ double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, dou
     return 1e-14 * rb_norm_inf((size_t)M->rows, room);
 }
 
-/* max |M z + q| where every z is at its lower bound, or at its upper ones, or 0 where it
- * has none: the q of the problem moved there, which rounding is judged by as that of an
- * LCP is.  w of the answer is no such measure: a large row of M would hide a wrong small
- * one. z, w: scratch. */
-static double size_of_problem(const rb_lcp_mixed_problem *p, double *z, double *w)
-{
-    const size_t n = (size_t)p->M->rows;
-    double size = rb_norm_inf(n, p->q);
-    for (int at_upper = 0; at_upper < 2 && (p->lower || p->upper); at_upper++) {
-        for (int i = 0; i < p->M->rows; i++) {
-            const double low = rb_lcp_lower(p->lower, i);
-            const double high = rb_lcp_upper(p->upper, i);
-            const double first = at_upper ? high : low, second = at_upper ? low : high;
-            z[i] = isfinite(first) ? first : isfinite(second) ? second : 0.0;
-        }
-        memcpy(w, p->q, n * sizeof *w);
-        rb_sparse_apply(1.0, p->M, z, 1.0, w);
-        size = fmax(size, rb_norm_inf(n, w));
-    }
-    return size;
-}
-
-rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *given, const rb_lcp_options *opt,
-                       double *z, rb_lcp_info *info)
+/* On the problem in its scale.  RB_INACCURATE: the end of the path does not solve. */
+static rb_status solve(const rb_lcp_mixed_problem *given, const rb_lcp_options *opt,
+                       int always, double *z, rb_lcp_info *info)
 {
     const int n = given->M->rows;
-    rb_lcp_info unread;
-    mixed p = {.given = n,
-               .began = rb_seconds(),
-               .info = info ? info : &unread,
-               .opt = opt ? *opt : rb_lcp_defaults()};
+    mixed p = {.given = n, .began = rb_seconds(), .info = info, .opt = *opt};
     split f = {0};
-    *p.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    rb_status s = check_input(given, &p.opt, &p.info->msg);
-    if (s != RB_OK)
-        return s;
-    s = split_create(given, p.opt.start, p.opt.cover, &f);
-    s = s == RB_OK ? create(&f, f.n > n ? &f.M : given->M, &p)
-                   : rb_fail(&p.info->msg, s, "lcp: out of memory for order %d", n);
+    lcp_scale scale = {0};
+    lcp_scaled scaled = {0};
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    rb_status s = split_create(given, p.opt.start, p.opt.cover, &f);
+    const rb_sparse *M = f.n > n ? &f.M : given->M;
+    const lcp_matrix all = {.n = f.n, .sparse = M}, whole = {.n = n, .sparse = given->M};
+    p.opt.start = f.start;
+    p.opt.cover = f.cover;
+    if (s == RB_OK)
+        s = rb_lcp_scale_create(&all, f.q, always, &scale);
+    if (s == RB_OK && scale.needed) {
+        s = rb_lcp_scaled_create(&all, &scale, f.q, f.lower, f.upper, &p.opt, &scaled);
+        if (s == RB_OK)
+            p.opt = scaled.opt;
+    }
+    p.q = scaled.q ? scaled.q : f.q;
+    p.lower = scaled.q ? scaled.lower : f.lower;
+    p.upper = scaled.q ? scaled.upper : f.upper;
+    s = s == RB_ENOMEM ? rb_fail(&info->msg, s, "lcp: out of memory for order %d", n)
+                       : create(&f, scaled.q ? &scaled.sparse : M, &p);
     if (s == RB_OK) {
-        if (f.start)
-            s = solve_from(&p, f.start);
-        if (!f.start || s == RB_RAY || s == RB_SINGULAR) {
+        const double *start = p.opt.start;
+        if (start)
+            s = solve_from(&p, start);
+        if (!start || s == RB_RAY || s == RB_SINGULAR) {
             p.opt.start = NULL;
             s = solve_from(&p, NULL);
         }
-        answer(&p, &f, n, z);
-        p.info->res = rb_lcp_residual_mixed(given, z, p.g);
+        answer(&p, &f, scaled.q ? scale.col : NULL, n, z);
+        if (rb_lcp_measure(&whole, &scale, given->q, given->lower, given->upper, z,
+                           info) != RB_OK)
+            s = rb_fail(&info->msg, RB_ENOMEM, "lcp: out of memory for order %d", n);
         if (s == RB_OK)
-            s = rb_lcp_assess(p.info, size_of_problem(given, p.y, p.g));
+            s = rb_lcp_assess(info);
     }
     rb_lcp_basis_free(&p.b);
     free(p.value);
     free(p.at_upper);
     split_free(&f);
+    rb_lcp_scaled_free(&scaled);
+    rb_lcp_scale_free(&scale);
+    return s;
+}
+
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info)
+{
+    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
+    rb_lcp_info unread = {0};
+    info = info ? info : &unread;
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    rb_status s = check_input(p, &o, &info->msg);
+    if (s == RB_OK)
+        s = solve(p, &o, 0, z, info);
+    if (s == RB_INACCURATE) {
+        const int first = info->iters;
+        s = solve(p, &o, 1, z, info);
+        info->iters += first;
+    }
     return s;
 }

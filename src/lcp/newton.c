@@ -2,6 +2,7 @@
  * 1994): Newton's method on min(z, M z + q) = 0, guarded so that it ends for every
  * P-matrix. */
 #include "lcp/lemke.h"
+#include "lcp/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,6 +125,14 @@ static rb_status iterate(newton *s, int max_iters)
                    "lcp: newton: no solution after max_iters = %d steps", max_iters);
 }
 
+static rb_status fail_memory(newton *s)
+{
+    const rb_sparse *M = s->p.M;
+    return rb_fail(&s->info->msg, RB_ENOMEM,
+                   "lcp: newton: out of memory for order %d with %d entries", M->rows,
+                   M->p[M->cols]);
+}
+
 static rb_status allocate(newton *s)
 {
     const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
@@ -133,40 +142,67 @@ static rb_status allocate(newton *s)
     s->A.i = rb_alloc_int(nz + 1);
     s->A.x = rb_alloc(nz + 1, 1);
     if (!s->w || !s->number || !s->A.p || !s->A.i || !s->A.x)
-        return rb_fail(&s->info->msg, RB_ENOMEM,
-                       "lcp: newton: out of memory for order %d with %zu entries",
-                       s->p.M->rows, nz);
+        return fail_memory(s);
     s->rhs = s->w + n;
     s->x = s->rhs + n;
     s->wrong = s->number + n;
     return RB_OK;
 }
 
-rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
-                        double *z, rb_lcp_info *info)
+/* From one start, on the problem in its scale.  RB_INACCURATE: the end does not solve. */
+static rb_status solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                       int always, double *z, rb_lcp_info *info)
 {
-    rb_lcp_info unread;
-    newton s = {.p = {.M = M, .q = q}, .z = z, .info = info ? info : &unread};
-    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     const int n = M->rows;
-    *s.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    rb_status status = rb_lcp_check_sparse(M, q, &o, &s.info->msg);
-    if (status != RB_OK)
-        return status;
-    status = allocate(&s);
+    const lcp_matrix all = {.n = n, .sparse = M};
+    newton s = {.p = {.M = M, .q = q}, .z = z, .info = info};
+    lcp_scale scale = {0};
+    lcp_scaled scaled = {0};
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    rb_status status = rb_lcp_scale_create(&all, q, always, &scale);
+    if (status == RB_OK && scale.needed)
+        status = rb_lcp_scaled_create(&all, &scale, q, NULL, NULL, opt, &scaled);
+    if (scaled.q)
+        s.p = (rb_lcp_mixed_problem){.M = &scaled.sparse, .q = scaled.q};
+    status = status == RB_ENOMEM ? fail_memory(&s) : allocate(&s);
     if (status == RB_OK) {
         for (int i = 0; i < n; i++)
-            s.number[i] = (o.start ? o.start[i] > 0.0 : q[i] < 0.0) ? 0 : -1;
+            s.number[i] = (opt->start ? opt->start[i] > 0.0 : q[i] < 0.0) ? 0 : -1;
         memset(z, 0, (size_t)n * sizeof *z);
-        status = iterate(&s, o.max_iters ? o.max_iters : 10 * n + 100);
+        status = iterate(&s, opt->max_iters ? opt->max_iters : 10 * n + 100);
         for (int i = 0; i < n; i++)
             z[i] = fmax(z[i], 0.0);
-        s.info->res = rb_lcp_residual_mixed(&s.p, z, s.w);
+        if (scaled.q)
+            rb_lcp_scale_back(&scale, n, z);
+        if (rb_lcp_measure(&all, &scale, q, NULL, NULL, z, info) != RB_OK)
+            status = fail_memory(&s);
     }
     if (status == RB_OK)
-        status = rb_lcp_assess(s.info, rb_norm_inf((size_t)n, q));
+        status = rb_lcp_assess(info);
     free(s.w);
     free(s.number);
     rb_sparse_free(&s.A);
+    rb_lcp_scaled_free(&scaled);
+    rb_lcp_scale_free(&scale);
     return status;
+}
+
+rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                        double *z, rb_lcp_info *info)
+{
+    rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
+    rb_lcp_info unread = {0};
+    info = info ? info : &unread;
+    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    o.cover = NULL;
+    o.trace = NULL;
+    rb_status s = rb_lcp_check_sparse(M, q, &o, &info->msg);
+    if (s == RB_OK)
+        s = solve(M, q, &o, 0, z, info);
+    if (s == RB_INACCURATE) {
+        const int first = info->iters;
+        s = solve(M, q, &o, 1, z, info);
+        info->iters += first;
+    }
+    return s;
 }
