@@ -201,7 +201,7 @@ void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *
         scalar_fischer_burmeister(d, rho, r, u, at);
         return;
     }
-    double uhat[3], G[9], x[3], y[3], w[3], L[9], P[9], inverse[9], size = 0.0;
+    double uhat[3], G[9], x[3], y[3], w[3], L[9] = {0}, P[9], inverse[9], size = 0.0;
     de_saxce(d, mu, u, uhat, G);
     for (int a = 0; a < d; a++) {
         x[a] = a ? r[a] : mu * r[a];

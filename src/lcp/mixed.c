@@ -433,7 +433,7 @@ static rb_status enter_t(mixed *p, int slot, int *leaving)
 static rb_status follow_path(mixed *p)
 {
     const int n = p->n;
-    int leaving = NONE, slot = first_slot(p, &p->first_t), count;
+    int leaving = NONE, slot = first_slot(p, &p->first_t), count = 0;
     double step = 0.0;
     rb_status s = slot == NONE ? RB_OK : enter_t(p, slot, &leaving);
     while (s == RB_OK && slot != NONE) {
