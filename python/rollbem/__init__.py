@@ -13,9 +13,9 @@ from . import _library, pictures  # _library first: see _kernels
 from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
                     Sweep, curve, friction, history, lcp, solve, stress, sweep)
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
-                       OutOfMemory, Unsolved)
+                       Note, OutOfMemory, Unsolved)
 
 __all__ = ["Answer", "Case", "Complementarity", "Curve", "Error", "Extremum", "Friction", "History",
-           "InvalidInput", "MissingFile", "OPTIONS", "OutOfMemory", "RESULTS", "Solution", "Stress",
+           "InvalidInput", "MissingFile", "Note", "OPTIONS", "OutOfMemory", "RESULTS", "Solution", "Stress",
            "Sweep", "Unsolved", "curve", "friction", "history", "lcp", "pictures", "solve", "stress",
            "sweep"]

@@ -4,34 +4,25 @@ from __future__ import annotations
 
 import inspect
 import itertools
+import keyword
 import os
+import sys
 import tempfile
+import warnings
 from typing import Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import pictures
-from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, doubles, handles)
+from . import _values, pictures
+from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Unsolved,
+                       doubles, handles)
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
 
 # ---- Cases --------------------------------------------------------------------------------
-
-
-def _text(value: Value) -> str:
-    """As a case file has it; the shortest digits that read back as the same number."""
-    if isinstance(value, (bool, np.bool_)):
-        return "yes" if value else "no"
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
-    return ",".join(repr(float(x)) for x in value)
 
 
 class Case:
@@ -45,13 +36,27 @@ class Case:
 
     def __init__(self, file: Union[str, os.PathLike, None] = None, **options: Optional[Value]) -> None:
         self.file = file
-        self.options = {name: value for name, value in options.items() if value is not None}
-        self._tables: list = []  # temporary files live as long as the case
-        self._texts = {name: self._as_text(value) for name, value in self.options.items()}
+        self._take({name: value for name, value in options.items() if value is not None})
         self.handle("solve")
 
-    def _as_text(self, value: Value) -> str:
-        return self._write_table(value) if isinstance(value, Mapping) else _text(value)
+    def _take(self, options: dict) -> None:
+        self.options = options
+        self._tables: list = []  # temporary files live as long as the case
+        self._texts = {name: self._as_text(name, value) for name, value in options.items()}
+
+    def __getstate__(self) -> dict:
+        return {"file": self.file, "options": self.options}
+
+    def __setstate__(self, state: dict) -> None:
+        self.file = state["file"]
+        self._take(state["options"])
+
+    def _as_text(self, name: str, value: Value) -> str:
+        if not isinstance(value, Mapping):
+            return _values.text(name, value)
+        if name in OPTIONS and OPTIONS[name].kind in ("number", "integer", "flag"):
+            raise InvalidInput(f"{name}=: expected {OPTIONS[name].expected}, got columns of a table")
+        return self._write_table(_values.columns(name, value))
 
     def _write_table(self, columns: Table) -> str:
         file = tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt")
@@ -65,10 +70,10 @@ class Case:
     def handle(self, purpose: str, **more: Value) -> Handle:
         """A new handle of the library with these options."""
         handle = Handle(purpose)
-        for name, text in {**self._texts, **{k: self._as_text(v) for k, v in more.items()}}.items():
+        for name, text in {**self._texts, **{k: self._as_text(k, v) for k, v in more.items()}}.items():
             handle.set(name, text)
         if self.file is not None:
-            handle.check(handle.ask("rb_api_read", os.fsencode(self.file)))
+            handle.check(handle.ask("rb_api_read", os.fsencode(_values.path("case", self.file))))
         return handle
 
     def but(self, **options: Optional[Value]) -> "Case":
@@ -84,8 +89,13 @@ class Case:
 
     def solve(self) -> "Solution":
         """See :func:`solve`."""
-        handle = self.handle("solve")
-        return _kept(Solution(self, handle), handle.run("rb_api_solve"))
+        solution = self._solve("solve")
+        solution._warn()
+        return solution
+
+    def _solve(self, purpose: str) -> "Solution":
+        handle = self.handle(purpose)
+        return _kept(Solution(self, handle), handle, handle.run("rb_api_solve"))
 
     def __repr__(self) -> str:
         words = [repr(os.fspath(self.file))] if self.file is not None else []
@@ -102,11 +112,11 @@ def _value(option: str, handle: Handle) -> Union[bool, int, float, str]:
         return text
 
 
-def _kept(solution: Any, status: int) -> Any:
+def _kept(solution: Any, handle: Handle, status: int) -> Any:
     """What ended without a full answer is raised, with what there is."""
     if status == SOLVED:
         return solution
-    error = solution._handle.error(status)
+    error = handle.error(status)
     if status > SOLVED:
         error.solution = solution
     raise error
@@ -130,12 +140,14 @@ class _Named:
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_"):
             for values in (self._arrays, self._numbers):
-                if name in values:
-                    return values[name]
+                for known in (name, name[:-1] if name.endswith("_") else name):  # yield_
+                    if known in values:
+                        return values[known]
         raise AttributeError(f"{type(self).__name__} has no '{name}'")
 
     def __dir__(self) -> list:
-        return sorted({*super().__dir__(), *self._arrays, *self._numbers})
+        found = {name + "_" * keyword.iskeyword(name) for name in (*self._arrays, *self._numbers)}
+        return sorted({*super().__dir__(), *found})
 
     def columns(self) -> dict:
         """All arrays by name, as ``pandas.DataFrame(...)`` takes them."""
@@ -152,6 +164,26 @@ class Solution(_Named):
     def __init__(self, case: Case, handle: Handle) -> None:
         self.case, self._handle = case, handle
         self._more: dict = {}
+
+    def __getstate__(self) -> dict:
+        return {"case": self.case, "_handle": self._handle, "_more": {}}
+
+    def _live(self) -> Handle:
+        """The library's handle; the case of a solution that was pickled is solved once more for it."""
+        if isinstance(self._handle, Kept):
+            try:
+                self._handle = self.case._solve(self._handle.purpose)._handle
+            except Unsolved as error:
+                self._handle = error.solution._handle
+        return self._handle
+
+    def _warn(self) -> None:
+        """The notes as warnings, at the line that called this package."""
+        here, depth, frame = os.path.dirname(__file__), 2, sys._getframe(1)
+        while frame.f_back and frame.f_code.co_filename.startswith(here):
+            frame, depth = frame.f_back, depth + 1
+        for note in self.notes:
+            warnings.warn(note, Note, stacklevel=depth)
 
     def _all(self, what: str, make: Any) -> Any:
         if what not in self._more:
@@ -230,28 +262,29 @@ class Solution(_Named):
     @property
     def F(self) -> Optional[Array]:
         """Displacements (w_N, w_T) by tractions (r_N, r_T); None where no matrix was formed."""
-        return self._handle.array("F")
+        return self._live().array("F")
 
     @property
     def H(self) -> Optional[Array]:
         """H u = G t on the boundary of a wheel; None of a half-plane."""
-        return self._handle.array("H")
+        return self._live().array("H")
 
     @property
     def G(self) -> Optional[Array]:
         """See H."""
-        return self._handle.array("G")
+        return self._live().array("G")
 
     @property
     def mesh(self) -> Optional[Array]:
         """Ends (x0, y0, x1, y1) of the boundary elements of a wheel."""
-        ends = [self._handle.array(f"mesh.{end}") for end in ("x0", "y0", "x1", "y1")]
+        ends = [self._live().array(f"mesh.{end}") for end in ("x0", "y0", "x1", "y1")]
         return None if ends[0] is None else np.column_stack(ends)
 
     def lcp(self) -> tuple:
         """M and q of the complementarity problem that Lemke's method tries first."""
-        self._handle.check(self._handle.run("rb_api_pivots"))
-        return self._handle.array("lcp.M").copy(), self._handle.array("lcp.q").copy()
+        handle = self._live()
+        handle.check(handle.run("rb_api_pivots"))
+        return handle.array("lcp.M").copy(), handle.array("lcp.q").copy()
 
     def plot(self, figure: Any = None) -> Any:
         """The picture of the program: tractions, zones, slip.  Returns the figure."""
@@ -293,7 +326,7 @@ class Curve(_Named):
     """A creep curve: arrays with an entry per creepage; ``free_creepage``, ``half_width``."""
 
     def __init__(self, case: Case, handle: Handle, over: str) -> None:
-        self.case, self.over, self._handle = case, over, handle
+        self.case, self.over = case, over
         self._arrays = handle.arrays("point", "curve.")
         self._numbers = {name: handle.number(f"curve.{name}") for name in ("free_creepage", "half_width")}
         self.errors = handle.arrays("point", "curve.error.")
@@ -324,7 +357,7 @@ class Stress(_Named):
 
     def __init__(self, solution: Solution, maxima: dict) -> None:
         # copied: the next stress of the same solution is made in the same memory
-        found = solution._handle.arrays("stress", "stress.", copied=True)
+        found = solution._live().arrays("stress", "stress.", copied=True)
         self.solution, self.maxima = solution, maxima
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
@@ -332,6 +365,11 @@ class Stress(_Named):
     def plot(self, figure: Any = None, field: str = "max_shear") -> Any:
         """Contours of a field of a grid.  Returns the figure."""
         return pictures.contours(self, figure, field)
+
+    def __repr__(self) -> str:
+        largest = self.maxima["max_shear"]
+        return (f"<Stress: {' x '.join(map(str, self.max_shear.shape[::-1]))} points; largest max_shear "
+                f"{largest.value:.6g} MPa at ({largest.x:.4g}, {largest.y:.4g}) mm>")
 
 
 class Sweep(_Named):
@@ -342,7 +380,7 @@ class Sweep(_Named):
 
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
-        self.axes, self._handle = dict(axes), handle
+        self.axes = dict(axes)
         found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
@@ -384,13 +422,15 @@ def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, 
     case = _case(case, options)
     mu = case.options.get("mu")
     if mu is not None and np.ndim(mu) == 1:
-        return [curve(case.but(mu=value), start, stop, points, over) for value in mu]
+        return [curve(case.but(mu=value), start, stop, points, over) for value in _values.vector("mu", mu)]
     handle = case.handle("curve")
     handle.check(handle.ask("rb_api_resolve"))
-    status = handle.run("rb_api_curve_over", over.encode(), start, stop, points)
+    status = handle.run("rb_api_curve_over", _values.word("over", over, "creep-ratio, creep or speed"),
+                        _values.number("start", start), _values.number("stop", stop),
+                        _values.whole("points", points))
     if status < SOLVED:
         raise handle.error(status)
-    return _kept(Curve(case, handle, over), status)
+    return _kept(Curve(case, handle, over), handle, status)
 
 
 def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None,
@@ -427,18 +467,21 @@ def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tu
         solution = case
     else:
         whole = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)
-        handle = whole.handle("stress")
-        solution = _kept(Solution(whole, handle), handle.run("rb_api_solve"))
-    handle = solution._handle
-    handle.check(handle.run("rb_api_stress_maxima", depth or 0.0))
+        solution = whole._solve("stress")
+        solution._warn()
+    handle = solution._live()
+    depth = 0.0 if depth is None else _values.number("depth", depth)
+    handle.check(handle.run("rb_api_stress_maxima", depth))
     names = ("max_shear", "von_mises", "orthogonal_shear", "tension")
     maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
     if points is None:
-        handle.check(handle.run("rb_api_stress", *grid, depth or 0.0))
+        if np.ndim(grid) != 1 or len(grid) != 2:
+            raise InvalidInput(f"grid=: expected two whole numbers, got {grid!r}")
+        handle.check(handle.run("rb_api_stress", *(_values.whole("grid", n, 2) for n in grid), depth))
     else:
-        xy = np.ascontiguousarray(points, dtype=float)
-        if xy.ndim != 2 or xy.shape[1] != 2:
-            raise InvalidInput(f"points: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
+        xy = np.ascontiguousarray(_values.array("points", points))
+        if xy.ndim != 2 or xy.shape[1] != 2 or len(xy) == 0:
+            raise InvalidInput(f"points=: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
         handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
     return Stress(solution, maxima)
 
@@ -449,12 +492,13 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
     One process per processor, or ``workers``.
     """
+    workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
-    axes = {name: np.asarray(value, dtype=float) for name, value in options.items()
-            if isinstance(value, (list, range, np.ndarray))}
+    axes = {name: _values.vector(name, value) for name, value in options.items()
+            if isinstance(value, (list, range)) or np.ndim(value) == 1 and hasattr(value, "__array__")}
     base = base.but(**{name: value for name, value in options.items() if name not in axes})
     if not axes:
-        raise InvalidInput("sweep: expected at least one option with a list of values")
+        raise InvalidInput("sweep: expected at least one option with a list of values, such as mu=[0.1, 0.3]")
     cases = []
     for values in itertools.product(*axes.values()):
         cases.append(base.handle("sweep", **dict(zip(axes, values))))
@@ -470,7 +514,6 @@ class Answer:
     """What a solver of :func:`lcp` or :func:`friction` gave."""
 
     def __init__(self, handle: Handle, **arrays: Array) -> None:
-        self._handle = handle
         self.status = handle.word("status")
         self.solver = handle.word("task.solver")
         self.iterations = int(handle.number("task.iterations"))
@@ -500,23 +543,16 @@ class Friction(Answer):
     scaled_residual: float
 
 
-def _matrix(M: Any, rows: int, name: str) -> Array:
-    M = M.toarray() if hasattr(M, "toarray") else M
-    M = np.asfortranarray(M, dtype=float)
-    if M.shape != (rows, rows):
-        raise InvalidInput(f"{name}: expected a matrix of {rows} x {rows}, got {' x '.join(map(str, M.shape))}")
-    return M
-
-
 def lcp(M: Any, q: Any, solver: str = "lemke", max_pivots: int = 0) -> Complementarity:
     """Solves z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's method, or "newton" (P-matrices)."""
-    q = np.ascontiguousarray(q, dtype=float).ravel()
-    M = _matrix(M, len(q), "M")
+    q = _values.vector("q", q)
+    M = _values.matrix("M", M, len(q))
     handle = Handle("solve")
-    status = handle.run("rb_api_lcp", len(q), doubles(M), doubles(q), solver.encode(), max_pivots)
+    status = handle.run("rb_api_lcp", len(q), doubles(M), doubles(q), _values.word("solver", solver, "lemke or newton"),
+                        _values.whole("max_pivots", max_pivots))
     if status < SOLVED:
         raise handle.error(status)
-    return _kept(Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w")), status)
+    return _kept(Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w")), handle, status)
 
 
 def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",
@@ -526,22 +562,30 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
     ``mu`` is a number or one per contact.  ``friction("file.hdf5")`` reads FCLib or Siconos.
     """
     handle = Handle("solve")
+    how = (_values.word("solver", solver, "a name of rollbem friction or auto"), _values.number("tol", tol),
+           _values.whole("max_iters", max_iters))
     if q is None:
-        status = handle.run("rb_api_friction_file", os.fsencode(W), solver.encode(), tol, max_iters)
+        if not isinstance(W, (str, bytes, os.PathLike)):
+            raise InvalidInput("q=: expected numbers with a matrix W; alone, W names a file")
+        if mu is not None:
+            raise InvalidInput("mu=: the file of the problem has its own")
+        status = handle.run("rb_api_friction_file", os.fsencode(_values.path("W", W)), *how)
     else:
-        q = np.ascontiguousarray(q, dtype=float).ravel()
+        dimension, q = _values.whole("dimension", dimension, 2, 3), _values.vector("q", q)
         if len(q) % dimension:
-            raise InvalidInput(f"q: expected a multiple of {dimension} numbers, got {len(q)}")
-        W, contacts = _matrix(W, len(q), "W"), len(q) // dimension
-        mu = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, dtype=float), contacts))
-        status = handle.run("rb_api_friction", dimension, contacts, doubles(W), doubles(q), doubles(mu),
-                            solver.encode(), tol, max_iters)
+            raise InvalidInput(f"q=: expected a multiple of dimension={dimension} numbers, got {len(q)}")
+        W, contacts = _values.matrix("W", W, len(q)), len(q) // dimension
+        mu = _values.vector("mu", mu)
+        if len(mu) not in (1, contacts):
+            raise InvalidInput(f"mu=: expected a number or one per contact ({contacts}), got {len(mu)}")
+        mu = np.ascontiguousarray(np.broadcast_to(mu, contacts))
+        status = handle.run("rb_api_friction", dimension, contacts, doubles(W), doubles(q), doubles(mu), *how)
     if status < SOLVED:
         raise handle.error(status)
     found = Friction(handle, r=np.atleast_2d(handle.array("friction.r").T),
                      u=np.atleast_2d(handle.array("friction.u").T))
     found.scaled_residual = handle.number("task.scaled_residual")
-    return _kept(found, status)
+    return _kept(found, handle, status)
 
 
 # ---- Documentation from the tables --------------------------------------------------------

@@ -128,6 +128,10 @@ class Unsolved(Error):
     solution: Any = None
 
 
+class Note(UserWarning):
+    """What must be known to read a solution rightly, as ``Solution.notes`` has it."""
+
+
 _KINDS = {-1: InvalidInput, -2: OutOfMemory, -3: MissingFile, -4: InvalidInput}
 SOLVED = 0
 
@@ -176,13 +180,79 @@ OPTIONS = {_keyword(option.name): option for option in _all_options if option.ki
 RESULTS = {table: {result.name: result for result in _rows(Result, lib.rb_api_result, table.encode())}
            for table in ("number", "column", "step", "point", "patch", "stress")}
 
+# ---- Messages -----------------------------------------------------------------------------
+
+# text of the user, options of the program with the value that a message proposes, bare names with "-"
+_NAMES = re.compile(r"'(?P<quoted>[^']*)'|--(?P<option>[a-z][a-z0-9-]*[a-z0-9])(?:[ =](?P<value>[\w.+-]*\w))?"
+                    r"|\b(?P<bare>[a-z]+(?:-[a-z]+)+)\b")
+
+
+def in_keywords(text: str) -> str:
+    """A message or note of the program with Python's keywords: ``mu=`` for ``--mu``."""
+
+    def replaced(found: "re.Match") -> str:
+        if found["quoted"] is not None:  # 'did you mean' names an option, all else is the user's
+            return f"'{_keyword(found['quoted'][2:])}'" if found["quoted"].startswith("--") else found[0]
+        if found["bare"]:
+            return _keyword(found[0]) if _keyword(found[0]) in OPTIONS else found[0]
+        name, value = _keyword(found["option"]), found["value"]
+        option = OPTIONS.get(name)
+        if option and option.kind == "flag":
+            return f"{name}=True" + (f" {value}" if value else "")
+        if value is None:
+            return f"{name}="
+        if option and value in option.choices.split():
+            return f"{name}='{value}'"
+        is_value = re.fullmatch(r"[-+.\d][-+.\de]*|[A-Z]", value)
+        return f"{name}={value}" if is_value else f"{name}= {value}"
+
+    return _NAMES.sub(replaced, text)
+
+
 # ---- Handles ------------------------------------------------------------------------------
 
 
-class Handle:
-    """An ``rb_api``: freed with the last array that looks into it."""
+class _Answers:
+    """What the tables of results name, read from what answers to a single name."""
+
+    number: Callable[[str], float]
+    array: "Callable[[str], Optional[NDArray[np.float64]]]"
+
+    def numbers(self, table: str, prefix: str = "") -> dict:
+        """The numbers of a table by name, whole ones as int; NaN where there is none."""
+        values = {name: self.number(prefix + name) for name in RESULTS[table]}
+        return {name: int(x) if RESULTS[table][name].kind == "whole" and x == x else x
+                for name, x in values.items()}
+
+    def arrays(self, table: str, prefix: str = "", copied: bool = False) -> dict:
+        """The arrays of a table by name, whole numbers as int unless some are missing."""
+        found = {}
+        for name, result in RESULTS[table].items():
+            array = self.array(prefix + name)
+            if array is not None:
+                whole = result.kind == "whole" and bool(np.isfinite(array).all())
+                found[name] = array.astype(int) if whole else array.copy() if copied else array
+        return found
+
+
+# what a solution answers, besides the options: the names in include/rollbem/api.h
+_NUMBERS = ([prefix + name for prefix in ("", "error.") for name in RESULTS["number"]]
+            + ["carter", "radius", "modulus", "hertz_load", "history.half_width"])
+_WORDS = ("status", "formulation", "solver", "lcp-form")
+_ARRAYS = (list(RESULTS["column"]) + [f"patch.{name}" for name in RESULTS["patch"]]
+           + [prefix + name for prefix in ("history.", "history.error.") for name in RESULTS["step"]]
+           + ["step.x", "step.p", "step.q", "step.zone", "friction_power", "ends", "gap0"])
+
+
+class Handle(_Answers):
+    """An ``rb_api``: freed with the last array that looks into it.
+
+    It belongs to its process: a copy is the same handle, and what is pickled is a
+    :class:`Kept` with all that the handle answers.
+    """
 
     def __init__(self, purpose: str) -> None:
+        self.purpose = purpose
         self.at = lib.rb_api_create_for(purpose.encode())
         if not self.at:
             raise OutOfMemory("out of memory")
@@ -191,9 +261,22 @@ class Handle:
         if getattr(self, "at", None):
             lib.rb_api_free(self.at)
 
+    def __copy__(self) -> "Handle":
+        return self
+
+    def __deepcopy__(self, memo: dict) -> "Handle":
+        return self
+
+    def __reduce__(self) -> tuple:
+        arrays = {name: self.array(name) for name in _ARRAYS}
+        return Kept, (self.purpose, {name: self.number(name) for name in _NUMBERS},
+                      {name: self.word(name) for name in _WORDS}, self.notes(),
+                      {option.name: self.value(option.name) for option in OPTIONS.values()},
+                      {name: array for name, array in arrays.items() if array is not None})
+
     @property
     def message(self) -> str:
-        return lib.rb_api_message(self.at).decode(errors="replace")
+        return in_keywords(lib.rb_api_message(self.at).decode(errors="replace"))
 
     def error(self, status: int) -> Error:
         error = _KINDS.get(status, Error if status < 0 else Unsolved)(self.message)
@@ -209,7 +292,9 @@ class Handle:
         return getattr(lib, function)(self.at, *arguments)
 
     def set(self, option: str, text: str) -> None:
-        name = option.replace("_", "-").encode()
+        if "\0" in option:
+            raise InvalidInput(f"unknown option {option!r}")
+        name = option.replace("_", "-").encode(errors="replace")
         self.check(self.ask("rb_api_set", name, text.encode(errors="surrogateescape")))
 
     def run(self, function: str, *arguments: Any) -> int:
@@ -239,12 +324,6 @@ class Handle:
     def number(self, name: str) -> float:
         return lib.rb_api_number(self.at, name.encode())
 
-    def numbers(self, table: str, prefix: str = "") -> dict:
-        """The numbers of a table by name, whole ones as int; NaN where there is none."""
-        values = {name: self.number(prefix + name) for name in RESULTS[table]}
-        return {name: int(x) if RESULTS[table][name].kind == "whole" and x == x else x
-                for name, x in values.items()}
-
     def word(self, name: str) -> Optional[str]:
         text = lib.rb_api_word(self.at, name.encode())
         return text.decode() if text is not None else None
@@ -253,7 +332,7 @@ class Handle:
         """What must be known to read the solution rightly."""
         room, found = ctypes.create_string_buffer(256), []
         while (text := lib.rb_api_note(self.at, len(found), room, len(room))) is not None:
-            found.append(text.decode())
+            found.append(in_keywords(text.decode()))
         return found
 
     def value(self, name: str) -> str:
@@ -276,15 +355,33 @@ class Handle:
         array.flags.writeable = False
         return array[:, 0] if columns.value == 1 else array
 
-    def arrays(self, table: str, prefix: str = "", copied: bool = False) -> dict:
-        """The arrays of a table by name, whole numbers as int unless some are missing."""
-        found = {}
-        for name, result in RESULTS[table].items():
-            array = self.array(prefix + name)
-            if array is not None:
-                whole = result.kind == "whole" and bool(np.isfinite(array).all())
-                found[name] = array.astype(int) if whole else array.copy() if copied else array
-        return found
+
+class Kept(_Answers):
+    """What a handle answered, without the library: of a result that was pickled."""
+
+    def __init__(self, purpose: str, numbers: dict, words: dict, notes: list, values: dict, arrays: dict) -> None:
+        self.purpose, self._all = purpose, (numbers, words, notes, values, arrays)
+        self._numbers, self._words, self._notes, self._values, self._arrays = self._all
+        for array in arrays.values():
+            array.flags.writeable = False
+
+    def __reduce__(self) -> tuple:
+        return Kept, (self.purpose, *self._all)
+
+    def number(self, name: str) -> float:
+        return self._numbers.get(name, float("nan"))
+
+    def word(self, name: str) -> Optional[str]:
+        return self._words[name]
+
+    def notes(self) -> list:
+        return list(self._notes)
+
+    def value(self, name: str) -> str:
+        return self._values[name]
+
+    def array(self, name: str) -> Optional[NDArray[np.float64]]:
+        return self._arrays.get(name)
 
 
 def doubles(array: NDArray[np.float64]) -> Any:

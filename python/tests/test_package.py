@@ -1,15 +1,20 @@
 """What is Python's own: memory, interruption, documentation, pictures, examples."""
 
+import copy
 import ctypes
 import gc
 import json
 import os
+import pickle
 import re
 import resource
 import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
+from decimal import Decimal
+from fractions import Fraction
 from typing import Optional
 
 import numpy as np
@@ -204,3 +209,160 @@ def test_notes_are_those_of_the_program():
     s = rollbem.solve(support="halfplane", formulation="steady", load=10)
     assert len(s.notes) == 1 and "rolls at creepage 0" in s.notes[0]
     assert rollbem.solve(support="halfplane", formulation="steady", load=10, creep_ratio=0.5).notes == []
+
+
+def test_notes_warn_where_the_package_is_called():
+    base = {k: v for k, v in ROLLED.items() if k != "creep_ratio"}
+    calls = (lambda: rollbem.solve(**base), lambda: rollbem.Case(**base).solve(),
+             lambda: rollbem.stress(grid=(3, 3), **base).solution)
+    for call in calls:
+        with pytest.warns(rollbem.Note) as warned:
+            solution = call()
+        assert [str(w.message) for w in warned] == solution.notes != []
+        assert {w.filename for w in warned} == {__file__}
+    notes = rollbem.solve(creep=0.1, contact_elements=12, outer_elements=24).notes
+    assert any("formulation='steady'" in note for note in notes) and "--" not in " ".join(notes)
+
+
+# ---- Copies and other processes
+
+
+SMALL = dict(ROLLED, contact_elements=12, mesh="uniform")
+
+
+def everything(result):
+    """All that a result tells, by name."""
+    clocks = {r.name for table in rollbem.RESULTS.values() for r in table.values() if r.kind == "seconds"}
+    found = {name: x for name, x in {**result._numbers, **result.columns()}.items() if name not in clocks}
+    found["repr"] = repr(result)
+    for name in ("notes", "status", "formulation", "solver", "patches", "errors", "friction_power", "carter_holds", "ends",
+                 "axes", "maxima", "zone", "p", "half_width", "mu"):
+        if hasattr(result, name):
+            found[f"its {name}"] = getattr(result, name)
+    return found
+
+
+def assert_same(one, other):
+    one, other = everything(one), everything(other)
+    assert one.keys() == other.keys()
+    for name in one:
+        np.testing.assert_equal(other[name], one[name])
+
+
+def results():
+    base = {k: v for k, v in SMALL.items() if k not in ("formulation", "creep_ratio")}
+    solution = rollbem.solve(error=True, **SMALL)
+    yield from (solution, rollbem.curve(points=3, **base), rollbem.stress(grid=(3, 4), **SMALL),
+                rollbem.sweep(mu=[0.1, 0.2], **SMALL),
+                rollbem.history({"distance": [0, 1], "creep_ratio": [0.3, 0.3]}, **base))
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x)),
+                                   lambda x: copy.deepcopy(pickle.loads(pickle.dumps(x)))],
+                         ids=["copy", "deepcopy", "pickle", "deepcopy of pickle"])
+def test_results_are_copied(again):
+    for result in results():
+        other = again(result)
+        assert_same(result, other)
+        del result
+        gc.collect()
+        everything(other)  # what it looks into is still there
+    case = again(rollbem.Case(gap={"x": [-1, 0, 1], "gap": [0.01, 0, 0.01]}, **SMALL))
+    assert case.solve().max_pressure == case.but(mu=0.3).solve().max_pressure > 0
+    for answer in (rollbem.lcp([[2, 1], [1, 2]], [-5, -6]), rollbem.friction(np.eye(3), [-1, 0.4, 0], 0.3)):
+        other = again(answer)
+        assert repr(other) == repr(answer) and np.array_equal(getattr(other, "z", None), getattr(answer, "z", None))
+
+
+def test_matrices_of_a_pickled_solution():
+    solution = rollbem.solve(creep=0.1, contact_elements=12, outer_elements=24)
+    other = pickle.loads(pickle.dumps(solution))
+    for matrix in ("F", "H", "G", "mesh"):
+        assert np.array_equal(getattr(other, matrix), getattr(solution, matrix))
+    assert np.array_equal(other.lcp()[0], solution.lcp()[0])
+    assert_same(rollbem.stress(solution, grid=(3, 3)), rollbem.stress(pickle.loads(pickle.dumps(solution)), grid=(3, 3)))
+
+
+def solved(mu):
+    return rollbem.solve(**{**SMALL, "mu": mu})
+
+
+def refused(mu):
+    return rollbem.solve(mu=mu, zone=1.0, contact_elements=12)
+
+
+def test_a_thousand_results_cross_processes():
+    all_mu = np.linspace(0.1, 0.5, 1000)
+    with ProcessPoolExecutor(2) as pool:
+        found = list(pool.map(solved, all_mu, chunksize=50))
+        with pytest.raises(rollbem.Unsolved, match="zone") as caught:
+            pool.submit(refused, 0.3).result()
+        with pytest.raises(rollbem.InvalidInput, match="mu=: expected a number >= 0"):
+            pool.submit(solved, -1).result()
+    assert len(caught.value.solution.p) == 12 and caught.value.status > 0
+    for mu, solution in list(zip(all_mu, found))[::100]:
+        assert_same(solved(mu), solution)
+    assert np.allclose([s.value("mu") for s in found], all_mu, rtol=1e-14, atol=0)
+
+
+# ---- What is handed over
+
+
+@pytest.mark.parametrize("mu", [np.array(0.25), Decimal("0.25"), Fraction(1, 4), np.float32(0.25), "0.25", [0.25]])
+def test_numbers_of_any_kind(mu):
+    assert rollbem.Case(mu=mu)["mu"] == 0.25
+
+
+EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: rollbem.solve(mu=-1), "mu=: expected a number >= 0"),
+    (lambda: rollbem.solve(load=5, approach=1), "approach= and load= exclude each other"),
+    (lambda: rollbem.solve(nu=0.3), "unknown option 'nu'"),
+    (lambda: rollbem.solve(mu="0.3\0"), "mu=: a NUL character"),
+    (lambda: rollbem.solve("case.ini\0"), "case=: a NUL character"),
+    (lambda: rollbem.Case(3), "case=: expected the name of a file, got 3"),
+    (lambda: rollbem.solve(**{"mu\0": 1}), "unknown option"),
+    (lambda: rollbem.solve(mu=[]), "mu=: expected at least one number"),
+    (lambda: rollbem.solve(mu=1j), "mu=: expected numbers, got 1j"),
+    (lambda: rollbem.solve(mu={"x": [1]}), "mu=: .*got columns of a table"),
+    (lambda: rollbem.solve(gap={"x": [1, 2], "gap": [1]}), "gap=: expected columns of one length, got 2 of x, 1 of gap"),
+    (lambda: rollbem.solve(gap={}), "gap=: .*no column"),
+    (lambda: rollbem.solve(contact_elements=2**31), "contact_elements=: expected a whole number >= 3, got '2147483648'"),
+    (lambda: rollbem.solve(contact_elements=2**32 + 30), "contact_elements=: expected a whole number"),
+    (lambda: rollbem.curve(points=2**31), f"points=: expected a whole number {TOO_LARGE}"),
+    (lambda: rollbem.curve(over=None), "over=: expected creep-ratio, creep or speed, got None"),
+    (lambda: rollbem.curve(mu=[]), "mu=: expected at least one number"),
+    (lambda: rollbem.stress(grid=(2**31, 3), **ROLLED), "grid=: expected a whole number from 2"),
+    (lambda: rollbem.stress(grid=3, **ROLLED), "grid=: expected two whole numbers, got 3"),
+    (lambda: rollbem.stress(depth="deep", **ROLLED), "depth=: expected a number, got 'deep'"),
+    (lambda: rollbem.stress(points=[], **ROLLED), "points=: expected an array of n x 2"),
+    (lambda: rollbem.sweep(mu=[]), "mu=: expected at least one number"),
+    (lambda: rollbem.sweep(mu=[[1, 2], [3, 4]]), "mu=: expected numbers in one row, got 2 x 2"),
+    (lambda: rollbem.sweep(support=["hub", "arc"]), "support=: expected numbers"),
+    (lambda: rollbem.sweep(mu=[0.1], workers=2**31), f"workers=: expected a whole number {TOO_LARGE}"),
+    (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=1.5), "max_pivots=: expected a whole number from 0 to .*, got 1.5"),
+    (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=2**31), f"max_pivots=: expected a whole number {TOO_LARGE}"),
+    (lambda: rollbem.lcp(EYE, [1, 2, 3], solver=None), "solver=: expected lemke or newton, got None"),
+    (lambda: rollbem.lcp([], []), "q=: expected at least one number"),
+    (lambda: rollbem.lcp(3, [1, 2]), "M=: expected a matrix of 2 x 2, got a number"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, dimension=0), "dimension=: expected a whole number from 2 to 3, got 0"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, dimension=2), "q=: expected a multiple of dimension=2"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0]), "mu=: expected numbers, got None"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], [0.3, 0.4]), "mu=: expected a number or one per contact"),
+    (lambda: rollbem.friction(EYE), "q=: expected numbers with a matrix W"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, solver=None), "solver=: expected a name"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, max_iters=2.5), "max_iters=: expected a whole number"),
+    (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, tol=None), "tol=: expected a number, got None")])
+def test_refusals_name_keywords(call, words):
+    with pytest.raises(rollbem.InvalidInput, match=words) as caught:
+        call()
+    assert "--" not in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_messages_in_keywords():
+    for said, want in (("--similar has a radius", "similar=True has a radius"), ("use --cycles N", "use cycles=N"),
+                       ("--mu 0.3 is", "mu=0.3 is"), ("'a-creep-ratio.txt': creep-ratio", "'a-creep-ratio.txt': creep_ratio"),
+                       ("rate-free --young, --mu", "rate-free young=, mu="), ("give --load or less", "give load= or less")):
+        assert _library.in_keywords(said) == want

@@ -1,0 +1,108 @@
+"""What callers hand over, checked before the library sees it; refusals name the keyword."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._library import InvalidInput
+
+MOST = 2**31 - 1  # the library's sizes are C's int
+
+
+def _one(value: Any) -> Any:
+    """An array without axes is its number."""
+    return value.item() if isinstance(value, (np.ndarray, np.generic)) and np.ndim(value) == 0 else value
+
+
+def _shown(value: Any) -> str:
+    shown = repr(value)
+    return shown if len(shown) < 60 else f"{shown[:56]} ..."
+
+
+def number(name: str, value: Any) -> float:
+    """float, int, NumPy's numbers, Decimal, Fraction."""
+    value = _one(value)
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InvalidInput(f"{name}=: expected a number, got {_shown(value)}")
+
+
+def whole(name: str, value: Any, least: int = 0, most: int = MOST) -> int:
+    value = _one(value)
+    if hasattr(value, "__index__") and least <= int(value) <= most:
+        return int(value)
+    raise InvalidInput(f"{name}=: expected a whole number from {least} to {most}, got {_shown(value)}")
+
+
+def word(name: str, value: Any, expected: str) -> bytes:
+    if isinstance(value, str) and "\0" not in value:
+        return value.encode(errors="surrogateescape")
+    raise InvalidInput(f"{name}=: expected {expected}, got {_shown(value)}")
+
+
+def path(name: str, value: Any) -> str:
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise InvalidInput(f"{name}=: expected the name of a file, got {_shown(value)}")
+    found = os.fsdecode(value)
+    if "\0" in found:
+        raise InvalidInput(f"{name}=: a NUL character is in {_shown(found)}")
+    return found
+
+
+def vector(name: str, value: Any) -> NDArray[np.float64]:
+    """Numbers in one row, at least one."""
+    found = array(name, value)
+    if found.size == 0:
+        raise InvalidInput(f"{name}=: expected at least one number, got {_shown(value)}")
+    if found.size != max(found.shape, default=1):
+        raise InvalidInput(f"{name}=: expected numbers in one row, got {' x '.join(map(str, found.shape))}")
+    return np.ascontiguousarray(found.ravel())
+
+
+def array(name: str, value: Any) -> NDArray[np.float64]:
+    try:
+        if value is not None and np.asarray(value).dtype.kind not in "USc":
+            return np.asarray(value, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InvalidInput(f"{name}=: expected numbers, got {_shown(value)}")
+
+
+def matrix(name: str, value: Any, rows: int) -> NDArray[np.float64]:
+    """Column by column, also from SciPy's sparse ones."""
+    found = array(name, value.toarray() if hasattr(value, "toarray") else value)
+    if found.shape != (rows, rows):
+        raise InvalidInput(f"{name}=: expected a matrix of {rows} x {rows}, got "
+                           f"{' x '.join(map(str, found.shape)) or 'a number'}")
+    return np.asfortranarray(found)
+
+
+def columns(name: str, table: Mapping[str, Sequence[float]]) -> dict:
+    """Columns of a table, of one length."""
+    found = {str(key): vector(f"{name}={{{key!r}", values) for key, values in table.items()}
+    lengths = {key: len(values) for key, values in found.items()}
+    if len(set(lengths.values())) != 1:
+        raise InvalidInput(f"{name}=: expected columns of one length, got "
+                           + (", ".join(f"{n} of {key}" for key, n in lengths.items()) or "no column"))
+    return found
+
+
+def text(name: str, value: Any) -> str:
+    """An option as a case file has it; the shortest digits that read back as the same number."""
+    value = _one(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return path(name, value)
+    if hasattr(value, "__float__") and np.ndim(value) == 0:  # a Series has it too
+        return repr(number(name, value))
+    return ",".join(map(repr, vector(name, value).tolist()))
