@@ -122,6 +122,18 @@ static void results_are_valid(void **state)
         "--support halfplane --load 100 --speed 1000 --conductivity 50 --heat-capacity "
         "3.6 "
         "--mu 0.3 --creep-ratio 0.4" STEADY,
+        "--support hub --hub-ratio 0.3 --young 1000 --poisson 0.4 --load 100 --force 10 "
+        "--relaxation-time 1e-3,1e-2 --relaxation-ratio 1,2 --speed 1000 --mu 0.3 "
+        "--mesh fitted --contact-elements 30" STEADY,
+        "--support hub --cover-thickness 2 --core-young 2000 --young 8 --poisson 0.48 "
+        "--half-width 4 --relaxation-time 1e-3 --relaxation-ratio 1 --speed 1000 --mu "
+        "0.3 --creep-ratio 0.4 --normals surface --contact-elements 30" STEADY,
+        "--support hub --cover-thickness 2 --young 8 --poisson 0.4 --load 1 "
+        "--force-ratio "
+        "-0.8 --relaxation-time 1e-3 --relaxation-ratio 1 --speed 1000 --mu 0.3 "
+        "--young-b 20 --poisson-b 0.3 --radius-b 40 --relaxation-time-b 1e-4 "
+        "--relaxation-ratio-b 2 --layer-thickness-b 1 --base-young-b 100 "
+        "--contact-elements 30" STEADY,
         "--example paper",
         "--example hertz",
         "--example carter",
@@ -1176,6 +1188,15 @@ static void every_edit_is_named(void **state)
              {"summary/creepage", "0", "violated: the given creep_ratio: printed 0"},
              {"summary/boundary_matrix", "\"hierarchical\"", "boundary_matrix"},
          }},
+        {"--support hub --cover-thickness 2 --young 8 --poisson 0.4 --load 1 --mu 0.3 "
+         "--force-ratio -0.8 --relaxation-time 1e-3 --relaxation-ratio 1 --speed 1000 "
+         "--mesh fitted --contact-elements 30" STEADY,
+         {
+             {"notes", "[]", ""},
+             {"summary/hysteresis", "0.0074", "violated: hysteresis by waves: printed "},
+             {"summary/hysteresis", "0.0069", "violated: hysteresis by waves: printed "},
+             {"summary/hysteresis", "null", "violated: hysteresis by waves: printed nan"},
+         }},
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio -0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
          {
@@ -1286,7 +1307,8 @@ static void every_edit_is_named(void **state)
                         part, said);
             wrong++;
         }
-        if (k == 4) { /* beside nine digits 1e-10 of what has no unit of its own */
+        /* beside nine digits 1e-10 of what has no unit of its own */
+        if (strstr(results[k].given, "humps")) {
             const double x = json_number_value(
                 member(member(member(member(root, "summary"), "patches"), "0"), "to"));
             char value[40];

@@ -378,6 +378,14 @@ static void bytes_are_those_of_the_documentation(void **state)
     rc.elastic_b = 1;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 0), 64.0 * n * n, 1e-15,
               "two bodies while they are added");
+    rb_rolling_case rolls = wheel(rc);
+    const double before = rb_rolling_bytes(&rolls, 40, 90, 60);
+    rolls.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
+    CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 32.0 * n * n, 1e-12,
+              "what a memory adds to a wheel");
+    rolls.b.memory = rolls.a.memory;
+    CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 64.0 * n * n, 1e-12,
+              "to two bodies");
     rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 24.0 * n * n, 1e-15, "Lemke");
     rc.contact.lcp_form = RB_LCP_KWAK;

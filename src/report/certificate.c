@@ -591,6 +591,20 @@ static void compare_solver(rb_certificate *c)
         rb_certificate_violated(c, "summary.lcp_form is none");
 }
 
+/* The library's own formula against one that shares nothing with it. */
+static void check_hysteresis(rb_certificate *c)
+{
+    const double printed = c->summary ? rb_certificate_member(c->summary, "hysteresis")
+                                      : c->again.hysteresis;
+    double allowed;
+
+    if (c->model.rc.formulation != RB_STEADY || !(c->again.n > 0) ||
+        !rb_rolling_relaxes(&c->model.rc))
+        return;
+    const double waves = rb_certificate_hysteresis(c, &allowed);
+    rb_certificate_expect(c, "hysteresis by waves", 0, printed, waves, allowed);
+}
+
 static rb_status compare_results(rb_certificate *c)
 {
     json_t *summary = rb_report_json_summary(&c->again);
@@ -604,6 +618,7 @@ static rb_status compare_results(rb_certificate *c)
         if (c->summary)
             compare_solver(c);
         rb_certificate_motion(c);
+        check_hysteresis(c);
     }
     const rb_status t = summary && table ? RB_OK : RB_ENOMEM;
     json_decref(summary);

@@ -89,6 +89,12 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
 
+/* ---- certificate_power.c ----------------------------------------------------------- */
+
+/* Power per unit speed that the bodies lose in steady rolling, from the state at hand;
+ * allowed: what elements of this size may make of it. */
+double rb_certificate_hysteresis(const rb_certificate *c, double *allowed);
+
 /* ---- certificate_stress.c ---------------------------------------------------------- */
 
 /* Grid or points, maxima and shakedown, computed from the model's tractions. */

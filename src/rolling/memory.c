@@ -20,6 +20,16 @@ static double newton_numbers(double n, double lu)
     return fmax(lu, n * n + 0.25 * lu) + PATH * n;
 }
 
+/* What the memory of a body adds to its flexibility is kept for the hysteresis of pairs
+ * with a wheel. */
+static double kept_for_hysteresis(const rb_rolling_case *rc, double square)
+{
+    const int bodies = (rc->a.memory.n > 0) + (rc->elastic_b && rc->b.memory.n > 0);
+    return rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT)
+               ? sizeof(double) * 4.0 * bodies * square
+               : 0.0;
+}
+
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
 {
     const rb_rolling_mesh mesh = {.n = n};
@@ -33,11 +43,12 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
     const double lcp = rc->contact.solver == RB_SOLVER_LEMKE
                            ? lemke_squares(rc) * square
                            : newton_numbers(n, (double)unknowns * unknowns);
-    const double solution = sizeof(double) * (6.0 * square + lcp);
+    const double solution = sizeof(double) * (6.0 * square + lcp),
+                 kept = kept_for_hysteresis(rc, square);
     if (!boundary)
-        return fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
+        return kept + fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
     const double both = rb_bem_system_bytes(boundary, n),
                  condensation =
                      sizeof(double) * (4.0 * (double)boundary * n + 4.0 * square);
-    return both + fmax(0.0, solution - condensation);
+    return kept + both + fmax(0.0, solution - condensation);
 }

@@ -1,0 +1,209 @@
+/* Hysteresis by a way of its own (theory.md V4, V8): the tractions as waves, each of
+ * which loses by the imaginary part of what answers it.  The library takes the loss from
+ * matrices and from differences along the contact; nothing of that is used here. */
+#include "report/certificate.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef double complex cplx;
+
+/* Displacements (w_N, w_T) under waves exp(im theta) of (p, q), R/(2 G) times
+ * (N p - i C q, T q + i C p). */
+typedef struct {
+    cplx N, C, T;
+} compliance;
+
+/* Its derivative by ln r in a ring of Poisson's ratio nu, over 1/(2 G): equilibrium and
+ * Hooke's law in polar coordinates, a Riccati equation. */
+static compliance slope(double m, double nu, compliance K)
+{
+    const double a = nu / (1.0 - nu), c = 1.0 / (1.0 - nu);
+    const cplx radial = K.N + m * K.C, hoop = K.C + m * K.T;
+
+    return (compliance){1.0 - a - (2.0 * a + c * radial) * radial,
+                        K.C + m * K.N - (a + c * radial) * hoop,
+                        2.0 + 2.0 * K.T + 2.0 * m * K.C - c * hoop * hoop};
+}
+
+static compliance plus(compliance K, double step, compliance d)
+{
+    return (compliance){K.N + step * d.N, K.C + step * d.C, K.T + step * d.T};
+}
+
+/* What a ring makes of the compliance K of its inner contour (Runge and Kutta). */
+static compliance across(double m, double nu, double thickness, compliance K)
+{
+    const int steps = (int)ceil(fmax(8.0, (m + 1.0) * thickness / 0.1));
+    const double h = thickness / steps;
+
+    for (int i = 0; i < steps; i++) {
+        const compliance k1 = slope(m, nu, K), k2 = slope(m, nu, plus(K, 0.5 * h, k1)),
+                         k3 = slope(m, nu, plus(K, 0.5 * h, k2)),
+                         k4 = slope(m, nu, plus(K, h, k3));
+        K = plus(plus(plus(plus(K, h / 6.0, k1), h / 3.0, k2), h / 3.0, k3), h / 6.0, k4);
+    }
+    return K;
+}
+
+/* Of a whole disc, m > 1. */
+static compliance of_disc(double m, double nu)
+{
+    const double outer = 0.5 * (3.0 - 4.0 * nu) / (m + 1.0), inner = 0.5 / (m - 1.0);
+    return (compliance){outer + inner, outer - inner, outer + inner};
+}
+
+/* ln(outer/inner) of the rings of a body; a depth that no wave reaches where there is no
+ * inner contour.  A half-plane is a disc of so large a radius that it is flat. */
+typedef struct {
+    double radius;
+    rb_bem_material material, core;
+    double own, below; /* below = 0: a rigid core */
+    const rb_rolling_memory *memory;
+    double speed;
+} body;
+
+static compliance answer(const body *b, double m)
+{
+    static const double reach = 20.0; /* exp(-2 reach) is left of what lies deeper */
+    compliance K = {0.0, 0.0, 0.0};
+    cplx softer = 1.0;
+
+    for (int k = 0; k < b->memory->n; k++)
+        softer += b->memory->ratio[k] /
+                  (1.0 - I * (m / b->radius * b->speed * b->memory->time[k]));
+    if (m * b->own > reach) {
+        K = of_disc(m, b->material.poisson);
+    } else {
+        if (b->below > 0.0) {
+            const double depth = fmin(b->below, reach / m);
+            if (depth < b->below)
+                K = of_disc(m, b->core.poisson);
+            K = across(m, b->core.poisson, depth, K);
+        }
+        const cplx stiffer = b->material.shear / (b->core.shear * softer);
+        if (b->below > 0.0)
+            K = (compliance){stiffer * K.N, stiffer * K.C, stiffer * K.T};
+        K = across(m, b->material.poisson, b->own, K);
+    }
+    return (compliance){softer * K.N, softer * K.C, softer * K.T};
+}
+
+static body body_of(const rb_rolling_case *rc, const rb_rolling_body *of)
+{
+    static const double flat = 1e7, deep = 100.0;
+    body b = {.material = rb_rolling_material(rc, of),
+              .memory = &of->memory,
+              .speed = rc->speed,
+              .core = rb_bem_material_in_plane(
+                  rc->plane, of->cover > 0.0 ? of->core_young : of->base_young,
+                  of->cover > 0.0 ? of->core_poisson : of->base_poisson)};
+    if (of->support == RB_BEM_HUB) {
+        b.radius = of->radius;
+        b.own = of->cover > 0.0 ? -log1p(-of->cover / of->radius) : -log(of->hub_ratio);
+        if (of->cover > 0.0 && of->core_young > 0.0)
+            b.below = -log(of->hub_ratio) - b.own;
+    } else {
+        b.radius =
+            flat * (of->layer > 0.0 ? of->layer : rb_rolling_derive(rc).half_width);
+        b.own = of->layer > 0.0 ? 1.0 / flat : deep;
+        b.below = of->layer > 0.0 && of->base_young > 0.0 ? deep : 0.0;
+    }
+    return b;
+}
+
+/* Per length of wave number k = m/R: Im of conj(p, q) times m/R (w_N, w_T), over pi. */
+static double loss(const rb_certificate *c, const body *b, int is_b, double m)
+{
+    const rb_rolling_model *model = &c->model;
+    const double *x = c->again.x, *h = c->again.h, k = m / b->radius;
+    const double mirror = is_b ? -1.0 : 1.0;
+    const int turns = (is_b ? model->rc.b : model->rc.a).support == RB_BEM_HUB;
+    cplx p = 0.0, q = 0.0;
+
+    for (int i = 0; i < c->again.n; i++) {
+        if (model->state.p[i] == 0.0 && model->state.q[i] == 0.0)
+            continue;
+        const double P = model->state.p[i], Q = mirror * model->state.q[i];
+        const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
+        const double at = turns ? b->radius * asin(sine) : x[i];
+        const int given = model->rc.normals == RB_BEM_NORMALS_SURFACE;
+        const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine),
+                     turned = given ? 0.0 : sine;
+        const cplx wave =
+            h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
+        p += (P * cosine - Q * turned) * wave;
+        q += (Q * cosine + P * turned) * wave;
+    }
+    const compliance K = answer(b, m);
+    return m / (2.0 * acos(-1.0) * b->material.shear) *
+           (cimag(K.N) * creal(p * conj(p)) + cimag(K.T) * creal(q * conj(q)) +
+            2.0 * cimag(K.C) * cimag(conj(p) * q));
+}
+
+static double lost_in(const rb_certificate *c, const body *b, int is_b)
+{
+    /* Gauss and Legendre, five points */
+    static const double at[3] = {0.0, 0.5384693101056831, 0.9061798459386640},
+                        weight[3] = {0.5688888888888889, 0.4786286704993665,
+                                     0.2369268850561891};
+    const int n = c->again.n;
+    const double width = c->again.x[n - 1] - c->again.x[0], widest = acos(-1.0) / width;
+    const double last = 16.0 * acos(-1.0) * n / width;
+    const int is_wheel = (is_b ? c->model.rc.b : c->model.rc.a).support == RB_BEM_HUB;
+    double sum = 0.0, from = 1e-7 / width;
+
+    if (is_wheel) { /* long waves one by one, short ones as a whole */
+        enum { LONG = 40 };
+        for (int m = 1; m <= LONG; m++)
+            sum += loss(c, b, is_b, m) / b->radius;
+        from = (LONG + 0.5) / b->radius;
+    }
+    while (from < last) {
+        const double step = fmin(widest, from), middle = from + 0.5 * step;
+        for (int i = -2; i <= 2; i++) {
+            const double k = middle + copysign(at[abs(i)], i) * 0.5 * step;
+            sum += 0.5 * step * weight[abs(i)] * loss(c, b, is_b, k * b->radius);
+        }
+        from += step;
+    }
+    return sum;
+}
+
+/* The longest element in contact over half the contact's width, squared, is the error of
+ * differences on a fitted mesh; where an element is longer than what a particle
+ * remembers, it is of first order.  Chords stand for arcs to the second order in a/R. */
+static double discretization(const rb_certificate *c, double shortest)
+{
+    const double width = c->again.half_width;
+    double longest = 0.0, turned = 0.0;
+
+    for (int i = 0; i < c->again.n; i++)
+        if (c->model.state.p[i] > 0.0)
+            longest = fmax(longest, c->again.h[i]);
+    if (!rb_rolling_can(&c->model.rc, RB_BODY_FLAT))
+        turned = width / c->model.rc.a.radius;
+    const double share = longest / width;
+    return share * share + turned * turned + 0.03 * share +
+           0.5 * share * longest / (longest + shortest);
+}
+
+double rb_certificate_hysteresis(const rb_certificate *c, double *allowed)
+{
+    const rb_rolling_case *rc = &c->model.rc;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    double sum = 0.0, shortest = INFINITY;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const rb_rolling_memory *memory = &bodies[b]->memory;
+        for (int k = 0; k < memory->n; k++)
+            shortest = fmin(shortest, rc->speed * memory->time[k]);
+        if (memory->n > 0) {
+            const body of = body_of(rc, bodies[b]);
+            sum += lost_in(c, &of, b);
+        }
+    }
+    *allowed = fabs(sum) * discretization(c, shortest) + 1e-12 * c->again.normal_load;
+    return sum;
+}
