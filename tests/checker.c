@@ -56,9 +56,9 @@ static void expect(const char *law, double got, double want, double tol)
 /* ---- What the program wrote -------------------------------------------------------- */
 
 enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
-static const char *const column_names[COLUMNS] = {"x_mm",   "h_mm",  "gap_mm", "p_MPa",
-                                                  "q_MPa",  "un_mm", "ut_mm",  "shift_mm",
-                                                  "slip", "zone"};
+static const char *const column_names[COLUMNS] = {"x_mm",  "h_mm",  "gap_mm", "p_MPa",
+                                                  "q_MPa", "un_mm", "ut_mm",  "shift_mm",
+                                                  "slip",  "zone"};
 enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE, YIELD_NEGATIVE, YIELD_POSITIVE };
 
 typedef struct {

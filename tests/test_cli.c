@@ -215,8 +215,8 @@ static void output_options_stand_in_the_file_too(void **state)
 static void json_and_table_hold_the_same_numbers(void **state)
 {
     (void)state;
-    static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa",  "q_MPa",
-                                        "un_mm", "ut_mm", "shift_mm", "slip", "zone"};
+    static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
+                                        "un_mm", "ut_mm", "shift_mm", "slip",  "zone"};
     json_t *root = run_json(QUICK " --shift 0.001");
     const json_t *table = json_object_get(root, "table");
     assert_int_equal(rollbem(QUICK " --shift 0.001 --header=bare --quiet"), 0);

@@ -300,7 +300,8 @@ static void a_step_can_be_stopped(void **state)
         CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &why),
                      RB_INTERRUPTED);
         assert_string_equal(why.text, "interrupted after step 0");
-        assert_true(asked >= 3 && asked <= 4); /* the last iterate is measured once more */
+        assert_true(asked >= 3 &&
+                    asked <= 4); /* the last iterate is measured once more */
         CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);
         rb_fem_wall_free(wall);
     }

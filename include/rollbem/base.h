@@ -98,11 +98,12 @@ const char *rb_guess_text(rb_guess *guess, const char *prefix);
  * 4 times the length holds any text. */
 char *rb_printable(const char *text, char *to, size_t size);
 
-/* A finite number in the fewest digits that read back equal: 0.3, 1e-09.  Returns text. */
+/* A finite number in the fewest digits that read back equal: 0.3, 1e-09.  Returns text.
+ */
 enum { RB_NUMBER_TEXT = 32 };
 char *rb_number_text(double x, char text[RB_NUMBER_TEXT]);
-/* Between the two calls this thread reads and writes numbers in the C locale, with points,
- * whatever the host program has set; before: what rb_locale_begin returned. */
+/* Between the two calls this thread reads and writes numbers in the C locale, with
+ * points, whatever the host program has set; before: what rb_locale_begin returned. */
 void *rb_locale_begin(void);
 void rb_locale_end(void *before);
 /* strtod and snprintf in the C locale. */

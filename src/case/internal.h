@@ -35,7 +35,7 @@ struct rb_case {
     case_profile profile;
     int confined;       /* 1: rb_case_confine was called */
     const char *folder; /* of it; borrowed */
-    char **text; /* copies of values; owned */
+    char **text;        /* copies of values; owned */
     int texts;
 };
 

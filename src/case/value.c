@@ -39,7 +39,7 @@ static void range_text(const rb_range *r, char *text, size_t size)
 {
     if (isfinite(r->from) && isfinite(r->to))
         rb_format(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
-                 r->to_open ? ')' : ']');
+                  r->to_open ? ')' : ']');
     else if (isfinite(r->from))
         rb_format(text, size, " %s %g", r->from_open ? ">" : ">=", r->from);
     else if (isfinite(r->to))

@@ -411,9 +411,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        "than %d",
                        RB_ROLLING_LARGE);
     if (rolls && wear->slides)
-        return rb_fail(why, RB_EINVAL,
-                       "wear: --slide needs --formulation static; for a rolling wheel give "
-                       "--cycles N (turns)");
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: --slide needs --formulation static; for a rolling wheel give "
+            "--cycles N (turns)");
     if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
         return rb_fail(why, RB_EINVAL,
                        "wear: a rolling wheel of one elastic material only, got a layer, "

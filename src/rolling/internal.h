@@ -179,8 +179,8 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies,
                                             rb_contact_problem *p, rb_message *why);
-/* The problem of bodies and an operator that belong to another one, which stays their owner:
- * p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
+/* The problem of bodies and an operator that belong to another one, which stays their
+ * owner: p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    const rb_rolling_bodies *bodies,
                                    rb_contact_operator *op, rb_contact_problem *p,
