@@ -160,6 +160,7 @@ static void cold_starts_end_where_lemke_does(void **state)
         if (k == 3)
             rc.mesh = RB_MESH_FITTED;
         rb_rolling_model model = solved_model(&rc);
+        CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
         check_beside_lemke(&model);
         rb_rolling_model_free(&model);
     }
@@ -185,6 +186,7 @@ static void circles_are_left_on_a_path(void **state)
         if (!isnan(rc.force_ratio))
             rc.creep_ratio = NAN;
         rb_rolling_model model = solved_model(&rc);
+        CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
         check_beside_lemke(&model);
         rb_rolling_model_free(&model);
     }

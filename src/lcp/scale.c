@@ -302,23 +302,23 @@ static void row_sums(const lcp_matrix *M, const double *q, const double *z, doub
 }
 
 /* most[i] = the largest terms, in the scale, of the rows that share an unknown with row
- * i: where row i has nothing but their rounding, they are its size. */
-static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s,
+ * i, by its entry there: where row i has nothing but their rounding, they are its size.
+ * An unknown that is zero has no rounding. */
+static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s, const double *z,
                                const double *terms, double *most)
 {
     memset(most, 0, (size_t)M->n * sizeof *most);
     for (int j = 0; j < M->n; j++) {
         const column a = column_of(M, j);
         double largest = 0.0;
-        for (int k = 0; k < a.count; k++) {
+        for (int k = 0; z[j] != 0.0 && k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
             if (a.x[k] != 0.0)
                 largest = fmax(largest, terms[i] * s->row[i]);
         }
-        for (int k = 0; k < a.count; k++) {
+        for (int k = 0; largest > 0.0 && k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
-            if (a.x[k] != 0.0)
-                most[i] = fmax(most[i], largest);
+            most[i] = fmax(most[i], fabs(a.x[k]) * s->row[i] * s->col[j] * largest);
         }
     }
 }
@@ -359,7 +359,7 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
         if (pass == 0 && info->scaled <= EXACT)
             break;
         if (pass == 0)
-            largest_neighbours(M, scale, terms, most);
+            largest_neighbours(M, scale, z, terms, most);
     }
     free(w);
     return RB_OK;

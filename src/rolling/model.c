@@ -146,10 +146,10 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     model->mesh = *mesh;
     memset(mesh, 0, sizeof *mesh);
     rb_status s = set_up(model, kept, why);
-    const int large = !model->bodies.F;
-    if (s == RB_OK && large && near)
+    const int large = s == RB_OK && !model->bodies.F;
+    if (large && near)
         rb_rolling_start_from(&model->rc, &old_mesh, &old, &model->mesh, &model->state);
-    else if (s == RB_OK && large)
+    else if (large)
         s = start_from_coarse(model, why);
     rb_contact_state_free(&old);
     rb_rolling_mesh_free(&old_mesh);
