@@ -973,15 +973,77 @@ static void cracks(void **state)
     CHECK_ABS(*K / (2.0 * sqrt(3.14159265358979)), 0.70491, 2e-4, "45 degrees");
     assert_non_null(rb_api_array(a, "crack.K_II", &rows, &columns));
     assert_int_equal(rows, 1);
+    /* K_I of the last node's opening, which the picture shows; whatever the units */
+    const double *D = rb_api_array(a, "crack.opening", &rows, &columns);
+    assert_int_equal(rows, 40);
+    assert_int_equal(columns, 1);
+    assert_true(D[rows - 1] > 0.0 && D[0] > D[rows - 1]);
+    const double tip = rb_api_array(a, "crack.path.x", &rows, &columns)[1], K_mm = *K;
+    CHECK_REL(tip, sqrt(0.5), 1e-14, "tip");
+    CHECK_REL(rb_api_array(a, "crack.node.t_y", &rows, &columns)[0], -sqrt(0.5), 1e-14,
+              "direction");
+    const double *length = rb_api_array(a, "crack.node.length", &rows, &columns);
+    double sum = 0.0;
+    for (int j = 0; j < rows; j++)
+        sum += length[j];
+    CHECK_ABS(sum, 1.0, 2e-3, "lengths of the nodes but for half an element at the tip");
+    rb_api_set(a, "units", "si");
+    rb_api_set(a, "half-width", "0.001");
+    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"45", "yes", "2e6"}),
+                     RB_OK);
+    CHECK_REL(*rb_api_array(a, "crack.summary.K_I_max", &rows, &columns), K_mm, 1e-9,
+              "in mm, N and MPa");
     assert_true(rb_api_crack(a, 2, names, (const char *const[]){"0", "yes"}) < 0);
     assert_true(rb_api_crack(a, 1, (const char *const[]){"crack-lenght"}, values) < 0);
     assert_non_null(strstr(rb_api_message(a), "crack-length"));
     rb_api_free(a);
 }
 
+/* By handle as by rb_case_differentiate; both sides of a border, one of an end. */
+static void derivatives(void **state)
+{
+    rb_api *a = rb_api_create();
+    char name[40], unit[20], why[200];
+    int rows, columns, mu = -1, layer = -1;
+    (void)state;
+
+    assert_true(rb_api_derivatives(a) < 0);
+    assert_null(rb_api_array(a, "derivative.tangential_load", &rows, &columns));
+
+    rb_api_free(a);
+    a = solved((const char *const[]){"support", "halfplane", "similar", "yes", "load",
+                                     "500", "formulation", "steady", "creep-ratio", "3",
+                                     "contact-elements", "30", NULL});
+    assert_null(rb_api_input(a, 0, "name", name, sizeof name));
+    assert_int_equal(rb_api_derivatives(a), RB_OK);
+    for (int k = 0; rb_api_input(a, k, "name", name, sizeof name); k++) {
+        mu = strcmp(name, "mu") == 0 ? k : mu;
+        layer = strcmp(name, "interlayer-normal") == 0 ? k : layer;
+        assert_string_equal(rb_api_input(a, k, "refusal", why, sizeof why), "");
+        assert_non_null(rb_api_input(a, k, "unit", unit, sizeof unit));
+    }
+    assert_true(mu >= 0 && layer >= 0);
+    const double *x = rb_api_array(a, "derivative.tangential_load", &rows, &columns);
+    assert_non_null(x);
+    assert_int_equal(rows, 1);
+    CHECK_REL(x[2 * mu], -500.0, 1e-10, "it slides: Q = -mu P");
+    CHECK_REL(x[2 * mu + 1], -500.0, 1e-10, "on both sides");
+    assert_true(isnan(x[2 * layer]) && !isnan(x[2 * layer + 1]));
+    const double *q = rb_api_array(a, "derivative.q", &rows, &columns);
+    const double *p = rb_api_array(a, "p", &rows, &columns);
+    for (int i = 0; i < rows; i++)
+        CHECK_ABS(q[i + rows * 2 * mu], -p[i], 1e-9 * fabs(p[rows / 2]), "q of %d", i);
+    assert_non_null(rb_api_array(a, "derivative.value", &rows, &columns));
+    assert_null(rb_api_array(a, "derivative.solver", &rows, &columns));
+    rb_api_set(a, "mu", "0.2"); /* forgets them */
+    assert_null(rb_api_array(a, "derivative.q", &rows, &columns));
+    rb_api_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(derivatives),
         cmocka_unit_test(notes_and_closed_forms),
         cmocka_unit_test(descriptions_are_complete),
         cmocka_unit_test(what_was_refused_is_not_solved),

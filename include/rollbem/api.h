@@ -113,6 +113,15 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                orthogonal_shear, tension
  *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
  *   crack.summary.K_I_max ...    one number each
+ *   crack.opening crack.sliding crack.zone  nodes x positions
+ *   crack.node.x crack.node.y crack.node.length   an entry per node: its place, and the
+ *                                length that it stands for
+ *   crack.node.t_x crack.node.t_y           the direction of the crack there
+ *   crack.path.x crack.path.y    corners of the crack, from its mouth to the tip
+ *   derivative.NAME              after rb_api_derivatives, of a number or a column of the
+ *                                solution, rows x (2 per input): for a falling and for a
+ *                                growing input; NAN: none
+ *   derivative.value             the inputs' values
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
@@ -141,6 +150,13 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth);
 /* Passes the contact of a handle for "crack" over a crack in body B, with n options of
  * `rollbem crack` by their names and texts ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
+/* Derivatives of every number and column of the solution with respect to every number of
+ * the case, on the elements as they are; of one step, without error bars. */
+int rb_api_derivatives(rb_api *a);
+/* Input k = 0, 1, ... of these: "name" (of its option; "mu-fall-2": the second number of
+ * its list), "unit", "refusal" (why it has no derivatives, or nothing).  NULL: there is
+ * none. */
+const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
 /* At n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);
 /* The largest stresses and where they are, to a depth in length (0: automatic). */

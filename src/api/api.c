@@ -154,6 +154,7 @@ static void forget(rb_api *a, int same_bodies)
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
+    rb_case_derivatives_free(&a->derivatives);
     rb_case_result_free(&a->result);
     memset(&a->lcp, 0, sizeof a->lcp);
     memset(&a->result, 0, sizeof a->result);
@@ -606,6 +607,38 @@ static api_array *series_array(rb_api *a, const char *name)
                         name + n);
 }
 
+/* Of result `name` with respect to all inputs, the two sides of each beside each other.
+ */
+static api_array *derivative_array(rb_api *a, const char *name, const char *result)
+{
+    const rb_case_derivatives *all = &a->derivatives;
+    int is_column;
+    const rb_rolling_result *r = rb_case_derivative_result(result, &is_column);
+    const int values = strcmp(result, "value") == 0;
+    const int rows = !values && is_column ? a->result.solution.n : 1;
+    api_array *made = all->n > 0 && (r || values)
+                          ? rb_api_make_array(a, name, rows, values ? all->n : 2 * all->n)
+                          : NULL;
+
+    for (int k = 0; made && k < all->n; k++) {
+        const rb_case_derivative *of = &all->of[k];
+        if (values)
+            made->at[k] = of->value;
+        for (int side = 0; side < 2 && !values; side++) {
+            const int from = of->status == RB_OK && of->d.sides == 1 ? 0 : side;
+            const rb_rolling_solution *d = &of->d.value[from];
+            const int has = of->status == RB_OK && of->d.has[from] &&
+                            (!is_column || rb_rolling_has_column(r, d));
+            for (int i = 0; i < rows; i++)
+                made->at[i + rows * (2 * k + side)] = !has ? NAN
+                                                      : !is_column
+                                                          ? rb_rolling_number(r, d)
+                                                          : rb_rolling_entry(r, d, i);
+        }
+    }
+    return made;
+}
+
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 {
     api_array *made = rb_api_find_array(a, name);
@@ -617,6 +650,8 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = power_array(a, name);
     if (!made && strncmp(name, "closed.", 7) == 0)
         made = closed_array(a, name);
+    if (!made && strncmp(name, "derivative.", 11) == 0)
+        made = derivative_array(a, name, name + 11);
     if (!made && a->result.model.mesh.n > 0)
         made = model_array(a, name);
     *rows = made ? made->rows : 0;
@@ -939,6 +974,40 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
     return rb_api_ended(a, s);
 }
 
+/* ---- Derivatives ------------------------------------------------------------------- */
+
+int rb_api_derivatives(rb_api *a)
+{
+    begin(a);
+    rb_api_forget_arrays(a, "derivative.");
+    rb_case_derivatives_free(&a->derivatives);
+    rb_api_call_begins();
+    const rb_status s =
+        a->result.solution.n > 0 && a->result.model.state.p
+            ? rb_case_differentiate(a->words, &a->result.model, 0, NULL, &a->derivatives,
+                                    &a->why)
+            : rb_fail(&a->why, RB_EINVAL,
+                      "derivatives: of a solved case of one step, without error bars");
+    rb_api_call_ends();
+    if (s != RB_OK)
+        rb_case_derivatives_free(&a->derivatives);
+    return rb_api_ended(a, s);
+}
+
+const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size)
+{
+    const rb_case_derivatives *all = &a->derivatives;
+    if (k < 0 || k >= all->n || size < 1)
+        return NULL;
+    const rb_case_derivative *of = &all->of[k];
+    const char *what = strcmp(field, "name") == 0   ? of->name
+                       : strcmp(field, "unit") == 0 ? of->unit
+                       : strcmp(field, "refusal") == 0
+                           ? (of->status == RB_OK ? "" : of->why.text)
+                           : NULL;
+    return what ? written(what, text, size) : NULL;
+}
+
 /* ---- Cracks ------------------------------------------------------------------------ */
 
 /* Typed values as they are given: rb_case_store reads plain numbers in the case's units.
@@ -987,6 +1056,42 @@ static rb_status keep_crack(rb_api *a, const rb_case_crack_result *r)
     return RB_OK;
 }
 
+/* What a picture of the open crack is drawn from. */
+static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
+{
+    const rb_crack_history *h = &r->history;
+    const rb_crack_path *path = &r->shape.path;
+    const int n = h->nodes, steps = h->n;
+    rb_crack *crack = NULL;
+    api_array *at[8];
+    static const char *const of_nodes[] = {"crack.node.x", "crack.node.y",
+                                           "crack.node.length", "crack.node.t_x",
+                                           "crack.node.t_y"},
+                             *const of_steps[] = {"crack.opening", "crack.sliding",
+                                                  "crack.zone"};
+    rb_status s = rb_crack_create(&r->shape, &crack, &a->why);
+
+    for (int k = 0; k < 8 && s == RB_OK; k++) {
+        at[k] = k < 5 ? rb_api_make_array(a, of_nodes[k], n, 1)
+                      : rb_api_make_array(a, of_steps[k - 5], n, steps);
+        s = at[k] ? RB_OK : RB_ENOMEM;
+    }
+    if (s == RB_OK)
+        rb_crack_places(crack, at[0]->at, at[1]->at, at[2]->at, at[3]->at, at[4]->at);
+    for (int k = 0; k < n * steps && s == RB_OK; k++) {
+        const double *D = h->D + (size_t)(k / n) * 2 * (size_t)n;
+        at[5]->at[k] = D[k % n];
+        at[6]->at[k] = D[n + k % n];
+        at[7]->at[k] = h->zone[k];
+    }
+    rb_crack_free(crack);
+    if (s == RB_OK &&
+        (!rb_api_copy_array(a, "crack.path.x", path->pieces + 1, 1, path->x) ||
+         !rb_api_copy_array(a, "crack.path.y", path->pieces + 1, 1, path->y)))
+        s = RB_ENOMEM;
+    return s;
+}
+
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values)
 {
     rb_case_crack crack = rb_case_crack_defaults();
@@ -1000,10 +1105,10 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
     if (s == RB_OK)
         s = rb_case_crack_solve(rb_case_resolved(a->words), &crack, &result, &a->why);
     rb_api_call_ends();
-    if (s == RB_OK) {
-        rb_case_crack_convert(&result, rb_case_resolved(a->words)->units);
+    if (s == RB_OK)
         s = keep_crack(a, &result);
-    }
+    if (s == RB_OK)
+        s = keep_faces(a, &result);
     rb_case_crack_free(&result);
     return rb_api_ended(a, s);
 }

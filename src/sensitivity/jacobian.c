@@ -231,7 +231,7 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
     }
     x[2 * m] = -rate->normal;
     x[2 * m + 1] = -rate->tangential;
-    const rb_status status = rb_lapack_status(LAPACKE_dgetrs(
+    const rb_status status = rb_lapack_status(LAPACKE_dgetrs_work(
         LAPACK_COL_MAJOR, 'N', f->size, 1, f->J, f->size, f->pivot, x, f->size));
     for (int i = 0; i < s->n; i++)
         tangent->p[i] = tangent->q[i] = 0.0;
@@ -263,7 +263,7 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
     }
     x[2 * m] = f->unknown[2 * m] * weight->delta;
     x[2 * m + 1] = f->unknown[2 * m + 1] * weight->xi;
-    const rb_status status = rb_lapack_status(LAPACKE_dgetrs(
+    const rb_status status = rb_lapack_status(LAPACKE_dgetrs_work(
         LAPACK_COL_MAJOR, 'T', f->size, 1, f->J, f->size, f->pivot, x, f->size));
     memset(adjoint->gap, 0, 4 * (size_t)s->n * sizeof *adjoint->gap);
     for (int c = 0; c < m; c++) {

@@ -20,6 +20,16 @@ double gsl_pow_2(const double x)
     return x * x;
 }
 
+double gsl_pow_3(const double x)
+{
+    return x * x * x;
+}
+
+double gsl_pow_4(const double x)
+{
+    return gsl_pow_2(x * x);
+}
+
 double gsl_pow_int(double x, int n)
 {
     double y = 1.0;

@@ -126,6 +126,45 @@ int LAPACKE_dgetri(int layout, int n, double *A, int lda, const int *pivots)
     return 0;
 }
 
+/* A = U'U column by column, in the upper triangle; uplo is 'U' here. */
+int LAPACKE_dpotrf(int layout, char uplo, int n, double *A, int lda)
+{
+    (void)layout;
+    (void)uplo;
+    for (int j = 0; j < n; j++) {
+        double *column = A + (size_t)j * (size_t)lda;
+        for (int i = 0; i <= j; i++) {
+            const double *other = A + (size_t)i * (size_t)lda;
+            const double left = column[i] - cblas_ddot(i, other, 1, column, 1);
+            if (i == j && !(left > 0.0))
+                return j + 1;
+            column[i] = i == j ? sqrt(left) : left / other[i];
+        }
+    }
+    return 0;
+}
+
+/* The upper triangle of the inverse, from U: columns of U^-1 U^-T e_j. */
+int LAPACKE_dpotri(int layout, char uplo, int n, double *A, int lda)
+{
+    double *X = calloc((size_t)n * (size_t)n + 1, sizeof *X);
+    (void)layout;
+    (void)uplo;
+    if (!X)
+        return LAPACK_WORK_MEMORY_ERROR;
+    for (int i = 0; i < n; i++)
+        X[(size_t)i * ((size_t)n + 1)] = 1.0;
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, n, n, 1.0,
+                A, lda, X, n);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, n, n,
+                1.0, A, lda, X, n);
+    for (int j = 0; j < n; j++)
+        memcpy(A + (size_t)j * (size_t)lda, X + (size_t)j * (size_t)n,
+               ((size_t)j + 1) * sizeof *X);
+    free(X);
+    return 0;
+}
+
 /* Hager's estimate of the 1-norm of the inverse from an LU whose rows keep their order:
  * as dgecon, the permutation does not matter. */
 int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda,

@@ -15,6 +15,8 @@ int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *piv
                        double *B, int ldb);
 int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda,
                         double anorm, double *rcond, double *work, int *iwork);
+int LAPACKE_dpotrf(int layout, char uplo, int n, double *A, int lda);
+int LAPACKE_dpotri(int layout, char uplo, int n, double *A, int lda);
 int LAPACKE_dlaswp_work(int layout, int n, double *A, int lda, int k1, int k2,
                         const int *pivots, int incx);
 
