@@ -158,7 +158,7 @@ static void fitted_and_equal_elements_agree(void **state)
         rc.b.young = rc.a.young * exp(uniform(-2.0, 2.0));
         rb_rolling_case fine = rc;
         rc.mesh = RB_MESH_FITTED;
-        fine.contact_elements = 300;
+        fine.contact_elements = 600;
         rb_rolling_solution s = solved(&rc), f = solved(&fine);
         check_ends(&s, "fitted");
         check_ends(&f, "equal");

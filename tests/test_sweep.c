@@ -134,9 +134,9 @@ static const struct {
     {"--vary-1 'mu 0.1' --error --results error_peclet", 64, "peclet has no error bar"},
     {"--vary-1 'mu 0.1' --error --results error_approch", 64,
      "(did you mean 'error_approach'?)"},
-    {"--vary-1 'mu 0.1' --layer-thickness 1 --base-young 1e5 --base-poisson .3 "
-     "--results von_mises",
-     64, "inside a homogeneous elastic body only"},
+    {"--vary-1 'mu 0.1' --support hub --cover-thickness 5 --core-young 2e5 "
+     "--relaxation-time 1 --relaxation-ratio 1 --speed 100 --results von_mises",
+     64, "on an elastic core it depends on the past"},
     {"--cases nowhere", 66, "nowhere: No such file"},
     {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 64, "at most 1e8"},
     {"--vary-1 'mu 0.1' --output /no/such/file", 73,

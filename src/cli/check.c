@@ -112,16 +112,30 @@ static void compare_command(const char *path, const json_t *root, const char *fo
     }
 }
 
+/* Jansson 2.14 cuts a text that it has no memory for and reads on. */
+static int memory_was_refused;
+
+static void *noting_malloc(size_t size)
+{
+    void *memory = malloc(size);
+    memory_was_refused |= !memory;
+    return memory;
+}
+
 static cli_exit check_json(const char *path, const char *text, size_t size,
                            const char *folder, int is_confined, rb_case *words)
 {
     rb_report_certificate found = {0};
     rb_message why = {""};
     json_error_t error;
+    memory_was_refused = 0;
+    json_set_alloc_funcs(noting_malloc, free);
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    /* jansson says nothing where it could not even begin */
-    if (!root && (!error.text[0] || json_error_code(&error) == json_error_out_of_memory))
+    json_set_alloc_funcs(malloc, free);
+    if (memory_was_refused) {
+        json_decref(root);
         return cli_say(RB_ENOMEM, &why);
+    }
     if (!json_is_object(root)) {
         json_decref(root);
         return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,

@@ -331,10 +331,12 @@ static int within_reach(int places, double reach, double *x, double *gap)
     return n;
 }
 
-/* Neighbouring places of overlap as one stretch, reaching to the next places without. */
-static void add_place(const double *x, int places, int i, rb_rolling_overlap *o)
+/* Neighbouring places of overlap as one stretch, reaching to the next places without, or
+ * by h where there is none. */
+static void add_place(const double *x, int places, int i, double h, rb_rolling_overlap *o)
 {
-    const double from = i > 0 ? x[i - 1] : x[i], to = i + 1 < places ? x[i + 1] : x[i];
+    const double from = i > 0 ? x[i - 1] : x[i] - h;
+    const double to = i + 1 < places ? x[i + 1] : x[i] + h;
     const int last = o->count - 1;
 
     if (o->count > 0 && (from <= o->to[last] || o->count == RB_MOST_OVERLAPS))
@@ -376,7 +378,13 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
         status = displacement(model, state, s, &(targets){places + 2, x, w});
     for (int i = 0; i < places && status == RB_OK; i++)
         if (gap[i] - state->delta + w[i] < -tolerance)
-            add_place(x, places, i, o);
+            add_place(x, places, i, shortest(mesh), o);
+    for (int k = 0; k < o->count; k++) {
+        double from, to;
+        rb_rolling_extent(&model->rc, &from, &to);
+        o->from[k] = fmax(o->from[k], from);
+        o->to[k] = fmin(o->to[k], to);
+    }
     return status;
 }
 
