@@ -203,7 +203,8 @@ static void what_is_left_out_is_said(void **state)
         int code;
         const char *change, *said;
     } all[] = {
-        {1, "s/ 3 MODULE/ 1 MODULE/", "skipped: module 1 (module 3 alone is read) is not supported"},
+        {1, "s/ 3 MODULE/ 1 MODULE/",
+         "skipped: module 1 (module 3 alone is read) is not supported"},
         {1, "s/^ 1$/ -1/", "skipped: Hertzian input (IPOTCN = -1)"},
         {1, "s/1   1   IBASE/9   1   IBASE/", "skipped: IBASE = 9"},
         {1, "s/0.0016666/-0.0016666/", "skipped: a gap without curvature"},
