@@ -63,7 +63,7 @@ typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 
 typedef struct {
     int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps */
-    double seconds;      /* time limit, but not of newton; 0: none */
+    double seconds;      /* time limit; 0: none */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
     const double *start; /* newton and mixed, n: z_i is basic at first where this is
@@ -78,11 +78,12 @@ typedef struct {
 
 /* Whoever hands one out takes NULL as well. */
 typedef struct {
-    int iters;        /* pivots; newton: linear systems */
-    double res;       /* max |min(z, Mz + q)|, recomputed from z alone */
-    double scaled;    /* the same with each row in its own scale; decides */
-    int row;          /* the row of `scaled`; -1: none */
-    int ray_variable; /* RB_RAY: the entering variable that no row blocks; else -1 */
+    const char *solver; /* that gave the answer: static text, NULL where nothing ran */
+    int iters;          /* pivots; newton: linear systems; auto: of all methods */
+    double res;         /* max |min(z, Mz + q)|, recomputed from z alone */
+    double scaled;      /* the same with each row in its own scale; decides */
+    int row;            /* the row of `scaled`; -1: none */
+    int ray_variable;   /* RB_RAY: the entering variable that no row blocks; else -1 */
     rb_message msg;
 } rb_lcp_info;
 

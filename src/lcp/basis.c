@@ -113,6 +113,7 @@ rb_status rb_lcp_basis_factor(lcp_basis *b)
     /* ordering and analysis take as long as so many operations per entry */
     if (s == RB_OK)
         b->work += 150.0 * rb_sparse_lu_entries(b->lu);
+    b->operations += b->work;
     return s == RB_EINVAL ? RB_SINGULAR : s;
 }
 
@@ -161,6 +162,8 @@ rb_status rb_lcp_basis_solve(lcp_basis *b, const double *g, int refined, double 
             y[b->index[e]] -= b->value[e] * x;
     }
     b->pending += 2.0 * (double)b->start[b->exchanges];
+    b->operations += 2.0 * (double)b->start[b->exchanges];
+    b->operations += b->lu ? 2.0 * rb_sparse_lu_entries(b->lu) : 0.0;
     return s;
 }
 

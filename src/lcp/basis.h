@@ -26,6 +26,7 @@ typedef struct {
     double *g, *rhs, *x; /* n */
     int place_of_t;      /* its slot at the last factorisation, or -1 */
     double work;         /* operations of the LU */
+    double operations;   /* of all LUs and solutions so far */
 
     int exchanges;
     int *pivot;     /* slot r of each exchange */

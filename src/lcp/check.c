@@ -96,3 +96,22 @@ rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
                                M->i[k] + 1, j + 1, M->x[k]);
     return s == RB_OK ? check_q(M->cols, q, why) : s;
 }
+
+rb_status rb_lcp_check_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                             rb_message *why)
+{
+    rb_status s = rb_lcp_check_sparse(p->M, p->q, opt, why);
+    if (s == RB_OK)
+        s = rb_lcp_check_boxes(p->M->rows, p->lower, p->upper, why);
+    for (int i = 0; s == RB_OK && i < p->M->rows; i++) {
+        const double cover = opt->cover ? opt->cover[i] : 1.0;
+        const double start = opt->start ? opt->start[i] : 0.0;
+        if (!(isfinite(cover) && cover >= 0.0))
+            s = rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
+                        i + 1, cover);
+        else if (!isfinite(start))
+            s = rb_fail(why, RB_EINVAL, "lcp: start(%d) = %g: expected a finite number",
+                        i + 1, start);
+    }
+    return s;
+}

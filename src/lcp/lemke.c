@@ -1,7 +1,6 @@
 /* Lemke's method with a lexicographic rule (Cottle, Pang, Stone, algorithm 4.4.5): from
  * the first pivot to the ratio test, the path of complementary pivots and its end. */
 #include "lcp/lemke.h"
-#include "lcp/scale.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -255,34 +254,46 @@ rb_status rb_lcp_assess(rb_lcp_info *info)
                          info->row + 1, info->scaled, info->iters);
 }
 
+/* Of a pivot, bringing columns up to date included: what the tableau's table of
+ * docs/lcp.md comes to. */
+static double work_of_pivot(int n)
+{
+    return 300.0 + 8.0 * n + 0.045 * (double)n * n;
+}
+
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
  * leaves or vanishes (solved) or nothing blocks the entering variable (secondary ray). */
-static rb_status follow_path(lemke *l)
+static rb_status follow_path(void *state)
 {
+    lemke *l = state;
     const int z0 = 2 * l->n;
-    int row = first_row(l);
-    if (row < 0)
-        return RB_OK;
-    driving_column(l, z0);
-    int leaving = pivot(l, row, z0);
-    l->start = l->refreshed = lemke_z0(l);
-
-    for (;;) {
-        const int entering = rb_lcp_complement(l->n, leaving);
-        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->n, l->began);
+    int row = 0;
+    if (l->leaving < 0) {
+        row = first_row(l);
+        if (row < 0)
+            return RB_OK;
+        driving_column(l, z0);
+        l->leaving = pivot(l, row, z0);
+        l->start = l->refreshed = lemke_z0(l);
+    }
+    while (!rb_lcp_pauses(&l->work)) {
+        const int entering = rb_lcp_complement(l->n, l->leaving);
+        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->n, l->task->began);
         if (s == RB_OK)
             s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
             s = rb_lcp_fail_ray(l->info, l->n, entering, lemke_z0(l));
         if (s != RB_OK)
             return s;
-        leaving = pivot(l, row, entering);
-        if (leaving == z0)
+        l->leaving = pivot(l, row, entering);
+        l->work.used += work_of_pivot(l->n);
+        if (l->leaving == z0)
             return RB_OK;
         s = rb_lcp_lemke_keep_accurate(l);
         if (s != RB_OK || lemke_z0(l) <= VANISHED * l->start)
             return s;
     }
+    return RB_OK;
 }
 
 /* ---- All together ------------------------------------------------------------------ */
@@ -300,7 +311,7 @@ static rb_status allocate(lemke *l)
     const size_t n = (size_t)l->n;
     const int traced = l->opt.trace && l->opt.trace_tableau;
     const rb_status s = rb_lcp_tableau_create(&l->data, &l->t);
-    l->a = rb_alloc(n + 1, 6);
+    l->a = rb_alloc(n + 1, 7);
     l->tied = rb_alloc_int(n);
     l->image = traced ? rb_alloc(n, n + 2) : NULL;
     if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
@@ -313,48 +324,90 @@ static rb_status allocate(lemke *l)
     return RB_OK;
 }
 
-static void release(lemke *l)
+/* In the scale; ties of q's least entries, which the long paths of Murty and Fathi need,
+ * are none under a generic cover. */
+static void choose_cover(lemke *l, double *cover)
 {
+    unsigned long long seed = 20260101;
+    if (l->data.cover || !l->task->generic)
+        return;
+    for (int i = 0; i < l->n; i++)
+        cover[i] = rb_lcp_random(&seed);
+    l->data.cover = cover;
+}
+
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
+                       void *state)
+{
+    lemke *l = state;
+    const lcp_matrix *M = &task->M;
+    const int n = M->n;
+    *l = (lemke){.work.allowed = INFINITY,
+                 .task = task,
+                 .leaving = -1,
+                 .n = n,
+                 .info = info,
+                 .opt = *task->opt};
+    l->data = (lcp_data){{n, M->dense, M->ld, task->q}, task->opt->cover};
+    rb_status s = rb_lcp_scale_create(M, task->q, balance_q, &l->scale);
+    l->largest = l->scale.largest;
+    if (s == RB_OK && l->scale.needed) {
+        s = rb_lcp_scaled_create(M, &l->scale, task->q, NULL, NULL, task->opt,
+                                 &l->scaled);
+        if (s == RB_OK) {
+            l->opt = l->scaled.opt;
+            l->data = (lcp_data){{n, l->scaled.dense, n, l->scaled.q}, l->opt.cover};
+            l->largest = 1.0;
+        }
+    }
+    s = s == RB_ENOMEM ? fail_memory(l) : allocate(l);
+    if (s == RB_OK)
+        choose_cover(l, l->weight + n + 1);
+    return s;
+}
+
+static rb_status end(void *state, rb_status s, double *z)
+{
+    lemke *l = state;
+    const lcp_task *task = l->task;
+    if (s >= 0) {
+        rb_lcp_lemke_answer(l, s == RB_OK, z);
+        if (l->scaled.q)
+            rb_lcp_scale_back(&l->scale, l->n, z);
+        if (rb_lcp_measure(&task->M, &l->scale, task->q, NULL, NULL, z, l->info) != RB_OK)
+            s = fail_memory(l);
+    }
+    if (s == RB_OK)
+        s = rb_lcp_assess(l->info);
     rb_lcp_tableau_free(&l->t);
     free(l->a);
     free(l->tied);
     free(l->image);
+    rb_lcp_scaled_free(&l->scaled);
+    rb_lcp_scale_free(&l->scale);
+    return s;
 }
 
-/* One path, of the problem in its scale.  RB_INACCURATE: its end does not solve. */
-static rb_status solve(const rb_lcp_problem *p, const rb_lcp_options *opt, int always,
-                       double *z, rb_lcp_info *info)
+const lcp_method rb_lcp_tableau_method = {"lemke", sizeof(lemke), begin, follow_path,
+                                          end};
+
+rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state,
+                     double *z, rb_lcp_info *info)
 {
-    const lcp_matrix M = {.n = p->n, .dense = p->M, .ld = p->ldm};
-    lemke l = {.n = p->n, .began = rb_seconds(), .info = info, .opt = *opt};
-    lcp_scale scale = {0};
-    lcp_scaled scaled = {0};
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    l.data = (lcp_data){*p, opt->cover};
-    rb_status s = rb_lcp_scale_create(&M, p->q, always, &scale);
-    l.largest = scale.largest;
-    if (s == RB_OK && scale.needed) {
-        s = rb_lcp_scaled_create(&M, &scale, p->q, NULL, NULL, opt, &scaled);
-        if (s == RB_OK) {
-            l.opt = scaled.opt;
-            l.data = (lcp_data){{p->n, scaled.dense, p->n, scaled.q}, l.opt.cover};
-            l.largest = 1.0;
-        }
+    int first = 0;
+    rb_status s = RB_OK;
+    for (int balance_q = 0; balance_q < 2; balance_q++) {
+        *info = RB_LCP_INFO_NONE;
+        s = method->begin(task, balance_q, info, state);
+        if (s == RB_OK)
+            s = method->go_on(state);
+        s = method->end(state, s, z);
+        info->iters += first;
+        first = info->iters;
+        if (s != RB_INACCURATE)
+            break;
     }
-    s = s == RB_ENOMEM ? fail_memory(&l) : allocate(&l);
-    if (s == RB_OK) {
-        s = follow_path(&l);
-        rb_lcp_lemke_answer(&l, s == RB_OK, z);
-        if (scaled.q)
-            rb_lcp_scale_back(&scale, p->n, z);
-        if (rb_lcp_measure(&M, &scale, p->q, NULL, NULL, z, info) != RB_OK)
-            s = fail_memory(&l);
-    }
-    if (s == RB_OK)
-        s = rb_lcp_assess(info);
-    release(&l);
-    rb_lcp_scaled_free(&scaled);
-    rb_lcp_scale_free(&scale);
+    info->solver = method->name;
     return s;
 }
 
@@ -364,14 +417,14 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};
     info = info ? info : &unread;
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    rb_status s = rb_lcp_check_dense(p, &o, &info->msg);
-    if (s == RB_OK)
-        s = solve(p, &o, 0, z, info);
-    if (s == RB_INACCURATE) {
-        const int first = info->iters;
-        s = solve(p, &o, 1, z, info);
-        info->iters += first;
-    }
-    return s;
+    *info = RB_LCP_INFO_NONE;
+    const rb_status s = rb_lcp_check_dense(p, &o, &info->msg);
+    if (s != RB_OK)
+        return s;
+    const lcp_task task = {.M = {.n = p->n, .dense = p->M, .ld = p->ldm},
+                           .q = p->q,
+                           .opt = &o,
+                           .began = rb_seconds()};
+    lemke l;
+    return rb_lcp_run(&rb_lcp_tableau_method, &task, &l, z, info);
 }

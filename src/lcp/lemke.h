@@ -3,6 +3,7 @@
 #ifndef LCP_LEMKE_H
 #define LCP_LEMKE_H
 
+#include "lcp/method.h"
 #include "lcp/tableau.h"
 
 #include <math.h>
@@ -22,6 +23,11 @@ static const double ZERO = 1e-10;
 static const double VANISHED = 1e-13;
 
 typedef struct {
+    lcp_work work;
+    const lcp_task *task;
+    lcp_scale scale;
+    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
+    int leaving;       /* what left last; -1: z0 has not entered yet */
     int n;
     lcp_data data;
     rb_lcp_options opt;
@@ -32,7 +38,6 @@ typedef struct {
     double *weight;          /* n + 1: of the columns */
     int *tied;               /* n: rows that tie; scratch */
     double *image;           /* n x (n + 2): the whole tableau for the trace, or NULL */
-    double began;            /* on rb_seconds() */
     double start, refreshed; /* z0 after the first pivot, at the last refresh */
     int checked, rebuilt;    /* pivots at the last refresh, at the last rebuild */
     double largest;          /* max |M| */
@@ -45,6 +50,10 @@ static inline double lemke_z0(const lemke *l)
     const int row = l->t.place[2 * l->n];
     return row >= 0 ? l->t.q[row] : 0.0;
 }
+
+/* Nothing is known yet. */
+#define RB_LCP_INFO_NONE                                                                 \
+    ((rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1})
 
 /* ---- The ends that the methods share (lemke.c, newton.c) --------------------------- */
 
@@ -66,6 +75,10 @@ rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
                               const rb_lcp_options *opt, rb_message *why);
 /* lower, upper: n, NULL as in rb_lcp_mixed_problem.  RB_EINVAL: crossed bounds. */
 rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,
+                             rb_message *why);
+
+/* All of these but q's cover, which the path itself looks for. */
+rb_status rb_lcp_check_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                              rb_message *why);
 
 static inline double rb_lcp_lower(const double *lower, int i)

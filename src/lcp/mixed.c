@@ -4,7 +4,6 @@
  * and Software 5, 1995, for boxes and for starts from a given point). */
 #include "lcp/basis.h"
 #include "lcp/lemke.h"
-#include "lcp/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +17,23 @@ static const double AWAY = 1.0 + 1e-9;
 
 enum { NONE = -1, OPPOSITE = -2 }; /* in place of a slot: no block; the other bound */
 
+/* A free z(i) is the difference of two that are not negative: its own and one more, whose
+ * w is minus w(i).  Then all z can start at a bound, whatever M is. */
 typedef struct {
+    int n, *of;  /* order; n - rows of M: the i that each more belongs to; owned */
+    rb_sparse M; /* owned when there are any */
+    double *q, *lower, *upper, *start, *cover; /* n each; q owns all; of the options that
+                                                  are NULL, NULL */
+} split;
+
+typedef struct {
+    lcp_work work;
+    const lcp_task *task;
+    split f;
+    lcp_scale scale;
+    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
+    int underway;      /* 0: the path has not begun */
+    int leaving;       /* what left last */
     int n,
         given; /* order; that of the caller's problem, before free variables are split */
     const int *of; /* n - given: whose other half each more is */
@@ -26,13 +41,13 @@ typedef struct {
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
     lcp_basis b;
-    int *at_upper;         /* n: the bound of a nonbasic z, and of w's sign with it */
-    double *value;         /* n, by slots: the basic variables */
-    double *generic;       /* n, by slots: their derivatives by the perturbation */
-    double *shift;         /* n: q is q + e shift for a small e, which resolves ties */
-    double *y, *g;         /* n: driving column by slots; right-hand side */
-    int *tied, *at_bound;  /* n: slots that tie; 2n + 1: variables exactly at a bound */
-    double first_t, began; /* began: on rb_seconds() */
+    int *at_upper;        /* n: the bound of a nonbasic z, and of w's sign with it */
+    double *value;        /* n, by slots: the basic variables */
+    double *generic;      /* n, by slots: their derivatives by the perturbation */
+    double *shift;        /* n: q is q + e shift for a small e, which resolves ties */
+    double *y, *g;        /* n: driving column by slots; right-hand side */
+    int *tied, *at_bound; /* n: slots that tie; 2n + 1: variables exactly at a bound */
+    double first_t;
     rb_lcp_info *info;
 } mixed;
 
@@ -128,13 +143,6 @@ static rb_status refresh(mixed *p)
 
 /* ---- Where the path begins --------------------------------------------------------- */
 
-/* In [1/2, 3/2), the same in every run. */
-static double next_random(unsigned long long *seed)
-{
-    *seed = *seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return 0.5 + (double)(*seed >> 11) / 9007199254740992.0;
-}
-
 /* A basic variable that is out of its range by rounding is at its bound: the z of a
  * solution must be recognised as one. */
 static void forgive_rounding(mixed *p)
@@ -195,7 +203,7 @@ static void choose_shift(mixed *p)
 {
     unsigned long long seed = 20260101;
     for (int s = 0; s < p->n; s++)
-        p->generic[s] = inwards(p, s) * next_random(&seed);
+        p->generic[s] = inwards(p, s) * rb_lcp_random(&seed);
     combine_columns(p, p->generic, p->shift);
 }
 
@@ -427,19 +435,39 @@ static rb_status enter_t(mixed *p, int slot, int *leaving)
     return status;
 }
 
+/* Of a pivot, beside what the basis has counted. */
+static double work_of_pivot(int n)
+{
+    return 1000.0 + 12.0 * n;
+}
+
+/* The path begins at the point, or with NULL at the bounds. */
+static rb_status set_out(mixed *p, const double *start)
+{
+    p->underway = 1;
+    p->leaving = NONE;
+    rb_status s = first_basis(p, start);
+    if (s == RB_OK)
+        choose_shift(p);
+    if (s == RB_OK)
+        s = choose_cover(p);
+    const int slot = s == RB_OK ? first_slot(p, &p->first_t) : NONE;
+    return slot == NONE ? s : enter_t(p, slot, &p->leaving);
+}
+
 /* From the first basis to t = 0: after w(i) z(i) enters, after z(i) w(i), with the sign
  * that belongs to the bound.  RB_RAY with ray_variable < 0: the path has gone away from t
  * = 0 beyond its beginning. */
 static rb_status follow_path(mixed *p)
 {
     const int n = p->n;
-    int leaving = NONE, slot = first_slot(p, &p->first_t), count = 0;
+    int slot = NONE, count = 0;
     double step = 0.0;
-    rb_status s = slot == NONE ? RB_OK : enter_t(p, slot, &leaving);
-    while (s == RB_OK && slot != NONE) {
-        const int entering = rb_lcp_complement(n, leaving);
+    while (p->leaving != NONE && !rb_lcp_pauses(&p->work)) {
+        const int entering = rb_lcp_complement(n, p->leaving);
         const double sign = p->at_upper[entering % n] ? -1.0 : 1.0;
-        s = rb_lcp_check_limits(p->info, &p->opt, n, p->began);
+        const double before = p->b.operations;
+        rb_status s = rb_lcp_check_limits(p->info, &p->opt, n, p->task->began);
         if (s == RB_OK && rb_lcp_basis_is_long(&p->b))
             s = refresh(p);
         if (s == RB_OK)
@@ -448,37 +476,36 @@ static rb_status follow_path(mixed *p)
             s = rb_lcp_fail_ray(p->info, n, entering, value_of_t(p));
         if (s != RB_OK)
             return s;
-        leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
+        p->leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
         s = move(p, entering, sign, step, slot, count);
         p->info->iters++;
-        if (leaving == 2 * n || value_of_t(p) <= VANISHED * p->first_t)
-            return s == RB_OK ? refresh(p) : s;
+        p->work.used += work_of_pivot(n) + p->b.operations - before;
+        if (s != RB_OK)
+            return s;
+        if (p->leaving == 2 * n || value_of_t(p) <= VANISHED * p->first_t)
+            return refresh(p);
         if (p->opt.start && value_of_t(p) > AWAY * p->first_t)
             return RB_RAY;
+    }
+    return RB_OK;
+}
+
+static rb_status go_on(void *state)
+{
+    mixed *p = state;
+    rb_status s = p->underway ? RB_OK : set_out(p, p->opt.start);
+    if (s == RB_OK)
+        s = follow_path(p);
+    if (p->opt.start && (s == RB_RAY || s == RB_SINGULAR)) {
+        p->opt.start = NULL;
+        s = set_out(p, NULL);
+        if (s == RB_OK)
+            s = follow_path(p);
     }
     return s;
 }
 
-static rb_status solve_from(mixed *p, const double *start)
-{
-    rb_status s = first_basis(p, start);
-    if (s == RB_OK)
-        choose_shift(p);
-    if (s == RB_OK)
-        s = choose_cover(p);
-    return s == RB_OK ? follow_path(p) : s;
-}
-
 /* ---- The problem without free variables -------------------------------------------- */
-
-/* A free z(i) is the difference of two that are not negative: its own and one more, whose
- * w is minus w(i).  Then all z can start at a bound, whatever M is. */
-typedef struct {
-    int n, *of;  /* order; n - rows of M: the i that each more belongs to; owned */
-    rb_sparse M; /* owned when there are any */
-    double *q, *lower, *upper, *start, *cover; /* n each; q owns all; of the options that
-                                                  are NULL, NULL */
-} split;
 
 static void split_free(split *f)
 {
@@ -547,25 +574,6 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status check_input(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
-                             rb_message *why)
-{
-    rb_status s = rb_lcp_check_sparse(p->M, p->q, opt, why);
-    if (s == RB_OK)
-        s = rb_lcp_check_boxes(p->M->rows, p->lower, p->upper, why);
-    for (int i = 0; s == RB_OK && i < p->M->rows; i++) {
-        const double cover = opt->cover ? opt->cover[i] : 1.0;
-        const double start = opt->start ? opt->start[i] : 0.0;
-        if (!(isfinite(cover) && cover >= 0.0))
-            s = rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
-                        i + 1, cover);
-        else if (!isfinite(start))
-            s = rb_fail(why, RB_EINVAL, "lcp: start(%d) = %g: expected a finite number",
-                        i + 1, start);
-    }
-    return s;
-}
-
 static rb_status create(const split *f, const rb_sparse *M, mixed *p)
 {
     const size_t n = (size_t)f->n;
@@ -627,56 +635,65 @@ double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, dou
     return 1e-14 * rb_norm_inf((size_t)M->rows, room);
 }
 
-/* On the problem in its scale.  RB_INACCURATE: the end of the path does not solve. */
-static rb_status solve(const rb_lcp_mixed_problem *given, const rb_lcp_options *opt,
-                       int always, double *z, rb_lcp_info *info)
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
+                       void *state)
 {
-    const int n = given->M->rows;
-    mixed p = {.given = n, .began = rb_seconds(), .info = info, .opt = *opt};
-    split f = {0};
-    lcp_scale scale = {0};
-    lcp_scaled scaled = {0};
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    rb_status s = split_create(given, p.opt.start, p.opt.cover, &f);
-    const rb_sparse *M = f.n > n ? &f.M : given->M;
-    const lcp_matrix all = {.n = f.n, .sparse = M}, whole = {.n = n, .sparse = given->M};
-    p.opt.start = f.start;
-    p.opt.cover = f.cover;
+    mixed *p = state;
+    const rb_lcp_mixed_problem given = {task->M.sparse, task->q, task->lower,
+                                        task->upper};
+    const int n = task->M.n;
+    *p = (mixed){.work.allowed = INFINITY,
+                 .task = task,
+                 .given = n,
+                 .info = info,
+                 .opt = *task->opt};
+    split *f = &p->f;
+    rb_status s = split_create(&given, p->opt.start, p->opt.cover, f);
+    const rb_sparse *M = f->n > n ? &f->M : given.M;
+    const lcp_matrix all = {.n = f->n, .sparse = M};
+    p->opt.start = f->start;
+    p->opt.cover = f->cover;
     if (s == RB_OK)
-        s = rb_lcp_scale_create(&all, f.q, always, &scale);
-    if (s == RB_OK && scale.needed) {
-        s = rb_lcp_scaled_create(&all, &scale, f.q, f.lower, f.upper, &p.opt, &scaled);
+        s = rb_lcp_scale_create(&all, f->q, balance_q, &p->scale);
+    if (s == RB_OK && p->scale.needed) {
+        s = rb_lcp_scaled_create(&all, &p->scale, f->q, f->lower, f->upper, &p->opt,
+                                 &p->scaled);
         if (s == RB_OK)
-            p.opt = scaled.opt;
+            p->opt = p->scaled.opt;
     }
-    p.q = scaled.q ? scaled.q : f.q;
-    p.lower = scaled.q ? scaled.lower : f.lower;
-    p.upper = scaled.q ? scaled.upper : f.upper;
-    s = s == RB_ENOMEM ? rb_fail(&info->msg, s, "lcp: out of memory for order %d", n)
-                       : create(&f, scaled.q ? &scaled.sparse : M, &p);
-    if (s == RB_OK) {
-        const double *start = p.opt.start;
-        if (start)
-            s = solve_from(&p, start);
-        if (!start || s == RB_RAY || s == RB_SINGULAR) {
-            p.opt.start = NULL;
-            s = solve_from(&p, NULL);
-        }
-        answer(&p, &f, scaled.q ? scale.col : NULL, n, z);
-        if (rb_lcp_measure(&whole, &scale, given->q, given->lower, given->upper, z,
-                           info) != RB_OK)
-            s = rb_fail(&info->msg, RB_ENOMEM, "lcp: out of memory for order %d", n);
-        if (s == RB_OK)
-            s = rb_lcp_assess(info);
+    const int scaled = p->scaled.q != NULL;
+    p->q = scaled ? p->scaled.q : f->q;
+    p->lower = scaled ? p->scaled.lower : f->lower;
+    p->upper = scaled ? p->scaled.upper : f->upper;
+    return s == RB_ENOMEM ? rb_fail(&info->msg, s, "lcp: out of memory for order %d", n)
+                          : create(f, scaled ? &p->scaled.sparse : M, p);
+}
+
+/* RB_INACCURATE: the end of the path does not solve. */
+static rb_status end(void *state, rb_status s, double *z)
+{
+    mixed *p = state;
+    const lcp_task *task = p->task;
+    if (s >= 0) {
+        answer(p, &p->f, p->scaled.q ? p->scale.col : NULL, task->M.n, z);
+        if (rb_lcp_measure(&task->M, &p->scale, task->q, task->lower, task->upper, z,
+                           p->info) != RB_OK)
+            s = rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d",
+                        task->M.n);
     }
-    rb_lcp_basis_free(&p.b);
-    free(p.value);
-    free(p.at_upper);
-    split_free(&f);
-    rb_lcp_scaled_free(&scaled);
-    rb_lcp_scale_free(&scale);
+    if (s == RB_OK)
+        s = rb_lcp_assess(p->info);
+    rb_lcp_basis_free(&p->b);
+    free(p->value);
+    free(p->at_upper);
+    split_free(&p->f);
+    rb_lcp_scaled_free(&p->scaled);
+    rb_lcp_scale_free(&p->scale);
     return s;
 }
+
+const lcp_method rb_lcp_sparse_method = {"lemke-sparse", sizeof(mixed), begin, go_on,
+                                         end};
 
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info)
@@ -684,14 +701,16 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};
     info = info ? info : &unread;
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    rb_status s = check_input(p, &o, &info->msg);
-    if (s == RB_OK)
-        s = solve(p, &o, 0, z, info);
-    if (s == RB_INACCURATE) {
-        const int first = info->iters;
-        s = solve(p, &o, 1, z, info);
-        info->iters += first;
-    }
-    return s;
+    *info = RB_LCP_INFO_NONE;
+    const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);
+    if (s != RB_OK)
+        return s;
+    const lcp_task task = {.M = {.n = p->M->rows, .sparse = p->M},
+                           .q = p->q,
+                           .lower = p->lower,
+                           .upper = p->upper,
+                           .opt = &o,
+                           .began = rb_seconds()};
+    mixed state;
+    return rb_lcp_run(&rb_lcp_sparse_method, &task, &state, z, info);
 }

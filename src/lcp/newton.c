@@ -1,8 +1,8 @@
 /* Block principal pivoting (Judice and Pires, Computers and Operations Research 21,
  * 1994): Newton's method on min(z, M z + q) = 0, guarded so that it ends for every
  * P-matrix. */
+#include "lcp/coarse.h"
 #include "lcp/lemke.h"
-#include "lcp/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,9 +14,18 @@ static const double NEGATIVE = 1e-13;
 /* Steps that exchange all negative components without there being fewer of them. */
 enum { CHANCES = 10 };
 
+/* Operations beside the factorisation: of ordering and analysis per entry of the factors,
+ * of gathering and products per entry of M, and of what costs like n. */
+static const double PER_FACTOR = 150.0, PER_ENTRY = 10.0, PER_ROW = 20.0;
+
 typedef struct {
+    lcp_work work;
+    const lcp_task *task;
+    lcp_scale scale;
+    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
     rb_lcp_mixed_problem p;
-    double *z, *w, *rhs, *x; /* n each; z is the caller's */
+    int fewest, chances;
+    double *z, *w, *rhs, *x; /* n each */
     int *number;             /* n: of i among the basic z, or -1 */
     int *wrong, m;           /* n: the negative components, and how many */
     rb_sparse A;             /* M of the basic z; room for all of M */
@@ -59,9 +68,12 @@ static rb_status solve_basic(newton *s)
     if (s->A.rows > 0)
         status = rb_sparse_lu_create(&s->A, &lu);
     if (lu && status == RB_OK)
-        status = rb_sparse_lu_factor(lu, &s->A, NULL);
+        status = rb_sparse_lu_factor(lu, &s->A, &s->work.used);
     if (lu && status == RB_OK)
         status = rb_sparse_lu_solve(lu, s->rhs, s->x);
+    if (lu && status == RB_OK)
+        s->work.used += PER_FACTOR * rb_sparse_lu_entries(lu);
+    s->work.used += PER_ENTRY * s->p.M->p[n] + PER_ROW * n;
     rb_sparse_lu_free(lu);
     for (int i = 0; status == RB_OK && i < n; i++)
         s->z[i] = s->number[i] >= 0 ? s->x[s->number[i]] : 0.0;
@@ -99,10 +111,19 @@ static void exchange(newton *s, int first)
 /* All negative components are exchanged at once, which is a Newton step, as long as their
  * number keeps falling or has not stalled too often; then only the last one, which ends
  * for P-matrices (Murty), until there are fewer of them than ever before. */
-static rb_status iterate(newton *s, int max_iters)
+static rb_status iterate(void *state)
 {
-    int fewest = s->p.M->rows + 1, chances = CHANCES;
-    while (s->info->iters < max_iters) {
+    newton *s = state;
+    const rb_lcp_options *opt = s->task->opt;
+    const int n = s->p.M->rows, most = opt->max_iters ? opt->max_iters : 10 * n + 100;
+    while (!rb_lcp_pauses(&s->work)) {
+        if (s->info->iters >= most)
+            return rb_fail(&s->info->msg, RB_MAXITER,
+                           "lcp: newton: no solution after max_iters = %d steps", most);
+        if (opt->seconds > 0.0 && rb_seconds() - s->task->began > opt->seconds)
+            return rb_fail(&s->info->msg, RB_INTERRUPTED,
+                           "lcp: newton: no solution after %d steps in %g s",
+                           s->info->iters, opt->seconds);
         const rb_status status = solve_basic(s);
         if (status != RB_OK)
             return status;
@@ -110,24 +131,23 @@ static rb_status iterate(newton *s, int max_iters)
         find_negative(s);
         if (s->m == 0)
             return RB_OK;
-        if (s->m < fewest) {
-            fewest = s->m;
-            chances = CHANCES;
+        if (s->m < s->fewest) {
+            s->fewest = s->m;
+            s->chances = CHANCES;
             exchange(s, 0);
-        } else if (chances > 0) {
-            chances--;
+        } else if (s->chances > 0) {
+            s->chances--;
             exchange(s, 0);
         } else {
             exchange(s, s->m - 1);
         }
     }
-    return rb_fail(&s->info->msg, RB_MAXITER,
-                   "lcp: newton: no solution after max_iters = %d steps", max_iters);
+    return RB_OK;
 }
 
 static rb_status fail_memory(newton *s)
 {
-    const rb_sparse *M = s->p.M;
+    const rb_sparse *M = s->task->M.sparse;
     return rb_fail(&s->info->msg, RB_ENOMEM,
                    "lcp: newton: out of memory for order %d with %d entries", M->rows,
                    M->p[M->cols]);
@@ -136,56 +156,75 @@ static rb_status fail_memory(newton *s)
 static rb_status allocate(newton *s)
 {
     const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
-    s->w = rb_alloc(n, 3);
+    s->z = rb_alloc(n, 4);
     s->number = rb_alloc_int(2 * n);
     s->A.p = rb_alloc_int(n + 1);
     s->A.i = rb_alloc_int(nz + 1);
     s->A.x = rb_alloc(nz + 1, 1);
-    if (!s->w || !s->number || !s->A.p || !s->A.i || !s->A.x)
+    if (!s->z || !s->number || !s->A.p || !s->A.i || !s->A.x)
         return fail_memory(s);
+    s->w = s->z + n;
     s->rhs = s->w + n;
     s->x = s->rhs + n;
     s->wrong = s->number + n;
     return RB_OK;
 }
 
-/* From one start, on the problem in its scale.  RB_INACCURATE: the end does not solve. */
-static rb_status solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
-                       int always, double *z, rb_lcp_info *info)
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
+                       void *state)
 {
-    const int n = M->rows;
-    const lcp_matrix all = {.n = n, .sparse = M};
-    newton s = {.p = {.M = M, .q = q}, .z = z, .info = info};
-    lcp_scale scale = {0};
-    lcp_scaled scaled = {0};
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    rb_status status = rb_lcp_scale_create(&all, q, always, &scale);
-    if (status == RB_OK && scale.needed)
-        status = rb_lcp_scaled_create(&all, &scale, q, NULL, NULL, opt, &scaled);
-    if (scaled.q)
-        s.p = (rb_lcp_mixed_problem){.M = &scaled.sparse, .q = scaled.q};
-    status = status == RB_ENOMEM ? fail_memory(&s) : allocate(&s);
-    if (status == RB_OK) {
-        for (int i = 0; i < n; i++)
-            s.number[i] = (opt->start ? opt->start[i] > 0.0 : q[i] < 0.0) ? 0 : -1;
-        memset(z, 0, (size_t)n * sizeof *z);
-        status = iterate(&s, opt->max_iters ? opt->max_iters : 10 * n + 100);
-        for (int i = 0; i < n; i++)
-            z[i] = fmax(z[i], 0.0);
-        if (scaled.q)
-            rb_lcp_scale_back(&scale, n, z);
-        if (rb_lcp_measure(&all, &scale, q, NULL, NULL, z, info) != RB_OK)
-            status = fail_memory(&s);
+    newton *s = state;
+    const rb_sparse *M = task->M.sparse;
+    const double *start = task->opt->start;
+    *s = (newton){.work.allowed = INFINITY,
+                  .task = task,
+                  .p = {.M = M, .q = task->q},
+                  .fewest = M->rows + 1,
+                  .chances = CHANCES,
+                  .info = info};
+    rb_status status = rb_lcp_scale_create(&task->M, task->q, balance_q, &s->scale);
+    if (status == RB_OK && s->scale.needed)
+        status = rb_lcp_scaled_create(&task->M, &s->scale, task->q, NULL, NULL, task->opt,
+                                      &s->scaled);
+    if (s->scaled.q)
+        s->p = (rb_lcp_mixed_problem){.M = &s->scaled.sparse, .q = s->scaled.q};
+    status = status == RB_ENOMEM ? fail_memory(s) : allocate(s);
+    const int fits = status == RB_OK && !start && rb_lcp_coarse_fits(M);
+    if (fits && M->rows >= LCP_COARSE_FROM) {
+        const rb_status coarse = rb_lcp_coarse_start(M, task->q, s->z, &s->work.used);
+        status = coarse == RB_ENOMEM ? fail_memory(s) : RB_OK;
+        start = coarse == RB_OK ? s->z : NULL;
     }
-    if (status == RB_OK)
-        status = rb_lcp_assess(info);
-    free(s.w);
-    free(s.number);
-    rb_sparse_free(&s.A);
-    rb_lcp_scaled_free(&scaled);
-    rb_lcp_scale_free(&scale);
+    for (int i = 0; status == RB_OK && i < M->rows; i++)
+        s->number[i] = (start ? start[i] > 0.0 : fits ? 1 : task->q[i] < 0.0) ? 0 : -1;
     return status;
 }
+
+/* RB_INACCURATE: the end does not solve. */
+static rb_status end(void *state, rb_status status, double *z)
+{
+    newton *s = state;
+    const lcp_task *task = s->task;
+    const int n = task->M.n;
+    if (status >= 0) {
+        for (int i = 0; i < n; i++)
+            z[i] = fmax(s->z[i], 0.0);
+        if (s->scaled.q)
+            rb_lcp_scale_back(&s->scale, n, z);
+        if (rb_lcp_measure(&task->M, &s->scale, task->q, NULL, NULL, z, s->info) != RB_OK)
+            status = fail_memory(s);
+    }
+    if (status == RB_OK)
+        status = rb_lcp_assess(s->info);
+    free(s->z);
+    free(s->number);
+    rb_sparse_free(&s->A);
+    rb_lcp_scaled_free(&s->scaled);
+    rb_lcp_scale_free(&s->scale);
+    return status;
+}
+
+const lcp_method rb_lcp_newton_method = {"newton", sizeof(newton), begin, iterate, end};
 
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                         double *z, rb_lcp_info *info)
@@ -193,16 +232,14 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
     rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};
     info = info ? info : &unread;
-    *info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
+    *info = RB_LCP_INFO_NONE;
     o.cover = NULL;
     o.trace = NULL;
-    rb_status s = rb_lcp_check_sparse(M, q, &o, &info->msg);
-    if (s == RB_OK)
-        s = solve(M, q, &o, 0, z, info);
-    if (s == RB_INACCURATE) {
-        const int first = info->iters;
-        s = solve(M, q, &o, 1, z, info);
-        info->iters += first;
-    }
-    return s;
+    const rb_status s = rb_lcp_check_sparse(M, q, &o, &info->msg);
+    if (s != RB_OK)
+        return s;
+    const lcp_task task = {
+        .M = {.n = M->rows, .sparse = M}, .q = q, .opt = &o, .began = rb_seconds()};
+    newton state;
+    return rb_lcp_run(&rb_lcp_newton_method, &task, &state, z, info);
 }
