@@ -255,6 +255,23 @@ static void thin_layers_are_mattresses(void **state)
     CHECK_REL(got[3], 0.01 / rubber.shear, 1e-9, "friction");
 }
 
+/* So is a film, as far as the half-plane's digits reach: it has as few waves as any. */
+static void films_are_mattresses(void **state)
+{
+    (void)state;
+    const double nu = rubber.poisson,
+                 M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
+    for (double d = 1e-3; d > 1e-9; d *= 0.1) {
+        const rb_bem_surface body = {.material = rubber, .thickness = d};
+        double got[4], beside[4];
+        seen(&body, 0.1, 1.0, got);
+        seen(&body, 1.3, 1.0, beside);
+        CHECK_ABS(got[0], d / M, 1e-14, "pressure on d = %g", d);
+        CHECK_ABS(got[3], d / rubber.shear, 1e-14, "friction on d = %g", d);
+        CHECK_ABS(beside[0], 0.0, 1e-14, "beside the pressure on d = %g", d);
+    }
+}
+
 /* (V1) holds for a viscoelastic layer as for the half-plane, also where its memory
  * reaches a hundred thousand thicknesses. */
 static void layers_remember(void **state)
@@ -279,9 +296,8 @@ static void layers_remember(void **state)
     }
 }
 
-/* A panel of wave numbers holds ten radians of the farthest point's wave: the more where
- * no farther one narrows it. */
-static void waves_that_reach_far_are_met(void **state)
+/* What is seen alone is what is seen together with what lies farther away. */
+static void what_lies_far_away_is_met(void **state)
 {
     (void)state;
     const rb_bem_surface body = {.material = rubber, .thickness = 0.6};
@@ -372,8 +388,10 @@ static void tractions_are_summed_as_by_the_matrix(void **state)
         CHECK_STATUS(rb_bem_surface_add_normal(&bodies[k], &strips, 0, x, w), RB_EINVAL);
     }
     for (int i = 0, done = 0; !done; i++) {
+        rb_bem_surface fresh = bodies[1]; /* no table of it is kept */
+        fresh.material.poisson = 0.3 - 1e-3 * i;
         alloc_fail_after(i);
-        const rb_status s = rb_bem_surface_add_normal(&bodies[1], &strips, 2, x, w);
+        const rb_status s = rb_bem_surface_add_normal(&fresh, &strips, 2, x, w);
         alloc_fail_after(-1);
         done = s == RB_OK;
         assert_true(done ? i >= 4 : s == RB_ENOMEM);
@@ -417,9 +435,10 @@ static void bad_surfaces_are_refused(void **state)
 static void short_memory_is_told(void **state)
 {
     (void)state;
-    const rb_bem_surface body = {.material = rubber, .thickness = 0.5};
+    rb_bem_surface body = {.material = rubber, .thickness = 0.5};
     const double ends[5] = {0.0, 1.0, 2.0, 3.0, 4.0};
     for (int i = 0;; i++) {
+        body.material.poisson = 0.2 - 1e-3 * i; /* no table of it is kept */
         rb_bem_flexibility f;
         rb_message why;
         alloc_fail_after(i);
@@ -445,8 +464,9 @@ int main(void)
         cmocka_unit_test(equal_materials_are_the_half_plane),
         cmocka_unit_test(layers_have_their_limits),
         cmocka_unit_test(thin_layers_are_mattresses),
+        cmocka_unit_test(films_are_mattresses),
         cmocka_unit_test(layers_remember),
-        cmocka_unit_test(waves_that_reach_far_are_met),
+        cmocka_unit_test(what_lies_far_away_is_met),
         cmocka_unit_test(transforms_are_the_dense_matrix),
         cmocka_unit_test(tractions_are_summed_as_by_the_matrix),
         cmocka_unit_test(bad_surfaces_are_refused),

@@ -6,6 +6,8 @@
 
 #include <complex.h>
 
+/* ---- Waves ------------------------------------------------------------------------- */
+
 /* What a layer and its bond do to a unit wave of pressure [0] and of f' = 1 on the
  * surface [1] (L2): the half-plane's functions of eta = k y, (1 + eta) exp(-eta) and eta
  * exp(-eta), plus c eta sinh eta + d (eta cosh eta - sinh eta). */
@@ -13,8 +15,42 @@ typedef struct {
     double complex c[2], d[2];
 } rb_bem_layer_wave;
 
-/* At al = wave number times thickness > 0. */
-void rb_bem_layer_wave_at(const rb_bem_surface *body, double al, rb_bem_layer_wave *wave);
+/* At al = wave number times thickness, its real part > 0. */
+void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al,
+                          rb_bem_layer_wave *wave);
+
+/* What the layer has over the half-plane (L3): Z = c L - c (1, 1, beta) of pressure,
+ * friction and coupling. */
+void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al,
+                               double complex Z[3]);
+
+/* Its limit for al -> 0, which is real. */
+void rb_bem_layer_longest_waves(const rb_bem_surface *body, double Z[3]);
+
+/* The base's compliance over the layer's glassy one, to which L.N and L.T tend for long
+ * waves; 0 for a rigid base. */
+double rb_bem_layer_base_compliance(const rb_bem_surface *body);
+
+/* ---- Its kernel, tabulated --------------------------------------------------------- */
+
+/* The integral of (L3) over all waves as a function of X = (x - s)/d, for |X| up to a
+ * reach: pressure, friction and, of both, the coupling. */
+typedef struct rb_bem_layer_table rb_bem_layer_table;
+
+/* One table serves all bodies of the same ratios, and all threads: the last ones are
+ * kept.  Give it back when done.  NULL: out of memory. */
+const rb_bem_layer_table *rb_bem_layer_table_of(const rb_bem_surface *body, double reach);
+void rb_bem_layer_table_release(const rb_bem_layer_table *table);
+
+/* Means over a strip of half-length b > 0 whose middle lies X from the point, both over
+ * d; [2] is the coupling. */
+typedef struct {
+    double of[4]; /* the last one: of no meaning */
+} rb_bem_layer_kernel;
+rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X,
+                                      double b);
+
+/* ---- Displacements ----------------------------------------------------------------- */
 
 /* The smooth remainder of a layer over a half-plane of its material (L3): displacements
  * of `points` abscissae x under n strips between ends (n + 1), added to W, 2 points x 2n
