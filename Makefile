@@ -200,6 +200,12 @@ $(B)/examples.inc: $(wildcard examples/*/case.ini)
 	@mkdir -p $(@D)
 	$(Q)for f in $^; do echo "{\"$$(basename $$(dirname $$f))\","; sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo "},"; done > $@
 $(B)/src/cli/examples.o: $(B)/examples.inc
+# what `rollbem help WORD` finds in the docs
+$(B)/words.inc: scripts/words.awk docs/glossary.md docs/faq.md
+	@mkdir -p $(@D)
+	$(Q)awk -f $^ > $@
+$(B)/src/cli/find.o: $(B)/words.inc
+$(B)/src/cli/find.o: CPPFLAGS += -I$(B)
 $(B)/src/cli/examples.o: CPPFLAGS += -I$(B)
 
 $(B)/%.o: %.c

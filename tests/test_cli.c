@@ -69,7 +69,8 @@ static const struct {
     {"--gap nowhere.txt", 66, "nowhere.txt"},
     {"nowhere.ini", 66, "nowhere.ini: No such file"},
     {"verfy", 66, "(did you mean 'verify'?)"},
-    {"help nothing", 64, "unknown command 'nothing'"},
+    {"help xyzzy", 64, "help: nothing about 'xyzzy'"},
+    {"help frobnicate mesh", 64, "help: nothing about 'frobnicate mesh'"},
     {"--contact-elements 10000000 --zone 10", 64, "GB of memory"},
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
     {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
@@ -330,6 +331,38 @@ static void version_help_and_usage(void **state)
         CHECK_MAX((double)strlen(line), 100.0, "%s", line);
 }
 
+/* help WORD, --help=GROUP, --help=all, examples by either name. */
+static void words_are_found(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments, *there, *absent;
+    } cases[] = {{"help temperature", "--conductivity X", "--zone"},
+                 {"help temperature", "max_temperature [K]", "lcp-form"},
+                 {"help GPa", "a unit of --young", "--mu "},
+                 {"help basis", "Glossary\n  basis ", "--mu "},
+                 {"help gnuplot", "Questions\n  Can I use it without gnuplot?", "--mu "},
+                 {"help E", "--young X", "--mu "},
+                 {"help relaxation time", "--relaxation-time X", "--zone"},
+                 {"help lcp", "Usage: rollbem lcp", "Glossary"},
+                 {"--help=mesh", "--contact-elements N", "--mu X"},
+                 {"--help=mu", "--mu X", "--zone"},
+                 {"curve --help=curve", "--points N", "--mu X"},
+                 {"--help=all", "--zone X", "Glossary"},
+                 {"--help=fringe", "Glossary", "--zone"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        assert_int_equal(rollbem(cases[k].arguments), 0);
+        if (!strstr(out, cases[k].there) || strstr(out, cases[k].absent))
+            fail_msg("rollbem %s: %s", cases[k].arguments, out);
+    }
+    static char whole[sizeof out];
+    assert_int_equal(rollbem("--example rail --creep-ratio 0.4 --header=bare"), 0);
+    strcpy(whole, out);
+    assert_int_equal(rollbem("example rail --creep-ratio 0.4 --header=bare"), 0);
+    assert_string_equal(out, whole);
+    check_refused("sweep --vary-1 'mu 0.1' --results banana", 64, "there are iterations, residual,");
+}
+
 static void
 verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify */
 {
@@ -350,9 +383,9 @@ static void completion_offers_every_command(void **state)
     strcpy(offered, out);
     assert_int_equal(rollbem("help"), 0);
     int commands = 0;
-    for (const char *line = strstr(out, "\nrollbem "); line;
-         line = strstr(line + 1, "\nrollbem "))
-        if (sscanf(line, "\nrollbem %39[a-z] ", word) == 1) {
+    for (const char *line = strstr(out, "\n  rollbem "); line;
+         line = strstr(line + 1, "\n  rollbem "))
+        if (sscanf(line, "\n  rollbem %39[a-z] ", word) == 1) {
             char as_offered[50];
             snprintf(as_offered, sizeof as_offered, " %s ", word);
             if (!strstr(offered, as_offered))
@@ -993,6 +1026,7 @@ int main(void)
         cmocka_unit_test(header_names_the_command),
         cmocka_unit_test(readme_case_is_solved),
         cmocka_unit_test(version_help_and_usage),
+        cmocka_unit_test(words_are_found),
         cmocka_unit_test(verify_takes_no_operand),
         cmocka_unit_test(completion_offers_every_command),
         cmocka_unit_test(the_schema_describes_every_input),

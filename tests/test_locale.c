@@ -94,8 +94,7 @@ static void write_all(char *text, size_t size)
     CHECK_STATUS(rb_report_table(out, &c->rc, s, "rollbem", &style), RB_OK);
     json_t *inputs = rb_report_json_inputs(words);
     CHECK_STATUS(rb_report_json_write(out, inputs), RB_OK);
-    const rb_report_window window = {.columns = 100};
-    rb_report_notes(out, &c->rc, s, &window);
+    rb_report_notes(out, &c->rc, s, 0);
     assert_int_equal(fclose(out), 0);
     rb_case_result_free(&result);
     rb_case_free(words);

@@ -60,7 +60,7 @@ static const struct {
     {"curve --from 1 --to 1", "expected two different values"},
     {"sweep", "a study needs --vary-1 or --cases"},
     {"lcp", "expected at least one FILE"},
-    {"example wheel", "expected bar, truss or wall"},
+    {"example wheel", "expected bar, truss, wall or a name"},
     {"--units metric", "mm, si or inch"},
 };
 
@@ -118,7 +118,7 @@ static void refusals_have_their_code_and_reason(void **state)
         {65, "size.ini",
          "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
         {65, "arc.ini", "arc.ini:2: arc: of the support arc only"},
-        {64, "help --nothing", "unknown command '--nothing'"},
+        {64, "help --nothing", "nothing about '--nothing'"},
         {64,
          "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",
          "--mu-fall: expected 1 or 2 numbers, got 3"},
@@ -138,7 +138,7 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "run b.ini", "there is no command 'run'"},
         {64, "b.ini s.ini", "one case file at a time, got 'b.ini' and 's.ini'"},
         {66, "compare nothing.dat", "nothing.dat: No such file"},
-        {64, "help friction lcp", "help: unexpected 'lcp'"},
+        {64, "help friction lcp", "nothing about 'friction lcp'"},
         {64,
          "sweep s.ini --results a_result_of_a_name_that_is_longer_than_any_heading_is",
          "--results: no result 'a_result_of_a_name"},
@@ -216,7 +216,7 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "--describe=nothing",
          "expected man, markdown, results or schema, got 'nothing'"},
         {64, "--completion=tcsh", "expected bash, zsh or fish, got 'tcsh'"},
-        {64, "help nothing", "unknown command 'nothing'"},
+        {64, "help xyzzy", "help: nothing about 'xyzzy'"},
         {64, "examples more", "examples: unexpected 'more'"},
         {64, "verify more", "verify: unexpected 'more'"},
         {66, "check nothing", "nothing: No such file"},
@@ -355,7 +355,7 @@ static void refusals_have_their_code_and_reason(void **state)
          "no friction solver is called 'nothing'"},
         {65, "contact b.ini", "no line such as '3 MODULE': not an input file of CONTACT"},
         {66, "contact nothing.inp", "nothing.inp: No such file"},
-        {64, "example tower", "expected bar, truss or wall, got 'tower'"},
+        {64, "example tower", "a name that `rollbem examples` lists, got 'tower'"},
         {64, "example truss --plot p.xyz",
          "expected a name ending in .png, .svg or .pdf, got 'p.xyz'"},
         {64, "example truss --nodes 2 --solver lemke",
@@ -484,6 +484,87 @@ static void terminals_get_a_short_table(void **state)
     assert_non_null(strstr(out, "# rollbem"));
 }
 
+/* Characters, not bytes, and none of the sequences that set a colour. */
+static int characters(const char *line, size_t n)
+{
+    int count = 0;
+    for (size_t k = 0; k < n; k++) {
+        if (line[k] == '\033')
+            while (k < n && line[k] != 'm')
+                k++;
+        else
+            count += line[k] != '\r' && ((unsigned char)line[k] & 0xc0) != 0x80;
+    }
+    return count;
+}
+
+/* Every command on a terminal of 80 x 24: no line is wider, and a table with its summary
+ * needs little more than the window. */
+static void no_command_is_wider_than_a_terminal(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *command;
+        int lines; /* at most; 0: any */
+    } cases[] = {
+        {"", 24},
+        {"--example rail --creep-ratio 0.4", 24},
+        {"curve --half-width 0.05 --support halfplane --poisson 0.5 --points 30", 24},
+        {"stress --example rail --creep-ratio 0.4", 30},
+        {"wear --support halfplane --half-width 0.5 --slide 1e6 --wear-coefficient 1e-10",
+         24},
+        {"crack --similar --support halfplane --half-width 1 --mu 0", 24},
+        {"sweep --example rail --vary-1 'mu 0.1 0.2 0.3'", 24},
+        {"example truss", 24},
+        {"friction $EXAMPLES/friction/block.dat", 24},
+        {"lcp $EXAMPLES/lcp/two.txt", 24},
+        {"help temperature", 0},
+        {"help", 0},
+        {"examples", 0},
+        {"--help", 0},
+        {"--help=all", 0}};
+    if (shell("command -v script") != 0)
+        skip();
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char line[700];
+        snprintf(line, sizeof line,
+                 "EXAMPLES='%s/examples'; PAGER=cat script -qec \"stty rows 24 cols 80; "
+                 "'$R' %s\" typescript",
+                 getenv("PWD"), cases[k].command);
+        assert_int_equal(shell(line), 0);
+        int lines = 0;
+        for (const char *at = out, *end; (end = strchr(at, '\n')) != NULL; at = end + 1) {
+            CHECK_MAX((double)characters(at, (size_t)(end - at)), 80.0,
+                      "rollbem %s: %.*s", cases[k].command, (int)(end - at), at);
+            lines++;
+        }
+        if (lines < 3)
+            fail_msg("rollbem %s: %s", cases[k].command, out);
+        if (cases[k].lines)
+            CHECK_MAX((double)lines, (double)cases[k].lines, "rollbem %s",
+                      cases[k].command);
+    }
+    assert_int_equal(shell("NO_COLOR=1 script -qec \"'$R'\" typescript"), 0);
+    assert_null(strchr(out, '\033'));
+    assert_int_equal(shell("\"$R\" --color=always 2>&1 >/dev/null | grep -c note"), 0);
+}
+
+/* | head: no message. */
+static void closed_pipes_end_in_silence(void **state)
+{
+    (void)state;
+    static const char *const commands[] = {"--help",
+                                           "--contact-elements 3000 --support "
+                                           "halfplane --mu 0 --quiet",
+                                           "help mesh", "examples", "--help=all"};
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
+        char line[300];
+        snprintf(line, sizeof line, "\"$R\" %s | head -n 1", commands[k]);
+        assert_int_equal(shell(line), 0);
+        assert_string_equal(err, "");
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -493,6 +574,8 @@ int main(void)
         cmocka_unit_test(found_creepage_is_not_doubted),
         cmocka_unit_test(examples_are_at_hand),
         cmocka_unit_test(terminals_get_a_short_table),
+        cmocka_unit_test(no_command_is_wider_than_a_terminal),
+        cmocka_unit_test(closed_pipes_end_in_silence),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -281,11 +281,40 @@ static void a_terminal_gets_what_fits(void **state)
     show(text, 20, 26, 0, shown, sizeof shown);
     assert_non_null(strstr(shown, "\n   0  "));
     assert_non_null(strstr(shown, "\n  99  "));
-    assert_null(strstr(shown, "gap"));
-    assert_non_null(strstr(shown, "one row of 8, without 2 columns; all 100 rows: "));
+    assert_non_null(
+        strstr(shown, "\nnot shown: 7 of 8 rows,\n  gap, s;\n  all: rollbem"));
     for (char *end; (end = strchr(line, '\n')) != NULL; line = end + 1, lines++)
-        assert_true(end - line <= 26 || strstr(line, "one row") == line);
+        assert_true(end - line <= 26);
     assert_in_range(lines, 15, 20);
+}
+
+/* Files and solvers: the middle is left out; a wide single row stands upright. */
+static void a_terminal_gets_words_whole(void **state)
+{
+    (void)state;
+    char text[4000] = "solver\tscaled_MPa\n", shown[4000];
+    for (int i = 0; i < 30; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "s%d\t%d\n", i, i);
+    show(text, 15, 40, 0, shown, sizeof shown);
+    assert_non_null(strstr(shown, "\n      s4       4\n  ...\n     s26      26\n"));
+    assert_non_null(strstr(shown, "\nnot shown: 21 rows in the middle;"));
+    show("solver\tP_MPa\tq\nlemke\t0.25\tnan\n", 15, 14, 0, shown, sizeof shown);
+    assert_string_equal(shown, "  solver  lemke\n  P       0.25 MPa\n");
+}
+
+/* Continued below the text of a label; colours have no width. */
+static void lines_are_broken_between_words(void **state)
+{
+    (void)state;
+    FILE *file = tmpfile();
+    const char *text =
+        "  load      P = 1 N/mm, Q = 2 N/mm\n\033[33mnote:\033[0m µ µ µ µ\n"
+        "\n    unbreakable-word\n";
+    assert_int_equal(rb_report_wrapped(file, text, 20), 6);
+    assert_string_equal(content(file),
+                        "  load      P = 1\n            N/mm, Q\n            = 2 N/mm\n"
+                        "\033[33mnote:\033[0m µ µ µ µ\n\n    unbreakable-word\n");
+    fclose(file);
 }
 
 static void a_terminal_shows_zones_in_colour(void **state)
@@ -326,18 +355,18 @@ static void notes_warn_where_due(void **state)
     rc.a.support = RB_BEM_HALFPLANE;
     rc.creep = 1e-3;
     FILE *file = tmpfile();
-    rb_report_notes(file, &rc, &s, NULL);
+    rb_report_notes(file, &rc, &s, 0);
     assert_string_equal(content(file), "");
     rc.a.support = RB_BEM_ARC;
     s.approach = rc.a.radius / 2.0;
-    rb_report_notes(file, &rc, &s, NULL);
+    rb_report_notes(file, &rc, &s, 0);
     assert_non_null(strstr(content(file), "hub and halfplane"));
     assert_non_null(strstr(content(file), "far beyond linear elasticity"));
     fclose(file);
     file = tmpfile();
     rc.formulation = s.formulation = RB_STATIC;
     rc.creep = 0.1;
-    rb_report_notes(file, &rc, &s, NULL);
+    rb_report_notes(file, &rc, &s, 0);
     assert_non_null(strstr(content(file), "--formulation steady"));
     fclose(file);
 }
@@ -964,6 +993,8 @@ int main(void)
         cmocka_unit_test(picture_of_another_kind),
         cmocka_unit_test(a_terminal_gets_five_digits_and_units_below_the_names),
         cmocka_unit_test(a_terminal_gets_what_fits),
+        cmocka_unit_test(a_terminal_gets_words_whole),
+        cmocka_unit_test(lines_are_broken_between_words),
         cmocka_unit_test(a_terminal_shows_zones_in_colour),
         cmocka_unit_test(a_terminal_gets_other_text_as_it_is),
         cmocka_unit_test(profiles_are_drawn),

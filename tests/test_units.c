@@ -471,6 +471,48 @@ static void wrong_units_are_named(void **state)
         64, "force Q = 25 N/mm: the interface yields, and carries at most 0.510304 N/mm");
 }
 
+/* As people type them. */
+static void units_have_several_spellings(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *unit;
+        double value;
+    } cases[] = {{"50W/mK", "W/(m K)", 50},
+                 {"50 W/(m K)", "W/(m K)", 50},
+                 {"50W/m/K", "W/(m K)", 50},
+                 {"50W/(m*K)", "W/(m K)", 50},
+                 {"50W/(m·K)", "W/(m K)", 50},
+                 {"0.05W/(mm K)", "W/(m K)", 50},
+                 {"3.6MJ/(m3 K)", "MJ/(m3 K)", 3.6},
+                 {"3.6MJ/m^3/K", "MJ/(m3 K)", 3.6},
+                 {"3600 kJ/m3K", "MJ/(m3 K)", 3.6},
+                 {"210 GPa", "MPa", 210000},
+                 {"5N/mm^2", "MPa", 5},
+                 {"5N/mm²", "MPa", 5},
+                 {"7kN/m", "N/mm", 7},
+                 {"7 kN / m", "N/mm", 7},
+                 {"3µm", "mm", 0.003},
+                 {"2N/mm^3", "MPa/mm", 2},
+                 {"2N/mm³", "MPa/mm", 2},
+                 {"20K", "K", 20}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double value = 0.0;
+        int plain = 1;
+        CHECK_STATUS(rb_unit_read(cases[k].text, cases[k].unit, &value, &plain, NULL),
+                     RB_OK);
+        CHECK_REL(value, cases[k].value, 1e-15, "%s", cases[k].text);
+        assert_int_equal(plain, 0);
+    }
+    double value;
+    int plain;
+    rb_message why;
+    CHECK_STATUS(rb_unit_read("1,5", "MPa", &value, &plain, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "a decimal point, 1.5;"));
+    CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &why), RB_EINVAL);
+    CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &why), RB_EINVAL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -486,6 +528,7 @@ int main(void)
         cmocka_unit_test(case_files_have_their_own_units),
         cmocka_unit_test(what_people_see_says_the_units),
         cmocka_unit_test(wrong_units_are_named),
+        cmocka_unit_test(units_have_several_spellings),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

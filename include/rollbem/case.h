@@ -85,6 +85,7 @@ typedef struct {
                              argument is an option, a file or has a dot or slash; or NULL */
     const char *unset;    /* help: what stands for the default; NULL: the value itself */
     const char *one_only; /* why several numbers are refused; NULL: the range says it */
+    int common;           /* 1: --help begins with it */
     const char *help;
 } rb_option;
 

@@ -67,11 +67,15 @@ typedef struct {
                           all of them fit; NULL: none */
 } rb_report_window;
 
-/* A table with tabs for a terminal: five digits, one row of several where there are more
- * than the window has, units below the names, columns that say the same in every row
- * in a line below.  What is no such table is written as it is.  text: changed.
- * RB_ENOMEM, RB_EWRITE. */
+/* A table with tabs for a terminal: five digits; where there are more rows than the
+ * window has, one of several, or without the middle where the first column is no number;
+ * units below the names; columns that say the same in every row, and the names of those
+ * that do not fit, in lines below; a single row that is too wide as a line for each
+ * column.  What is no such table is written as it is.  text: changed. RB_ENOMEM,
+ * RB_EWRITE. */
 rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window);
+/* Lines of text, broken between words where they are wider; how many lines that are. */
+int rb_report_wrapped(FILE *out, const char *text, int width);
 
 /* ---- Table ------------------------------------------------------------------------ */
 
@@ -183,7 +187,7 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
 struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
                                     const rb_rolling_solution *s);
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                     const rb_report_window *window);
+                     int colour);
 
 /* The papers that a run rests on; s NULL: its solver is not known. */
 void rb_report_citations(FILE *out, const rb_rolling_case *rc,

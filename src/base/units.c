@@ -1,6 +1,7 @@
 /* The table of units: what a number in each of them is in mm, N, MPa, s. */
 #include "rollbem/units.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +26,6 @@ static const unit_row table[] = {
     {"m", "mm", 3, 1.0},
     {"cm", "mm", 1, 1.0},
     {"um", "mm", -3, 1.0},
-    {"µm", "mm", -3, 1.0},
     {"nm", "mm", -6, 1.0},
     {"in", "mm", 0, INCH},
     {"inch", "mm", 0, INCH},
@@ -40,7 +40,6 @@ static const unit_row table[] = {
     {"GPa", "MPa", 3, 1.0},
     {"bar", "MPa", -1, 1.0},
     {"N/mm2", "MPa", 0, 1.0},
-    {"N/mm^2", "MPa", 0, 1.0},
     {"psi", "MPa", 0, POUND / (INCH * INCH)},
     {"ksi", "MPa", 3, POUND / (INCH * INCH)},
     {"N/mm", "N/mm", 0, 1.0},
@@ -65,7 +64,6 @@ static const unit_row table[] = {
     {"in/psi", "mm/MPa", 0, INCH *INCH *INCH / POUND},
     {"MPa/mm", "MPa/mm", 0, 1.0},
     {"N/mm3", "MPa/mm", 0, 1.0},
-    {"N/mm^3", "MPa/mm", 0, 1.0},
     {"MPa/um", "MPa/mm", 3, 1.0},
     {"GPa/mm", "MPa/mm", 3, 1.0},
     {"Pa/m", "MPa/mm", -9, 1.0},
@@ -89,6 +87,17 @@ static const unit_row table[] = {
     {"deg", "degrees", 0, 1.0},
     {"rad", "degrees", 0, 180.0 / 3.14159265358979323846},
     {"%", "-", -2, 1.0},
+    {"W/(m K)", "W/(m K)", 0, 1.0},
+    {"kW/(m K)", "W/(m K)", 3, 1.0},
+    {"W/(mm K)", "W/(m K)", 3, 1.0},
+    {"W/(cm K)", "W/(m K)", 2, 1.0},
+    {"N/(s K)", "W/(m K)", 0, 1.0},
+    {"MJ/(m3 K)", "MJ/(m3 K)", 0, 1.0},
+    {"kJ/(m3 K)", "MJ/(m3 K)", -3, 1.0},
+    {"J/(m3 K)", "MJ/(m3 K)", -6, 1.0},
+    {"J/(cm3 K)", "MJ/(m3 K)", 0, 1.0},
+    {"MPa/K", "MJ/(m3 K)", 0, 1.0},
+    {"K", "K", 0, 1.0},
 };
 
 enum { ROWS = sizeof table / sizeof table[0] };
@@ -109,13 +118,43 @@ static const struct {
 
 enum { KINDS = sizeof systems / sizeof systems[0] };
 
+/* One spelling of those that people type: N/mm^2 and N/mm² are N/mm2; W/mK, W/m/K and
+ * W/(m*K) are W/(m K). */
+static void respell(const char *name, size_t length, char *to, size_t size)
+{
+    static const char *const powers[][2] = {
+        {"²", "2"}, {"³", "3"}, {"·", ""}, {"μ", "u"}, {"µ", "u"}};
+    const char *end = name + length;
+    size_t n = 0;
+    int over = 0;
+    while (name < end && n + 1 < size) {
+        size_t k = 0;
+        while (k < 5 && strncmp(name, powers[k][0], strlen(powers[k][0])) != 0)
+            k++;
+        if (k < 5 && name + strlen(powers[k][0]) <= end) {
+            if (powers[k][1][0])
+                to[n++] = powers[k][1][0];
+            name += strlen(powers[k][0]);
+            continue;
+        }
+        if (!strchr(" ()^*", *name) && !(*name == '/' && over))
+            to[n++] = *name;
+        over |= *name++ == '/';
+    }
+    to[n] = '\0';
+}
+
 static const unit_row *find(const char *name, size_t length, const char *kind)
 {
-    for (int k = 0; k < ROWS; k++)
-        if (strlen(table[k].name) == length &&
-            strncmp(table[k].name, name, length) == 0 &&
-            (!kind || strcmp(table[k].kind, kind) == 0))
+    char wanted[40], own[40];
+    if (length == 0 || length >= sizeof wanted)
+        return NULL;
+    respell(name, length, wanted, sizeof wanted);
+    for (int k = 0; k < ROWS; k++) {
+        respell(table[k].name, strlen(table[k].name), own, sizeof own);
+        if (strcmp(own, wanted) == 0 && (!kind || strcmp(table[k].kind, kind) == 0))
             return &table[k];
+    }
     return NULL;
 }
 
@@ -211,6 +250,10 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
     *plain = *end == '\0';
     if (*plain)
         return RB_OK;
+    if (*end == ',' && isdigit((unsigned char)end[1]))
+        return rb_fail(why, RB_EINVAL,
+                       "a number with a decimal point, %.*s.%.20s; got '%.60s'",
+                       (int)(end - text < 20 ? end - text : 20), text, end + 1, text);
     const char *word = end + strspn(end, " ");
     const unit_row *u = find(word, strlen(word), unit);
     if (!u && strcmp(word, unit) == 0 && strcmp(unit, "-") != 0)

@@ -626,8 +626,9 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
         s = rb_case_refuse_given(c, "formulation",
                                  "a study is one of static or steady cases", why);
     if (s == RB_OK && !curve && c->resolved.mus.n > 1)
-        s = rb_case_refuse_given(c, "mu", "expected one number; a curve takes several",
-                                 why);
+        s = rb_case_refuse_given(
+            c, "mu", "expected one number, with a decimal point; a curve takes several",
+            why);
     if (s == RB_OK && rb_case_has_steps(&c->resolved))
         s = rb_case_refuse_given(c, "accuracy",
                                  "of static and steady cases without steps only", why);

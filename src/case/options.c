@@ -61,13 +61,15 @@ enum {
 
 const rb_option rb_case_table[] = {
     RB_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
-    RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R"),
-    RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E"),
+    RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R", .common = 1),
+    RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E",
+                   .common = 1),
     RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio nu"),
+                   "Poisson's ratio nu", .common = 1),
     RB_CHOICE_LINE("support", RC(a.support), rb_rolling_supports,
                    "how it is held: clamped arc at the top, rigid core, or a half-plane "
-                   "instead of the cylinder's boundary"),
+                   "instead of the cylinder's boundary",
+                   .common = 1),
     RB_NUMBER_LINE("arc", RC(a.arc), "degrees", RB_ABOVE_UPTO(0, 90),
                    "half-angle of the clamped arc"),
     RB_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", RB_BETWEEN(0, 1),
@@ -112,10 +114,10 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     RB_FLAG_LINE("similar", PLACE(similar),
                  "elastic, of the same material as A, with its layer, cover and memory",
-                 .excludes = ONE_YOUNG_B | ONE_POISSON_B),
+                 .excludes = ONE_YOUNG_B | ONE_POISSON_B, .common = 1),
     RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
                    "Young's modulus; makes B elastic", .unset = "rigid",
-                   .excludes = ONE_YOUNG_B),
+                   .excludes = ONE_YOUNG_B, .common = 1),
     RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio", .unset = "A's", .excludes = ONE_POISSON_B),
     RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ANY,
@@ -175,7 +177,7 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several with commas between",
-                   .list = PLACE(mus), .excludes = ONE_FRICTION),
+                   .list = PLACE(mus), .excludes = ONE_FRICTION, .common = 1),
     RB_CHOICE_LINE(
         "friction-law", RC(friction.law), laws,
         RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
@@ -232,12 +234,12 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("normal", "Normal direction: one of"),
     RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
                    "how far A is moved down, towards B", .unset = "R/2",
-                   .excludes = ONE_NORMAL),
+                   .excludes = ONE_NORMAL, .common = 1),
     RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P",
-                   .unset = "not given", .excludes = ONE_NORMAL),
+                   .unset = "not given", .excludes = ONE_NORMAL, .common = 1),
     RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
                    "the half-width a of Hertz; the load follows from it",
-                   .unset = "not given", .excludes = ONE_NORMAL),
+                   .unset = "not given", .excludes = ONE_NORMAL, .common = 1),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE(
@@ -245,15 +247,15 @@ const rb_option rb_case_table[] = {
         .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
     RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY,
                    "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
-                   .excludes = ONE_CREEPAGE),
+                   .excludes = ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", RB_ANY,
                    "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
-                   .unset = "not given", .excludes = ONE_CREEPAGE),
+                   .unset = "not given", .excludes = ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("force", RC(force), "N/mm", RB_ANY,
                    "tangential load Q on A, towards +x", .unset = "not given",
                    .excludes = ONE_LOADING),
     RB_NUMBER_LINE("force-ratio", RC(force_ratio), "-", RB_ANY, "Q/(mu P), the sign of Q",
-                   .unset = "not given", .excludes = ONE_LOADING),
+                   .unset = "not given", .excludes = ONE_LOADING, .common = 1),
     RB_FLAG_LINE("free-axle", RC(free_axle),
                  "steady: no torque on A's axle, Q = -M/R_A; M: see resistance_moment",
                  .excludes = ONE_LOADING),
@@ -261,7 +263,8 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("problem", "Problem"),
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
                    "static: displaced without rolling; steady: rolling towards +x; "
-                   "transient: rolling from rest, step by step"),
+                   "transient: rolling from rest, step by step",
+                   .common = 1),
     RB_INTEGER_LINE("increments", RC(increments), RB_FROM_TO(1, 1000000),
                     "static, start of a transient: press from load or approach 0 in so "
                     "many increments, then shift or load tangentially in as many"),
@@ -294,7 +297,8 @@ const rb_option rb_case_table[] = {
         "equal elements, fitted to the contact edges, or equal ones aligned with them",
         .unset = "fitted in steady rolling under a given load, half-width or "
                  "approach without zone and gap file, aligned from 1500 elements on; "
-                 "else uniform"),
+                 "else uniform",
+        .common = 1),
     RB_CHOICE_LINE("slip-operator", RC(slip_operator), slip_operators,
                    "steady, equal elements: difference to the element upstream, or of "
                    "second order",
@@ -302,7 +306,7 @@ const rb_option rb_case_table[] = {
     RB_INTEGER_LINE(
         "contact-elements", RC(contact_elements), RB_FROM(3),
         "uniform: in the potential contact; fitted, aligned: across the contact",
-        .unset = "60, fitted 100"),
+        .unset = "60, fitted 100", .common = 1),
     RB_NUMBER_LINE(
         "zone", RC(zone), "mm", RB_ABOVE(0),
         "half-width of the potential contact; auto: grown until three separated "
@@ -323,7 +327,8 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("units", "Units: 210GPa, 100kN/m, 18in, 0.1% always say their own"),
     RB_CHOICE_LINE("units", PLACE(units), systems,
                    "of numbers without a unit, in files too, and of the results: mm, N, "
-                   "MPa; m, N, Pa; inch, lbf, psi"),
+                   "MPa; m, N, Pa; inch, lbf, psi",
+                   .common = 1),
 
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE("solver", RC(contact.solver), solvers,
@@ -338,7 +343,8 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("accuracy", "Accuracy"),
     RB_FLAG_LINE("error", PLACE(error),
-                 "error bars: estimates of the discretisation error from coarser meshes"),
+                 "error bars: estimates of the discretisation error from coarser meshes",
+                 .common = 1),
     RB_NUMBER_LINE(
         "accuracy", PLACE(accuracy), "-", RB_BETWEEN(0, 1),
         "refine until the relative error of forces, half-width, p0 and creepage "

@@ -120,17 +120,19 @@ static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int p
     return code;
 }
 
+static void print_summary(FILE *out, const void *context)
+{
+    const cli_case_run *run = context;
+    if (run->solution)
+        rb_report_notes(out, run->noted ? run->noted : &run->c->rc, run->solution,
+                        cli_is_coloured(stderr));
+    run->command->summarise(out, run);
+}
+
 static void summarise(const cli_case_run *run)
 {
-    const rb_report_window window = {
-        .columns = isatty(STDERR_FILENO) ? cli_terminal_width(STDERR_FILENO) : 0,
-        .colour = cli_is_coloured(stderr)};
-    if (run->o.quiet)
-        return;
-    if (run->solution)
-        rb_report_notes(stderr, run->noted ? run->noted : &run->c->rc, run->solution,
-                        &window);
-    run->command->summarise(run);
+    if (!run->o.quiet)
+        cli_print_lines(print_summary, run);
 }
 
 static cli_exit print(const cli_spec *spec, const cli_case_run *run)

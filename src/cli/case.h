@@ -101,8 +101,8 @@ struct cli_case_command {
     /* adds to `inputs`, and to what stands beside it */
     void (*inputs)(const cli_case_run *run, struct json_t **inputs);
     void (*json)(const cli_case_run *run, struct json_t **root);
-    /* the summary, on standard error */
-    void (*summarise)(const cli_case_run *run);
+    /* the summary */
+    void (*summarise)(FILE *out, const cli_case_run *run);
 };
 
 /* Reads, resolves, solves and prints: the whole command.  Its exit code. */

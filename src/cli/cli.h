@@ -53,6 +53,9 @@ const char *cli_command_help(const char *name);
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */
 int cli_run(const char *name, int argc, char **argv);
 
+/* 1: --example takes that name. */
+int cli_example_is_case(const char *name);
+
 /* Tries every command's name. */
 void cli_guess_command(rb_guess *guess);
 
@@ -136,8 +139,17 @@ void cli_option_metavar(const rb_option *o, char *text, size_t size);
 /* The help line with unit, range and default. */
 void cli_option_text(const rb_option *o, const void *target, char *text, size_t size);
 
-/* --help and --usage of a command, on stdout. */
-void cli_print_help(const cli_spec *spec);
+/* A name, and the text beside it, in 80 columns. */
+void cli_print_entry(const char *name, const char *text);
+
+/* Standard output of this process through a pager, which leaves at once where a screen
+ * holds everything; NULL: it is no terminal.  Closing NULL does nothing. */
+FILE *cli_open_pager(void);
+void cli_close_pager(FILE *pager);
+
+/* --help and --usage of a command, on stdout.  part: "all" options, those of a group, or
+ * one; NULL: all, or on a terminal the common ones.  The exit code. */
+int cli_print_help(const cli_spec *spec, const char *part);
 void cli_print_usage(const cli_spec *spec);
 
 #endif

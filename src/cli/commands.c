@@ -139,21 +139,3 @@ int cli_run(const char *name, int argc, char **argv)
     cli_guess_command(&guess);
     return cli_fail(CLI_USAGE, "unknown command '%s'%s", name, rb_guess_text(&guess, ""));
 }
-
-int cli_help(int argc, char **argv)
-{
-    if (argc > 2)
-        return cli_fail(CLI_USAGE, "help: unexpected '%s'", argv[2]);
-    if (argc > 1 && strcmp(argv[1], "--help") != 0) {
-        char *args[] = {argv[1], "--help", NULL};
-        return cli_run(argv[1], 2, args);
-    }
-    puts("rollbem [OPTION...] [CASE.ini]   solve one case of rolling contact, print its "
-         "table");
-    for (const cli_command *c = commands; c->name[0]; c++)
-        printf("rollbem %-24s %s\n", c->name, c->help);
-    puts("\n`rollbem --help` lists the options of a case, `rollbem help COMMAND` those "
-         "of a "
-         "command.");
-    return CLI_OK;
-}

@@ -123,9 +123,9 @@ static const cli_case_file files[] = {{"plot", .draw = draw},
                                       {"orbit", .draw = draw_orbit},
                                       {NULL, NULL, NULL}};
 
-static void summarise(const cli_case_run *run)
+static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_crack_summary(stderr, &((const crack_run *)run->own)->result);
+    rb_report_crack_summary(out, &((const crack_run *)run->own)->result);
 }
 
 int cli_crack(int argc, char **argv)

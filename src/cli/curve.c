@@ -233,9 +233,9 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
 
 static const cli_case_file files[] = {{"plot", .draw = draw}, {NULL, NULL, NULL}};
 
-static void summarise(const cli_case_run *run)
+static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_curve_summary(stderr, &((const curve *)run->own)->curves);
+    rb_report_curve_summary(out, &((const curve *)run->own)->curves);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */

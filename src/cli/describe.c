@@ -1,6 +1,7 @@
 /* Descriptions of the commands for other programs, made from the option tables: manual
  * pages, completions of three shells, pages of the reference. */
 #include "cli/describe.h"
+#include "cli/find.h"
 
 #include "rollbem/report.h"
 
@@ -303,7 +304,8 @@ static const struct {
     void (*print)(const cli_spec *spec);
 } forms[] = {{"man", print_man},           {"results", print_results},
              {"markdown", print_markdown}, {"bash", bash_command},
-             {"zsh", zsh_command},         {"fish", fish_command}};
+             {"zsh", zsh_command},         {"fish", fish_command},
+             {"search", cli_find_options}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
 

@@ -428,12 +428,32 @@ static cli_exit run_example(example_options *o, const char *name)
         }
         rb_guess_try(&guess, examples[k].name);
     }
-    return cli_fail(CLI_USAGE, "example: expected bar, truss or wall, got '%s'%s", name,
-                    rb_guess_text(&guess, ""));
+    return cli_fail(
+        CLI_USAGE,
+        "example: expected bar, truss, wall or a name that `rollbem examples` "
+        "lists, got '%s'%s",
+        name, rb_guess_text(&guess, ""));
+}
+
+/* One of the cases of --example. */
+static int solve_case(int argc, char **argv)
+{
+    char **words = calloc((size_t)argc + 2, sizeof *words), option[] = "--example";
+    if (!words)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    words[0] = argv[0];
+    words[1] = option;
+    for (int k = 1; k < argc; k++)
+        words[k + 1] = argv[k];
+    const int code = cli_run("", argc + 1, words);
+    free(words);
+    return code;
 }
 
 int cli_example(int argc, char **argv)
 {
+    if (argc > 1 && cli_example_is_case(argv[1]))
+        return solve_case(argc, argv);
     example_options o = {
         .tol = 1e-10, .step = 1e-2, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
     cli_args args = {0};

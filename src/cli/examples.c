@@ -15,11 +15,11 @@ enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 static const char *chosen; /* by --example */
 
 static const rb_option options[] = {
-    RB_GROUP_LINE("example", "A case that is at hand"),
+    RB_GROUP_LINE("example", "A built-in case"),
     RB_TEXT_LINE("example", 0, "NAME",
                  "start from that case instead of the defaults; `rollbem examples` lists "
                  "the names",
-                 .unset = "none"),
+                 .unset = "none", .common = 1),
 };
 
 rb_option_set cli_example_set(void)
@@ -49,12 +49,25 @@ cli_exit cli_example_read(rb_case *c, const cli_args *args)
                     rb_guess_text(&guess, ""));
 }
 
-/* Its first line is a comment that says what it is. */
+/* The comment that it begins with says what it is. */
 static void print_title(int k)
 {
-    const char *text = examples[k].text + strspn(examples[k].text, "; ");
-    printf("rollbem --example %-20s %.*s\n", examples[k].name, (int)strcspn(text, "\n"),
-           text);
+    char name[60], about[1000] = "";
+    snprintf(name, sizeof name, "--example %s", examples[k].name);
+    for (const char *line = examples[k].text; *line == ';'; line++) {
+        line += 1 + (line[1] == ' ');
+        rb_append(about, sizeof about, "%.*s ", (int)strcspn(line, "\n"), line);
+        line = strchr(line, '\n');
+    }
+    cli_print_entry(name, about);
+}
+
+int cli_example_is_case(const char *name)
+{
+    for (int k = 0; k < EXAMPLES; k++)
+        if (strcmp(examples[k].name, name) == 0)
+            return 1;
+    return 0;
 }
 
 int cli_examples(int argc, char **argv)
@@ -67,9 +80,22 @@ int cli_examples(int argc, char **argv)
     if (code == CLI_CONTINUE && args.operands > 0)
         code = cli_fail(CLI_USAGE, "examples: unexpected '%s'", args.operand[0]);
     if (code == CLI_CONTINUE) {
+        FILE *pager = cli_open_pager();
+        puts("rollbem --example NAME solves one; every command that takes a case takes "
+             "it.");
         for (int k = 0; k < EXAMPLES; k++)
             print_title(k);
-        puts("rollbem example bar|truss|wall         finite elements");
+        puts("rollbem example NAME solves finite elements with friction.");
+        cli_print_entry(
+            "example bar",
+            "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)");
+        cli_print_entry(
+            "example truss",
+            "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)");
+        cli_print_entry(
+            "example wall",
+            "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)");
+        cli_close_pager(pager);
         code = CLI_OK;
     }
     cli_args_free(&args);

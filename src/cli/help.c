@@ -1,137 +1,181 @@
 /* --help and --usage, made from the option tables. */
-#include "cli/cli.h"
+#include "cli/find.h"
 
-#include <fcntl.h>
-#include <math.h>
 #include <string.h>
-#include <unistd.h>
 
-enum { NAME_COLUMN = 28, WIDTH = 88 };
+enum { WIDTH = 80 };
 
-void cli_option_metavar(const rb_option *o, char *text, size_t size)
+static void print_option(const rb_option *o, const void *target)
 {
-    text[0] = '\0';
-    switch (o->kind) {
-    case RB_OPTION_NUMBER:
-        snprintf(text, size, " X%s%s", o->word ? "|" : "", o->word ? o->word : "");
-        break;
-    case RB_OPTION_INTEGER:
-        snprintf(text, size, " N");
-        break;
-    case RB_OPTION_CHOICE:
-        for (const rb_choice *c = o->choices; c->name; c++)
-            rb_append(text, size, "%s%s", c == o->choices ? " " : "|", c->name);
-        if (o->path)
-            rb_append(text, size, "|%s", o->path_name);
-        break;
-    case RB_OPTION_TEXT:
-        snprintf(text, size, " %s", o->unit);
-        break;
-    default:
-        break;
-    }
+    char values[120], name[200], text[600];
+    cli_option_metavar(o, values, sizeof values);
+    cli_option_text(o, target, text, sizeof text);
+    snprintf(name, sizeof name, "--%s%s", o->name, values);
+    cli_print_entry(name, text);
 }
 
-/* Words of text from column on, broken before WIDTH. */
-static void print_wrapped(const char *text, int column, int indent)
+/* Paragraphs in 80 columns: lines that begin with a blank stay as they are, others are
+ * joined unless the one before ends early or with a sentence. */
+static void print_text(const char *text)
 {
-    int at = column;
-    while (*text) {
-        const int n = (int)strcspn(text, " \n");
-        if (at > indent && at + 1 + n > WIDTH) {
-            printf("\n%*s", indent, "");
-            at = indent;
-        } else if (at > column) {
-            putchar(' ');
-            at++;
+    enum { EARLY = 60 };
+    int at = 0, indent = 0;
+    for (const char *line = text, *next; *line; line = next) {
+        const size_t n = strcspn(line, "\n"), blanks = strspn(line, " ");
+        const char *before = line - 1;
+        while (before > text && before[-1] != '\n')
+            before--;
+        const int joins = line > text && *line != ' ' && *before != ' ' && n > 0 &&
+                          line - 1 - before >= EARLY && !strchr(".:", line[-2]);
+        if (line > text && !joins)
+            putchar('\n');
+        if (!joins) {
+            at = printf("%*s", (int)blanks, "");
+            indent = (int)blanks + (blanks > 0 ? 2 : 0);
         }
-        printf("%.*s", n, text);
-        at += n;
-        text += n;
-        text += strspn(text, " \n");
+        const char *word = line + blanks, *end = line + n;
+        size_t gap = joins ? 1 : 0;
+        while (word < end) {
+            const int wide = (int)strcspn(word, " \n");
+            if (at + (int)gap + wide > WIDTH)
+                at = printf("\n%*s", indent, "") - 1;
+            else
+                at += printf("%*s", (int)gap, "");
+            at += printf("%.*s", wide, word);
+            word += wide;
+            gap = strspn(word, " ");
+            word += gap;
+        }
+        next = end + (*end == '\n');
     }
     putchar('\n');
 }
 
-void cli_option_text(const rb_option *o, const void *target, char *text, size_t size)
+/* ---- --help -------------------------------------------------------------------------
+ */
+
+static void print_group_title(const rb_option *group)
 {
-    char room[64], expected[200];
-    const int numeric = o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER;
-    const char *shown = o->unset ? o->unset : rb_option_text(o, target, room);
-    const char *range = "";
-    if (numeric) {
-        const char *whole = rb_option_expected(o, expected, sizeof expected);
-        range =
-            whole + strlen(o->kind == RB_OPTION_NUMBER ? "a number" : "a whole number");
+    printf("\n%s [%s]\n", group->help, group->name);
+}
+
+/* The sets of a case, its output and its examples are abbreviated; a command's own, which
+ * begins with a group of its own, never. */
+static int is_abbreviated(const cli_spec *spec, int s)
+{
+    const rb_option *first = spec->sets[s].options;
+    return s == 0 || first->kind != RB_OPTION_GROUP ||
+           strcmp(first->name, "output") == 0 || strcmp(first->name, "example") == 0;
+}
+
+/* All options of the set, or the common ones below one title. */
+static void print_set(const rb_option_set *set, int common)
+{
+    for (int i = 0; i < set->n; i++) {
+        const rb_option *o = &set->options[i];
+        if (o->kind == RB_OPTION_GROUP && !common)
+            print_group_title(o);
+        else if (o->kind != RB_OPTION_GROUP && (o->common || !common))
+            print_option(o, set->target);
     }
-    if (o->kind == RB_OPTION_FLAG || (o->kind == RB_OPTION_TEXT && !o->unset))
-        shown = "";
-    snprintf(text, size, "%s%s%s%s%s%s%s%s%s", o->help, numeric && *o->unit ? " [" : "",
-             numeric ? o->unit : "", numeric && *o->unit ? "]" : "", *range ? "," : "",
-             range, *shown ? " (" : "", shown, *shown ? ")" : "");
 }
 
-static void print_option(const rb_option *o, const void *target)
+static void print_groups(const cli_spec *spec)
 {
-    char values[120], text[600];
-    cli_option_metavar(o, values, sizeof values);
-    cli_option_text(o, target, text, sizeof text);
-    const int n = printf("  --%s%s", o->name, values);
-    if (n + 1 >= NAME_COLUMN)
-        printf("\n%*s", NAME_COLUMN, "");
-    else
-        printf("%*s", NAME_COLUMN - n, "");
-    print_wrapped(text, NAME_COLUMN, NAME_COLUMN);
-}
-
-/* Standard output of this process through a pager, which leaves at once where a screen
- * holds everything; NULL: it is no terminal. */
-static FILE *open_pager(void)
-{
-    FILE *pager = NULL;
-    if (isatty(STDOUT_FILENO))
-        pager = popen("if [ -n \"$PAGER\" ]; then exec $PAGER; elif command -v less "
-                      ">/dev/null; then exec less -FRX; else exec cat; fi",
-                      "w");
-    if (pager)
-        dup2(fileno(pager), STDOUT_FILENO);
-    return pager;
-}
-
-/* The pager reads until the last copy of its pipe is closed. */
-static void close_pager(FILE *pager)
-{
-    if (!pager)
-        return;
-    fflush(stdout);
-    close(STDOUT_FILENO);
-    open("/dev/null", O_WRONLY);
-    pclose(pager);
-}
-
-void cli_print_help(const cli_spec *spec)
-{
-    FILE *pager = open_pager();
-    printf("Usage: %s\n\n%s\n", spec->synopsis, spec->about);
+    char text[1000] = "";
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
             if (o->kind == RB_OPTION_GROUP)
-                printf("\n%s [%s]\n", o->help, o->name);
-            else
-                print_option(o, spec->sets[s].target);
+                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
         }
-    puts("\nCommon\n"
-         "  --help                    this text\n"
-         "  --usage                   the options on a few lines\n"
-         "  --version\n"
-         "  --color=auto|always|never  colours on a terminal (auto: without NO_COLOR)\n"
-         "  --describe=man|markdown   this text as a manual page or for a page;\n"
-         "                            =schema: the JSON Schema of --json\n"
-         "  --completion=bash|zsh|fish  the completion of a shell");
-    if (spec->notes)
-        printf("\n%s", spec->notes);
-    close_pager(pager);
+    puts("\nMore");
+    cli_print_entry("--help=all", "every option");
+    cli_print_entry("--help=GROUP", text);
+    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
+                                         "speak of it, such as: rollbem help rubber");
+    cli_print_entry("rollbem help",
+                    "the other commands: curve, stress, wear, sweep, ...");
+}
+
+/* The command's own options, and the common ones of the case. */
+static void print_short_help(const cli_spec *spec)
+{
+    const char *paragraph = strstr(spec->about, "\n\n");
+    const int n = (int)(paragraph ? paragraph - spec->about : (long)strlen(spec->about));
+    char about[2000];
+    snprintf(about, sizeof about, "%.*s", n, spec->about);
+    printf("Usage: %s\n\n", spec->synopsis);
+    print_text(about);
+    for (int s = 1; s < spec->set_n; s++)
+        if (!is_abbreviated(spec, s))
+            print_set(&spec->sets[s], 0);
+    puts("\nThe most used options");
+    for (int s = 0; s < spec->set_n; s++)
+        if (is_abbreviated(spec, s))
+            print_set(&spec->sets[s], 1);
+    print_groups(spec);
+}
+
+static void print_whole_help(const cli_spec *spec)
+{
+    printf("Usage: %s\n\n", spec->synopsis);
+    print_text(spec->about);
+    for (int s = 0; s < spec->set_n; s++)
+        print_set(&spec->sets[s], 0);
+    puts("\nCommon");
+    cli_print_entry("--help[=all|GROUP]", "this text, or the options of a group");
+    cli_print_entry("--usage", "the options on a few lines");
+    cli_print_entry("--version", "the version");
+    cli_print_entry("--color=auto|always|never",
+                    "colours on a terminal (auto: without NO_COLOR)");
+    cli_print_entry("--describe=man|markdown",
+                    "this text as a manual page or for a page; =schema: the JSON Schema "
+                    "of --json");
+    cli_print_entry("--completion=bash|zsh|fish", "the completion of a shell");
+    if (spec->notes) {
+        puts("");
+        print_text(spec->notes);
+    }
+}
+
+/* The group or the option of that name; 0: there is none. */
+static int print_part(const cli_spec *spec, const char *part)
+{
+    int inside = 0, found = 0;
+    for (int s = 0; s < spec->set_n; s++, inside = 0)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const rb_option *o = &spec->sets[s].options[i];
+            if (o->kind == RB_OPTION_GROUP) {
+                inside = strncmp(o->name, part, strlen(part)) == 0;
+                if (inside)
+                    print_group_title(o);
+            } else if (inside || strcmp(o->name, part) == 0) {
+                print_option(o, spec->sets[s].target);
+                found = 1;
+            }
+        }
+    return found;
+}
+
+int cli_print_help(const cli_spec *spec, const char *part)
+{
+    char *words[] = {(char[80]){""}, NULL};
+    int found = 1, common = 0;
+    for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
+        common |= spec->sets[0].options[i].common;
+    FILE *pager = cli_open_pager();
+    if (part && strcmp(part, "all") != 0)
+        found = print_part(spec, part);
+    else if (!part && pager && common)
+        print_short_help(spec);
+    else
+        print_whole_help(spec);
+    cli_close_pager(pager);
+    if (found)
+        return CLI_OK;
+    snprintf(words[0], 80, "%s", part);
+    return cli_find(1, words);
 }
 
 void cli_print_usage(const cli_spec *spec)

@@ -56,10 +56,24 @@ int cli_reader_is_person(void)
 
 rb_status cli_show_table(char *text, int summary)
 {
-    const rb_report_window window = {cli_terminal_height() - summary,
-                                     cli_terminal_width(STDOUT_FILENO),
-                                     cli_is_coloured(stdout), " h gap un ut shift "};
+    const rb_report_window window = {
+        cli_terminal_height() - summary, cli_terminal_width(STDOUT_FILENO),
+        cli_is_coloured(stdout),
+        " h gap un ut shift principal_1 principal_2 hydrostatic "};
     return rb_report_terminal(stdout, text, &window);
+}
+
+static int lines_above; /* of a table on the terminal */
+
+void cli_print_lines(cli_lines *print, const void *context)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *memory = isatty(STDERR_FILENO) ? open_memstream(&text, &size) : NULL;
+    print(memory ? memory : stderr, context);
+    if (memory && fclose(memory) == 0)
+        lines_above += rb_report_wrapped(stderr, text, cli_terminal_width(STDERR_FILENO));
+    free(text);
 }
 
 /* ---- Files that options name ------------------------------------------------------- */
@@ -184,9 +198,6 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 
 /* ---- Open, write, commit ----------------------------------------------------------- */
 
-/* Lines of the summary and of the command above and below a table on a terminal. */
-enum { SUMMARY_LINES = 9 };
-
 /* What would go to a terminal, abbreviated there. */
 static rb_status write_to_terminal(cli_write *write, const void *context, rb_message *why)
 {
@@ -199,7 +210,7 @@ static rb_status write_to_terminal(cli_write *write, const void *context, rb_mes
     if (fclose(memory) != 0 && s == RB_OK)
         s = RB_ENOMEM;
     if (s == RB_OK)
-        s = cli_show_table(text, SUMMARY_LINES);
+        s = cli_show_table(text, lines_above + 1); /* and the command */
     free(text);
     return s;
 }

@@ -11,7 +11,7 @@ enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
 extern const rb_choice cli_formats[], cli_headers[];
 #define CLI_JSON_LINE(style)                                                             \
     RB_FLAG_LINE("json", style + offsetof(rb_report_style, format),                      \
-                 "JSON instead of the table")
+                 "JSON instead of the table", .common = 1)
 #define CLI_HEADER_LINE(style)                                                           \
     RB_CHOICE_LINE("header", style + offsetof(rb_report_style, bare), cli_headers,       \
                    "of a table with tabs: # lines below the names, or the names alone")
@@ -24,7 +24,7 @@ extern const rb_choice cli_formats[], cli_headers[];
 #define CLI_OUTPUT_LINE(output)                                                          \
     RB_TEXT_LINE("output", output, "FILE",                                               \
                  "where the table or JSON goes, whole or not at all",                    \
-                 .unset = "standard output", .file = RB_FILE_WRITTEN)
+                 .unset = "standard output", .file = RB_FILE_WRITTEN, .common = 1)
 
 /* How pictures are drawn. */
 typedef struct {
@@ -44,7 +44,7 @@ extern const rb_choice cli_picture_sizes[];
 
 #define CLI_PLOT_LINES(plot, pictures)                                                   \
     RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg or .pdf (by gnuplot)",       \
-                 .unset = "none", .file = RB_FILE_PICTURE),                              \
+                 .unset = "none", .file = RB_FILE_PICTURE, .common = 1),                 \
         CLI_PICTURE_LINES(pictures)
 
 typedef struct {
@@ -64,6 +64,11 @@ int cli_reader_is_person(void);
 /* A table with tabs on a terminal that has to hold so many other lines too; text:
  * changed. */
 rb_status cli_show_table(char *text, int summary);
+
+/* Prints lines on standard error; where it is a terminal, none is wider, and the table
+ * that follows leaves room for them. */
+typedef void cli_lines(FILE *out, const void *context);
+void cli_print_lines(cli_lines *print, const void *context);
 
 /* The file that the option of that name asks for; NULL: none. */
 const char *cli_option_path(const cli_spec *spec, const char *name);

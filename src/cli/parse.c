@@ -1,6 +1,6 @@
 /* Options from the command line, by the tables of a cli_spec. */
-#include "cli/cli.h"
 #include "cli/describe.h"
+#include "cli/find.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -8,52 +8,9 @@
 
 /* ---- Command line ---------------------------------------------------------------- */
 
-/* What others call our options. */
-static const char *other_name(const char *name, size_t length)
-{
-    static const char *const names[][2] = {{"E", "young"},
-                                           {"nu", "poisson"},
-                                           {"R", "radius"},
-                                           {"r", "radius"},
-                                           {"P", "load"},
-                                           {"N", "load"},
-                                           {"Q", "force"},
-                                           {"xi", "creep"},
-                                           {"creepage", "creep"},
-                                           {"slip", "creep"},
-                                           {"friction", "mu"},
-                                           {"cof", "mu"},
-                                           {"modulus", "young"},
-                                           {"thickness", "layer-thickness"},
-                                           {"elements", "contact-elements"},
-                                           {"n", "contact-elements"},
-                                           {"velocity", "speed"},
-                                           {"v", "speed"},
-                                           {"vary", "vary-1"},
-                                           {"out", "output"},
-                                           {"o", "output"},
-                                           {"file", "output"},
-                                           {"picture", "plot"},
-                                           {"tolerance", "tol"},
-                                           {"delta", "approach"},
-                                           {"case", "example"},
-                                           {"a", "half-width"},
-                                           {"rolling", "formulation"},
-                                           {"steady", "formulation steady"},
-                                           {"static", "formulation static"},
-                                           {"transient", "formulation transient"},
-                                           {"halfplane", "support halfplane"},
-                                           {"csv", "format csv"},
-                                           {"si", "units si"}};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        if (strlen(names[k][0]) == length && strncmp(names[k][0], name, length) == 0)
-            return names[k][1];
-    return NULL;
-}
-
 static cli_exit unknown_option(const char *name, size_t length, rb_guess *guess)
 {
-    const char *other = other_name(name, length);
+    const char *other = cli_other_name(name, length);
     if (other)
         return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
                         (int)length, name, other);
@@ -140,11 +97,12 @@ static cli_exit check_colour(const char *when)
     return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
 }
 
-static cli_exit answer_common(const cli_spec *spec, const char *argument)
+static int answer_common(const cli_spec *spec, const char *argument)
 {
-    if (strcmp(argument, "--help") == 0)
-        cli_print_help(spec);
-    else if (strcmp(argument, "--usage") == 0)
+    const char *part = value_behind("--help=", argument);
+    if (part || strcmp(argument, "--help") == 0)
+        return cli_print_help(spec, part);
+    if (strcmp(argument, "--usage") == 0)
         cli_print_usage(spec);
     else if (strcmp(argument, "--version") == 0)
         puts("rollbem " RB_VERSION);
@@ -165,13 +123,11 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
         *operands_only = 1;
         return CLI_CONTINUE;
     }
-    if (strcmp(argument, "-h") == 0) {
-        cli_print_help(spec);
-        return CLI_OK;
-    }
+    if (strcmp(argument, "-h") == 0)
+        return cli_print_help(spec, NULL);
     if (argument[1] != '-') {
         const size_t n = strcspn(argument + 1, "=");
-        const char *other = other_name(argument + 1, n);
+        const char *other = cli_other_name(argument + 1, n);
         return cli_fail(
             CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)", argument,
             other ? (int)strlen(other) : (int)n, other ? other : argument + 1);

@@ -171,16 +171,16 @@ static cli_exit show_behind(const cli_case_run *run)
     return code == CLI_CONTINUE ? CLI_OK : code;
 }
 
-static void summarise(const cli_case_run *run)
+static void summarise(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
-    rb_report_summary(stderr, &it->r.solution, cli_terminal_width(STDERR_FILENO));
+    rb_report_summary(out, &it->r.solution, cli_terminal_width(STDERR_FILENO));
     if (it->r.has_errors)
-        rb_report_errors(stderr, &it->r.solution, &it->r.errors);
+        rb_report_errors(out, &it->r.solution, &it->r.errors);
     if (it->all.n > 0)
-        rb_report_solutions(stderr, &it->all);
+        rb_report_solutions(out, &it->all);
     if (it->r.history.n > 0)
-        rb_report_history_summary(stderr, &run->c->rc, &it->r.history);
+        rb_report_history_summary(out, &run->c->rc, &it->r.history);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */

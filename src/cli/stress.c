@@ -258,9 +258,52 @@ static void add_json(const cli_case_run *run, json_t **root)
     rb_report_json_stress(root, &st->table);
 }
 
+/* The points of the grid below the largest von Mises stress, which a person is shown. */
+static int column_shown(const stress *st)
+{
+    int nearest = 0;
+    for (int i = 0; i < st->at.nx; i++)
+        if (fabs(st->at.at[i].x - st->maxima.von_mises.x) <
+            fabs(st->at.at[nearest].x - st->maxima.von_mises.x))
+            nearest = i;
+    return nearest;
+}
+
+static int shows_column(const cli_case_run *run)
+{
+    const stress *st = run->own;
+    return !run->o.output && cli_reader_is_person() && st->table.nx > 1 &&
+           st->table.ny > 1;
+}
+
+static rb_status write_column(FILE *out, const cli_case_run *run)
+{
+    const stress *st = run->own;
+    rb_report_stress below = st->table;
+    rb_rolling_stress *at = calloc((size_t)below.ny, sizeof *at);
+    int *inside = below.inside ? rb_alloc_int((size_t)below.ny) : NULL;
+    rb_status s = at && (inside || !below.inside) ? RB_OK : RB_ENOMEM;
+    for (int j = 0; j < below.ny && s == RB_OK; j++) {
+        const int k = j * below.nx + column_shown(st);
+        at[j] = below.at[k];
+        if (inside)
+            inside[j] = below.inside[k];
+    }
+    below.n = below.ny;
+    below.at = at;
+    below.inside = inside;
+    if (s == RB_OK)
+        s = rb_report_stress_table(out, &below, cli_command_line(), &run->o.style);
+    free(inside);
+    free(at);
+    return s;
+}
+
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const stress *st = run->own;
+    if (shows_column(run))
+        return write_column(out, run);
     return rb_report_stress_table(out, &st->table, cli_command_line(), &run->o.style);
 }
 
@@ -301,10 +344,16 @@ static const cli_case_file files[] = {{"vtk", .write = write_vtk},
                                       {"shakedown-map", .draw = draw_map},
                                       {NULL, NULL, NULL}};
 
-static void summarise(const cli_case_run *run)
+static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_summary(stderr, run->solution, cli_terminal_width(STDERR_FILENO));
-    rb_report_stress_summary(stderr, &((const stress *)run->own)->table);
+    rb_report_summary(out, run->solution, cli_terminal_width(STDERR_FILENO));
+    rb_report_stress_summary(out, &((const stress *)run->own)->table);
+    if (shows_column(run)) {
+        const stress *st = run->own;
+        fprintf(out, "  table     below x = %.4g %s; a file gets all %d points\n",
+                st->at.at[column_shown(st)].x, rb_unit_name(run->c->units, "mm"),
+                st->table.n);
+    }
 }
 
 static const cli_case_command command = {

@@ -143,6 +143,21 @@ static void choose(study *st, study_result wanted)
         st->result[st->results++] = wanted;
 }
 
+/* With the results that there are, where none is similar. */
+static cli_exit refuse_result(const char *option, const char *name, rb_guess *guess,
+                              int bar)
+{
+    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
+                                          &rb_rolling_maxima_scalars};
+    const char *near = rb_guess_text(guess, bar ? "error_" : "");
+    char all[3000] = "";
+    for (int t = 0; t < 2 && !*near; t++)
+        for (int k = 0; k < tables[t]->n; k++)
+            rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
+                      tables[t]->row[k].name);
+    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
+}
+
 /* "error_max_pressure" is the error bar of max_pressure, which comes along. */
 static cli_exit choose_by_name(study *st, const char *option, const char *name)
 {
@@ -164,8 +179,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
                        ? cli_fail(CLI_USAGE, "--%s: %s has no error bar", option, own)
                        : CLI_CONTINUE;
         }
-    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s", option, name,
-                    rb_guess_text(&guess, bar ? "error_" : ""));
+    return refuse_result(option, name, &guess, bar);
 }
 
 /* The next of --results, whose name ends at *at. */

@@ -3,13 +3,19 @@
 
 #include "rollbem/verify.h"
 
+#include <string.h>
+
 static void print_check(const rb_verify_check *c, void *context)
 {
     int *count = context;
     ++*count;
     if (cli_reader_is_person()) { /* 80 columns */
-        printf("%-5s %-43.43s %9.4g %9.4g %8.1e\n", c->holds ? "ok" : "WRONG", c->what,
-               c->wanted, c->got, c->error);
+        const int red = !c->holds && cli_is_coloured(stdout);
+        printf("%s%-5s%s %-43s", red ? "\033[31m" : "", c->holds ? "ok" : "WRONG",
+               red ? "\033[0m" : "", c->what);
+        printf(strlen(c->what) > 43 ? "\n%49s %9.4g %9.4g %8.1e\n"
+                                    : "%s %9.4g %9.4g %8.1e\n",
+               "", c->wanted, c->got, c->error);
         return;
     }
     printf("%-6s %-56s wanted %-12.6g got %-12.6g %s %-8.2g bound %.2g",

@@ -174,9 +174,9 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
 static const cli_case_file files[] = {
     {"profile", .write = write_profile}, {"plot", .draw = draw}, {NULL, NULL, NULL}};
 
-static void summarise(const cli_case_run *run)
+static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_wear_summary(stderr, &((const wear *)run->own)->report);
+    rb_report_wear_summary(out, &((const wear *)run->own)->report);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */

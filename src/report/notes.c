@@ -5,24 +5,12 @@
 #include <string.h>
 
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                     const rb_report_window *window)
+                     int colour)
 {
     const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
-    const int colour = window && window->colour;
-    for (int k = 0; k < list.n; k++) {
-        int at = fprintf(out, "rollbem: %snote:%s", colour ? "\033[33m" : "",
-                         colour ? "\033[0m" : "") -
-                 (colour ? 9 : 0);
-        for (const char *word = list.text[k]; *word; word += strspn(word, " ")) {
-            const int n = (int)strcspn(word, " ");
-            const int breaks =
-                window && window->columns > 0 && at + 1 + n > window->columns;
-            fprintf(out, "%s%.*s", breaks ? "\n  " : " ", n, word);
-            at = breaks ? 2 + n : at + 1 + n;
-            word += n;
-        }
-        fputc('\n', out);
-    }
+    for (int k = 0; k < list.n; k++)
+        fprintf(out, "rollbem: %snote:%s %s\n", colour ? "\033[33m" : "",
+                colour ? "\033[0m" : "", list.text[k]);
 }
 
 void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,

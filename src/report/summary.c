@@ -116,7 +116,7 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     fputc('\n', out);
     if (!isnan(s->dissipation))
         fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
-                s->dissipation + 0.0, load);
+                rb_report_tidy(s->dissipation, s->normal_load), load);
     if (s->hysteresis > 0.0)
         fprintf(out,
                 "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit "
@@ -167,9 +167,9 @@ static void print_machine(FILE *out, const rb_rolling_solution *s)
 {
     fprintf(out, "  computed  in %.3g s", s->seconds_total);
     if (s->boundary_elements > 0)
-        fprintf(out, "; %d boundary elements (%s matrix, %s)", s->boundary_elements,
+        fprintf(out, "; %d boundary elements (%s, %s)", s->boundary_elements,
                 s->hierarchical ? "hierarchical" : "dense", rb_bem_vector_name());
-    fprintf(out, "; OpenBLAS for %s\n", rb_blas_core());
+    fprintf(out, "; BLAS %s\n", rb_blas_core());
 }
 
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 6 };
+enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 5 };
 
 typedef struct {
     int rows, columns;
@@ -89,14 +89,34 @@ static void split_heading(const char *heading, column *c)
     snprintf(c->unit, WIDTH, "%s", known ? unit + 1 : "");
 }
 
-/* Every so many rows, and the last one. */
-static int next_row(const grid *g, int i, int step)
+/* Which rows are shown: every so many and the last one where the first column is a number
+ * (profiles, curves); otherwise (files, solvers) all but the middle. */
+typedef struct {
+    int step;     /* 1: all but the middle */
+    int from, to; /* the middle, left out: empty where from > to */
+} choice;
+
+static choice choose_rows(const grid *g, int most)
 {
-    return i < g->rows - 1 && i + step > g->rows - 1 ? g->rows - 1 : i + step;
+    const int rows = g->rows - 1;
+    double x;
+    if (rows <= most)
+        return (choice){1, 1, 0};
+    if (!read_number(entry(g, 1, 0), &x))
+        return (choice){1, most / 2 + 1, rows - (most - most / 2 - 1)};
+    return (choice){(rows - 1 + most - 2) / (most - 1), 1, 0};
+}
+
+static int next_row(const grid *g, int i, const choice *c)
+{
+    const int next = i + c->step;
+    if (c->from <= next && next <= c->to)
+        return c->to + 1;
+    return i < g->rows - 1 && next > g->rows - 1 ? g->rows - 1 : next;
 }
 
 /* Widths for the rows that are shown, and columns that say the same everywhere. */
-static void measure(const grid *g, int step, column *all)
+static void measure(const grid *g, const choice *rows, column *all)
 {
     char text[WIDTH];
     for (int j = 0; j < g->columns; j++) {
@@ -111,7 +131,7 @@ static void measure(const grid *g, int step, column *all)
             c->is_constant = strcmp(entry(g, i, j), entry(g, 1, j)) == 0;
         const size_t name = strlen(c->name), unit = strlen(c->unit);
         c->width = (int)(name > unit ? name : unit);
-        for (int i = 1; i < g->rows; i = next_row(g, i, step)) {
+        for (int i = 1; i < g->rows; i = next_row(g, i, rows)) {
             const int width = (int)strlen(shown(g, i, j, c, text));
             c->width = width > c->width ? width : c->width;
         }
@@ -120,9 +140,9 @@ static void measure(const grid *g, int step, column *all)
 
 /* Columns that differ, from the left, as many as fit; those of `minor` only where all do.
  */
-static int choose(const grid *g, const rb_report_window *window, column *all)
+static void choose_columns(const grid *g, const rb_report_window *window, column *all)
 {
-    int left_out = 0, wanted = 0;
+    int wanted = 0;
     for (int j = 0; j < g->columns; j++)
         wanted += all[j].is_constant ? 0 : GAP + all[j].width;
     const int all_fit = wanted <= window->columns;
@@ -134,9 +154,7 @@ static int choose(const grid *g, const rb_report_window *window, column *all)
         c->is_shown =
             !c->is_constant && !minor && used + GAP + c->width <= window->columns;
         used += c->is_shown ? GAP + c->width : 0;
-        left_out += !c->is_shown && !c->is_constant;
     }
-    return left_out;
 }
 
 /* Zones and failures stand out; what a colour says the text says too. */
@@ -177,32 +195,69 @@ static void print_names(FILE *out, const grid *g, const column *all, int colour)
     }
 }
 
-/* What the rows above do not say, in lines of the window's width. */
-static void print_rest(FILE *out, const grid *g, const column *all, int left_out,
-                       int step, int width)
+/* Items of a list behind a heading, in lines of the window's width. */
+typedef struct {
+    FILE *out;
+    const char *heading;
+    int width, at; /* characters in the line so far; 0: no item yet */
+} list;
+
+static void print_item(list *l, const char *item)
+{
+    const int n = (int)strlen(item);
+    if (l->at == 0)
+        l->at = fprintf(l->out, "%s", l->heading);
+    else if (l->at + 3 + n > l->width)
+        l->at = fprintf(l->out, ",\n ") - 2;
+    else
+        l->at += fprintf(l->out, ",");
+    l->at += fprintf(l->out, " %s", item);
+}
+
+/* What the rows above do not say. */
+static void print_rest(FILE *out, const grid *g, const column *all, const choice *rows,
+                       int width)
 {
     char text[WIDTH], item[3 * WIDTH];
-    int at = 0;
+    list same = {out, "in every row:", width, 0}, missing = {out, "not shown:", width, 0};
     for (int j = 0; j < g->columns; j++) {
-        if (!all[j].is_constant || strcmp(shown(g, 1, j, &all[j], text), "-") == 0 ||
-            !*text)
+        const column *c = &all[j];
+        if (!c->is_constant || strcmp(shown(g, 1, j, c, text), "-") == 0 || !*text)
             continue;
-        const int n = snprintf(item, sizeof item, "%s%s%s = %s%s%s",
-                               at ? "," : "in every row:", " ", all[j].name, text,
-                               all[j].unit[0] ? " " : "", all[j].unit);
-        const int breaks = at > 0 && at + n >= width;
-        if (breaks)
-            fputs(",\n ", out);
-        fputs(breaks ? item + 1 : item, out);
-        at = breaks ? n : at + n;
+        snprintf(item, sizeof item, "%s = %s%s%s", c->name, text, c->unit[0] ? " " : "",
+                 c->unit);
+        print_item(&same, item);
     }
-    fputs(at ? "\n" : "", out);
-    if (step > 1)
-        fprintf(out, "one row of %d%s", step, left_out ? ", " : "");
-    if (left_out)
-        fprintf(out, "without %d column%s", left_out, left_out > 1 ? "s" : "");
-    if (step > 1 || left_out)
-        fprintf(out, "; all %d rows: rollbem ... > FILE\n", g->rows - 1);
+    fputs(same.at ? "\n" : "", out);
+    if (rows->step > 1) {
+        snprintf(item, sizeof item, "%d of %d rows", rows->step - 1, rows->step);
+        print_item(&missing, item);
+    } else if (rows->from <= rows->to) {
+        snprintf(item, sizeof item, "%d rows in the middle", rows->to - rows->from + 1);
+        print_item(&missing, item);
+    }
+    for (int j = 0; j < g->columns; j++)
+        if (!all[j].is_shown && !all[j].is_constant)
+            print_item(&missing, all[j].name);
+    if (missing.at)
+        fprintf(out, "%s all: rollbem ... > FILE\n",
+                missing.at + 26 > width ? ";\n " : ";");
+}
+
+/* A single row that is wider than the window: a line for each column. */
+static void print_one_row(FILE *out, const grid *g, const column *all, int colour)
+{
+    char text[WIDTH];
+    int names = 0;
+    for (int j = 0; j < g->columns; j++)
+        names = (int)strlen(all[j].name) > names ? (int)strlen(all[j].name) : names;
+    for (int j = 0; j < g->columns; j++) {
+        if (strcmp(shown(g, 1, j, &all[j], text), "-") == 0 || !*text)
+            continue;
+        const char *start = colour ? colour_of(&all[j], text) : "";
+        fprintf(out, "  %-*s  %s%s%s%s%s\n", names, all[j].name, start, text,
+                *start ? "\033[0m" : "", all[j].unit[0] ? " " : "", all[j].unit);
+    }
 }
 
 rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window)
@@ -217,16 +272,83 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
     if (all) {
         /* names, units, two lines about the rest, and the prompt */
         const int most = window->rows - 5 > LEAST_ROWS ? window->rows - 5 : LEAST_ROWS;
-        const int rows = g.rows - 1;
-        const int step = rows <= most ? 1 : (rows - 1 + most - 2) / (most - 1);
-        measure(&g, step, all);
-        const int left_out = choose(&g, window, all);
-        print_names(out, &g, all, window->colour);
-        for (int i = 1; i < g.rows; i = next_row(&g, i, step))
-            print_row(out, &g, i, all, window->colour);
-        print_rest(out, &g, all, left_out, step, window->columns);
+        const choice rows = choose_rows(&g, most);
+        int width = 0;
+        measure(&g, &rows, all);
+        choose_columns(&g, window, all);
+        for (int j = 0; j < g.columns; j++)
+            width += GAP + all[j].width;
+        if (g.rows == 2 && width > window->columns) {
+            print_one_row(out, &g, all, window->colour);
+        } else {
+            print_names(out, &g, all, window->colour);
+            for (int i = 1; i < g.rows; i = next_row(&g, i, &rows)) {
+                if (rows.from <= rows.to && i == rows.to + 1)
+                    fprintf(out, "%*s...\n", GAP, "");
+                print_row(out, &g, i, all, window->colour);
+            }
+            print_rest(out, &g, all, &rows, window->columns);
+        }
     }
     free(all);
     free(g.cell);
     return all ? rb_report_flush(out) : RB_ENOMEM;
+}
+
+/* ---- Lines ------------------------------------------------------------------------- */
+
+/* Characters that a terminal shows of the first n bytes: none of a colour's, one of
+ * those that make a letter of UTF-8. */
+static int seen(const char *text, size_t n)
+{
+    int count = 0;
+    for (size_t k = 0; k < n; k++) {
+        if (text[k] == '\033')
+            while (k < n && text[k] != 'm')
+                k++;
+        else
+            count += ((unsigned char)text[k] & 0xc0) != 0x80;
+    }
+    return count;
+}
+
+/* Where the rest of a line goes on: below the text behind "  label     ", or two further
+ * than its start. */
+static int indent_of(const char *line, size_t n)
+{
+    enum { LABEL = 12 };
+    const size_t blanks = strspn(line, " ");
+    return blanks == 2 && n > LABEL && line[LABEL - 1] == ' ' && line[LABEL] != ' '
+               ? LABEL
+               : (int)blanks + 2;
+}
+
+int rb_report_wrapped(FILE *out, const char *text, int width)
+{
+    int lines = 0;
+    while (*text) {
+        const size_t n = strcspn(text, "\n");
+        const int indent = indent_of(text, n);
+        const char *end = text + n;
+        size_t gap = strspn(text, " ");
+        int at = 0;
+        lines++;
+        while (text < end) {
+            const size_t word = strcspn(text + gap, " \n");
+            const int wide = seen(text + gap, word);
+            if (at > indent && at + (int)gap + wide > width) {
+                at = fprintf(out, "\n%*s", indent, "") - 1;
+                lines++;
+            } else {
+                at += fprintf(out, "%*s", (int)gap, "");
+            }
+            fprintf(out, "%.*s", (int)word, text + gap);
+            at += wide;
+            text += gap + word;
+            gap = strspn(text, " ");
+        }
+        fputc('\n', out);
+        text = end + (*end == '\n');
+    }
+    return lines;
 }

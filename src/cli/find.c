@@ -1,0 +1,299 @@
+/* rollbem help WORD: the commands, options, results, units, words and questions that
+ * speak of it. */
+#include "cli/find.h"
+
+#include "rollbem/units.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { WORD, QUESTION };
+
+static const struct {
+    int kind;
+    const char *name, *text;
+} texts[] = {
+#include "words.inc" /* of docs/glossary.md and docs/faq.md, by the Makefile */
+};
+
+enum { TEXTS = sizeof texts / sizeof texts[0], SETS_MAX = 64 };
+
+/* What is looked for, and where the search stands. */
+static struct {
+    int n, in_name, found;
+    char **word;
+    const char *title; /* to be printed above the next line; NULL: it has been */
+    const rb_option *seen[SETS_MAX];
+    int seen_n;
+} search;
+
+/* 1: some word of text begins with it, in capitals or not. */
+static int has(const char *text, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *at = text; *at; at++) {
+        size_t k = 0;
+        while (k < n && tolower((unsigned char)at[k]) == tolower((unsigned char)word[k]))
+            k++;
+        if (k == n && (at == text || !isalnum((unsigned char)at[-1])))
+            return 1;
+    }
+    return 0;
+}
+
+/* All words are in the name or the text; in a first round all are in the name. */
+static int matches(const char *name, const char *text)
+{
+    int in_name = 1;
+    for (int k = 0; k < search.n; k++) {
+        const int here = has(name, search.word[k]);
+        in_name &= here;
+        if (!here && !has(text, search.word[k]))
+            return 0;
+    }
+    return in_name == search.in_name;
+}
+
+static void print(const char *name, const char *text)
+{
+    if (search.title)
+        printf("%s%s\n", search.found ? "\n" : "", search.title);
+    search.title = NULL;
+    search.found++;
+    cli_print_entry(name, text);
+}
+
+static void show_if(const char *name, const char *text)
+{
+    if (matches(name, text))
+        print(name, text);
+}
+
+/* ---- Words ------------------------------------------------------------------------- */
+
+/* What others call our options. */
+const char *cli_other_name(const char *name, size_t length)
+{
+    static const char *const names[][2] = {{"E", "young"},
+                                           {"nu", "poisson"},
+                                           {"R", "radius"},
+                                           {"r", "radius"},
+                                           {"P", "load"},
+                                           {"N", "load"},
+                                           {"Q", "force"},
+                                           {"xi", "creep"},
+                                           {"creepage", "creep"},
+                                           {"slip", "creep"},
+                                           {"friction", "mu"},
+                                           {"cof", "mu"},
+                                           {"modulus", "young"},
+                                           {"thickness", "layer-thickness"},
+                                           {"elements", "contact-elements"},
+                                           {"n", "contact-elements"},
+                                           {"velocity", "speed"},
+                                           {"v", "speed"},
+                                           {"vary", "vary-1"},
+                                           {"out", "output"},
+                                           {"o", "output"},
+                                           {"file", "output"},
+                                           {"picture", "plot"},
+                                           {"tolerance", "tol"},
+                                           {"delta", "approach"},
+                                           {"case", "example"},
+                                           {"a", "half-width"},
+                                           {"rolling", "formulation"},
+                                           {"steady", "formulation steady"},
+                                           {"static", "formulation static"},
+                                           {"transient", "formulation transient"},
+                                           {"halfplane", "support halfplane"},
+                                           {"csv", "format csv"},
+                                           {"si", "units si"}};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strlen(names[k][0]) == length && strncmp(names[k][0], name, length) == 0)
+            return names[k][1];
+    return NULL;
+}
+
+/* ---- Options ------------------------------------------------------------------------
+ */
+
+static int is_new(const rb_option *options)
+{
+    for (int k = 0; k < search.seen_n; k++)
+        if (search.seen[k] == options)
+            return 0;
+    if (search.seen_n < SETS_MAX)
+        search.seen[search.seen_n++] = options;
+    return 1;
+}
+
+void cli_find_options(const cli_spec *spec)
+{
+    char command[24] = "", values[120], name[200], text[700];
+    sscanf(spec->synopsis, "rollbem %23[a-z]", command);
+    for (int s = 0; s < spec->set_n; s++) {
+        const rb_option_set *set = &spec->sets[s];
+        const int n = is_new(set->options) ? set->n : 0;
+        for (int i = 0; i < n; i++) {
+            const rb_option *o = &set->options[i];
+            if (o->kind == RB_OPTION_GROUP)
+                continue;
+            cli_option_metavar(o, values, sizeof values);
+            snprintf(name, sizeof name, "--%s%s", o->name, values);
+            cli_option_text(o, set->target, text, sizeof text);
+            if (*command)
+                rb_append(text, sizeof text, " [rollbem %s]", command);
+            show_if(name, text);
+        }
+    }
+}
+
+/* Those of all commands, each once; a command shows its own where it is asked to. */
+static void find_options(void)
+{
+    static char describe[] = "--describe=search";
+    search.title = "Options";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
+        search.seen_n = 0;
+        for (int k = -1; k < 0 || cli_command_name(k); k++) {
+            char name[24];
+            snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
+            char *words[] = {name, describe, NULL};
+            if (strcmp(name, "help") != 0)
+                cli_run(name, 2, words);
+        }
+    }
+}
+
+/* ---- Everything else ----------------------------------------------------------------
+ */
+
+static void find_commands(void)
+{
+    char name[40];
+    search.title = "Commands";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
+        for (int k = 0; cli_command_name(k); k++) {
+            snprintf(name, sizeof name, "rollbem %s", cli_command_name(k));
+            show_if(name, cli_command_help(cli_command_name(k)));
+        }
+}
+
+static void find_results(void)
+{
+    char name[80], text[600];
+    search.title = "Results: columns, names in JSON, of --results and of Python";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
+        for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
+            for (int k = 0; k < t->results->n; k++) {
+                const rb_rolling_result *r = &t->results->row[k];
+                const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;
+                snprintf(name, sizeof name, "%s%s%s%s", r->name, has_unit ? " [" : "",
+                         has_unit ? r->unit : "", has_unit ? "]" : "");
+                snprintf(text, sizeof text, "%s (%s)", r->meaning, t->title);
+                show_if(name, text);
+            }
+}
+
+/* What may have the unit that the one word is. */
+static void find_units(const rb_option_set *set)
+{
+    char one[60], text[2000] = "";
+    double value;
+    int plain;
+    if (search.n != 1)
+        return;
+    snprintf(one, sizeof one, "1%.50s", search.word[0]);
+    for (int i = 0; i < set->n; i++) {
+        const rb_option *o = &set->options[i];
+        if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
+            rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
+            rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
+    }
+    search.title = "Units";
+    if (*text)
+        print(search.word[0], text);
+}
+
+static void find_texts(int kind, const char *title)
+{
+    search.title = title;
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
+        for (int k = 0; k < TEXTS; k++)
+            if (texts[k].kind == kind)
+                show_if(texts[k].name, texts[k].text);
+}
+
+static void guess(rb_guess *guess, const rb_option_set *set)
+{
+    cli_guess_command(guess);
+    for (int i = 0; i < set->n; i++)
+        rb_guess_try(guess, set->options[i].name);
+    for (int k = 0; k < TEXTS; k++)
+        if (texts[k].kind == WORD)
+            rb_guess_try(guess, texts[k].name);
+}
+
+static void find_everything(const rb_option_set *options)
+{
+    find_commands();
+    find_options();
+    find_units(options);
+    find_results();
+    find_texts(WORD, "Glossary");
+    find_texts(QUESTION, "Questions");
+}
+
+int cli_find(int n, char **words)
+{
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    if (!c)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    const rb_option_set options = rb_case_options(c);
+    rb_guess near = {.word = words[0]};
+    char all[200] = "";
+    for (int k = 0; k < n; k++)
+        rb_append(all, sizeof all, "%s%s", k ? " " : "", words[k]);
+    memset(&search, 0, sizeof search);
+    search.n = n;
+    search.word = words;
+    FILE *pager = cli_open_pager();
+    find_everything(&options);
+    const char *other = cli_other_name(words[0], strlen(words[0]));
+    if (!search.found && n == 1 && other) {
+        char *instead[] = {strcpy((char[80]){""}, other), NULL};
+        search.word = instead;
+        find_everything(&options);
+    }
+    cli_close_pager(pager);
+    guess(&near, &options);
+    rb_case_free(c);
+    return search.found ? CLI_OK
+                        : cli_fail(CLI_USAGE, "help: nothing about '%s'%s", all,
+                                   n == 1 ? rb_guess_text(&near, "") : "");
+}
+
+int cli_help(int argc, char **argv)
+{
+    char name[40];
+    if (argc == 2 && *argv[1] && cli_command_help(argv[1])) {
+        char *args[] = {argv[1], "--help", NULL};
+        return cli_run(argv[1], 2, args);
+    }
+    if (argc > 1 && strcmp(argv[1], "--help") != 0)
+        return cli_find(argc - 1, argv + 1);
+    FILE *pager = cli_open_pager();
+    cli_print_entry("rollbem [OPTION...] [CASE.ini]",
+                    "solve one case of rolling contact, print its table");
+    for (int k = 0; cli_command_name(k); k++) {
+        snprintf(name, sizeof name, "rollbem %s", cli_command_name(k));
+        cli_print_entry(name, cli_command_help(cli_command_name(k)));
+    }
+    puts("");
+    cli_print_entry("rollbem --help", "the options of a case");
+    cli_print_entry("rollbem help COMMAND", "those of a command");
+    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
+                                         "speak of it, such as: rollbem help rubber");
+    cli_close_pager(pager);
+    return CLI_OK;
+}
