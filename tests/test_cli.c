@@ -360,7 +360,8 @@ static void words_are_found(void **state)
     strcpy(whole, out);
     assert_int_equal(rollbem("example rail --creep-ratio 0.4 --header=bare"), 0);
     assert_string_equal(out, whole);
-    check_refused("sweep --vary-1 'mu 0.1' --results banana", 64, "there are iterations, residual,");
+    check_refused("sweep --vary-1 'mu 0.1' --results banana", 64,
+                  "there are iterations, residual,");
 }
 
 static void
