@@ -259,6 +259,101 @@ static void carter_slopes(void **state)
     CHECK_MAX(carter_error("50", "fitted"), 2.45e-2, "50 fitted elements");
 }
 
+/* ---- Elements that move (D6) ------------------------------------------------------- */
+
+/* Elements of an automatic zone grow with Hertz's half-width: derivatives are those of
+ * solves that choose their own zones. */
+static void equal_elements_move_with_their_zone(void **state)
+{
+    static const words moving[] = {
+        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "similar",
+          "yes", "creep-ratio", "0.5"}},
+        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "young-b",
+          "70000", "force", "60"}},
+        {{"support", "hub", "load", "500", "mesh", "uniform", "contact-elements", "30",
+          ROLLING, "creep-ratio", "0.4", "outer-elements", "60"}},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
+        rb_message why = {""};
+        rb_case_result r;
+        rb_case_derivatives all;
+        rb_case *c = solved(&moving[k], NULL, 0.0, &r);
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        assert_int_equal(all.elements, RB_SENSITIVITY_HERTZ);
+        assert_true(compare_input(&moving[k], of(&all, "load"), &r.solution));
+        assert_true(compare_input(&moving[k], of(&all, "young"), &r.solution));
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
+/* Contacts of half-planes are similar: with a creepage ratio Q is proportional to P, and
+ * lengths to the root of P R, so on any elements that move with the contact. */
+static void fitted_elements_move_with_the_edges(void **state)
+{
+    static const char *const meshes[] = {"uniform", "aligned", "fitted"};
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const words w = {{"support", "halfplane", "gap", "parabola", "load", "500",
+                          ROLLING, "mesh", meshes[k % 3], "creep-ratio", "0.5", "young",
+                          "94500", k < 3 ? "poisson-b" : "young-b",
+                          k < 3 ? "0.1" : "70000", "young-b", k < 3 ? "94500" : "70000"}};
+        rb_message why = {""};
+        rb_case_result r;
+        rb_case_derivatives all;
+        rb_case *c = solved(&w, NULL, 0.0, &r);
+        const rb_rolling_solution *s = &r.solution;
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        assert_int_equal(all.elements,
+                         k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
+        const rb_rolling_solution *by_P = &of(&all, "load")->d.value[0],
+                                  *by_R = &of(&all, "radius")->d.value[0];
+        CHECK_REL(by_P->tangential_load, s->tangential_load / 500.0, 1e-6, "Q by P");
+        CHECK_REL(by_P->max_pressure, 0.5 * s->max_pressure / 500.0, 1e-6, "p0 by P");
+        CHECK_REL(by_P->half_width, 0.5 * s->half_width / 500.0,
+                  k % 3 ? 1e-5 : 3e-2 /* ends at a midpoint: a kink */, "a by P");
+        CHECK_ABS(by_R->tangential_load, 0.0, 3e-6 * fabs(s->tangential_load), "Q by R");
+        if (k >= 3)
+            CHECK_REL(by_P->free_creepage, 0.5 * s->free_creepage / 500.0, 5e-3,
+                      "free rolling by P");
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
+/* On fitted elements by mu, against solves that are fitted anew. */
+static void fitted_slopes_are_those_of_fitted_solves(void **state)
+{
+    const words w = {{"support", "halfplane", "load", "500", ROLLING, "mesh", "fitted",
+                      "contact-elements", "120", "young-b", "70000", "creep", "1e-3"}};
+    static const char *const names[] = {"mu", "creep", "load"};
+    rb_message why = {""};
+    rb_case_result r, left, right;
+    rb_case_derivatives all;
+    (void)state;
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 3, names, &all, &why), RB_OK);
+    for (int k = 0; k < 3; k++) {
+        const rb_case_derivative *d = of(&all, names[k]);
+        const double step = 0.03 * d->value;
+        rb_case_free(solved(&w, names[k], d->value - step, &left));
+        rb_case_free(solved(&w, names[k], d->value + step, &right));
+        CHECK_ABS(d->d.value[0].tangential_load,
+                  (right.solution.tangential_load - left.solution.tangential_load) /
+                      (2.0 * step),
+                  4e-3 * fabs(r.solution.tangential_load / d->value), "Q by %s",
+                  names[k]);
+        rb_case_result_free(&left);
+        rb_case_result_free(&right);
+    }
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
 /* ---- Borders and ends of ranges
  * ---------------------------------------------------------- */
 
@@ -384,6 +479,9 @@ int main(void)
         cmocka_unit_test(derivatives_are_those_of_solutions),
         cmocka_unit_test(forward_is_adjoint),
         cmocka_unit_test(carter_slopes),
+        cmocka_unit_test(equal_elements_move_with_their_zone),
+        cmocka_unit_test(fitted_elements_move_with_the_edges),
+        cmocka_unit_test(fitted_slopes_are_those_of_fitted_solves),
         cmocka_unit_test(both_sides_of_a_border),
         cmocka_unit_test(ends_of_ranges),
         cmocka_unit_test(units_of_derivatives),

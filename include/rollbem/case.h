@@ -359,9 +359,10 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
 
 typedef struct {
     int n;
-    rb_case_derivative *of; /* in the order of the options; owned */
-    int degenerate;         /* elements between two zones */
-    rb_units units;         /* of results and numbers; mm at first */
+    rb_case_derivative *of;           /* in the order of the options; owned */
+    int degenerate;                   /* elements between two zones */
+    rb_sensitivity_elements elements; /* what they do while an input changes */
+    rb_units units;                   /* of results and numbers; mm at first */
 } rb_case_derivatives;
 
 /* Of a solved model of the case, with respect to all of its numbers, or to those names

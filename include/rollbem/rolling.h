@@ -653,6 +653,9 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model,
  * contact gets another number of elements.  variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     rb_rolling_model *variant, rb_message *why);
+/* The model's own case on elements that are moved to shift + scale x. */
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
+                                  rb_rolling_model *variant, rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is solved, from the zones of the model. */

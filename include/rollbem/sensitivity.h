@@ -1,7 +1,10 @@
 /* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4), by the
  * linear problem of the zones that the solution has: every result changes as tractions,
- * approach and creepage do along the tangent of that problem.  Elements stay where they
- * are: a fitted or automatic mesh is frozen.  Derivatives are exact but for rounding;
+ * approach and creepage do along the tangent of that problem.  Elements that the program
+ * has placed move with the contact, as they would in a solve of another value: between
+ * elements that stay the slope of a contact that grows is wrong by a finite part, however
+ * many they are (D6).  Elements that the case places stay.  Derivatives are exact but for
+ * rounding;
  * differences are taken of the data of a problem (flexibility, gap, bounds, controls) and
  * of what results make of the tractions, never of a solution.
  *
@@ -25,6 +28,14 @@ typedef struct rb_sensitivity rb_sensitivity;
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
                                 rb_sensitivity **s, rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
+/* What the elements do while an input changes. */
+typedef enum {
+    RB_SENSITIVITY_FIXED, /* they stay: a given zone, several patches, a border */
+    RB_SENSITIVITY_HERTZ, /* equal ones of an automatic zone: as Hertz's half-width */
+    RB_SENSITIVITY_EDGES  /* fitted ones: with the edges of the contact */
+} rb_sensitivity_elements;
+
+rb_sensitivity_elements rb_sensitivity_motion(const rb_sensitivity *s);
 /* Elements at the border of two zones. */
 int rb_sensitivity_degenerate(const rb_sensitivity *s);
 

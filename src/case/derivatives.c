@@ -156,8 +156,10 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
         if (it->status == RB_ENOMEM)
             status = rb_fail(why, RB_ENOMEM, "%s", it->why.text);
     }
-    if (s)
+    if (s) {
         all->degenerate = rb_sensitivity_degenerate(s);
+        all->elements = rb_sensitivity_motion(s);
+    }
     rb_sensitivity_free(s);
     free(number);
     return status;

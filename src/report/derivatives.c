@@ -100,9 +100,22 @@ static int has_result(const rb_report_derivatives *d, int k)
     return 0;
 }
 
+static const char *elements_of(const rb_report_derivatives *d)
+{
+    static const char *const text[] = {
+        [RB_SENSITIVITY_FIXED] =
+            "on the elements of the solution, which stay where they are",
+        [RB_SENSITIVITY_HERTZ] =
+            "on elements that grow with Hertz's half-width, as the automatic zone does",
+        [RB_SENSITIVITY_EDGES] = "on elements that move with the edges of the contact, "
+                                 "to which they are fitted"};
+    return text[d->all->elements];
+}
+
 void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
 {
     json_t *results = json_object(), *without = json_object();
+    char text[160];
 
     for (int k = 0; k < d->n; k++)
         if (has_result(d, k))
@@ -113,10 +126,9 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
             rb_report_json_set(&without, d->all->of[i].name,
                                json_string(d->all->of[i].why.text));
     rb_report_json_set(root, "without_derivatives", without);
-    rb_report_json_set(
-        root, "derivatives_are",
-        json_string("on the elements of the solution, which stay where they "
-                    "are; [left, right] where the two sides differ"));
+    snprintf(text, sizeof text, "%s; [left, right] where the two sides differ",
+             elements_of(d));
+    rb_report_json_set(root, "derivatives_are", json_string(text));
 }
 
 void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
@@ -197,8 +209,9 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     char name[64];
 
     rb_report_comment_origin(&c, command);
-    rb_report_comment(&c, "derivatives on the elements of the solution, which stay where "
-                          "they are; left, right: for a falling and a growing input");
+    rb_report_comment(&c,
+                      "derivatives %s; left, right: for a falling and a growing input",
+                      elements_of(d));
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
             rb_report_comment(&c, "none by %s: %s", d->all->of[i].name,

@@ -6,20 +6,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The elements of `of` with the gap of rc.  Equal ones on a wheel are arcs of its circle
- * between ends that stay. */
+/* Elements move to shift + scale x. */
+typedef struct {
+    double shift, scale;
+} motion;
+
+static const motion at_rest = {0.0, 1.0};
+
+/* The elements of `of`, moved, with the gap of rc.  Equal ones on a wheel are arcs of its
+ * circle between ends that stay. */
 static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of,
-                           int same_bodies, rb_rolling_mesh *mesh, rb_message *why)
+                           int same_bodies, motion moved, rb_rolling_mesh *mesh,
+                           rb_message *why)
 {
     if (!same_bodies && rc->mesh == RB_MESH_UNIFORM &&
         !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
-        return rb_rolling_mesh_uniform(rc, of->ends[0], of->ends[of->n], mesh, why);
+        return rb_rolling_mesh_uniform(rc, moved.shift + moved.scale * of->ends[0],
+                                       moved.shift + moved.scale * of->ends[of->n], mesh,
+                                       why);
     mesh->n = of->n;
     mesh->ends = rb_alloc((size_t)of->n + 2, 1);
     mesh->gap = rb_alloc((size_t)of->n, 1);
     if (!mesh->ends || !mesh->gap)
         return RB_ENOMEM;
-    memcpy(mesh->ends, of->ends, ((size_t)of->n + 2) * sizeof *mesh->ends);
+    for (int i = 0; i < of->n + 2; i++)
+        mesh->ends[i] = moved.shift + moved.scale * of->ends[i];
     return rb_rolling_mesh_set_gap(rc, mesh);
 }
 
@@ -93,9 +104,10 @@ static void sign_integral(const rb_bem_flexibility *f, const double *r, double *
 }
 
 /* What the present tractions of the model displace more than they do, 2m, where its
- * bodies are those of rc: w0 of the variant. */
+ * bodies are those of rc and its elements `scale` times as long, wherever they stand: w0
+ * of the variant. */
 static rb_status changed_displacement(const rb_rolling_model *of,
-                                      const rb_rolling_case *rc, double *w0)
+                                      const rb_rolling_case *rc, double scale, double *w0)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const rb_contact_state *state = &of->state;
@@ -122,9 +134,9 @@ static rb_status changed_displacement(const rb_rolling_model *of,
             const double direct = (w[at_i] - f->w0[at_i] - at.datum * sum -
                                    sign * at.coupled * b[at_i] - layer[part] * own) /
                                   at.direct;
-            w0[at_i] = f->w0[at_i] + (to.direct - at.direct) * direct +
-                       (to.datum - at.datum) * sum +
-                       sign * (to.coupled - at.coupled) * b[at_i] +
+            w0[at_i] = f->w0[at_i] + (scale * to.direct - at.direct) * direct +
+                       (scale * (to.datum - to.direct * log(scale)) - at.datum) * sum +
+                       sign * (scale * to.coupled - at.coupled) * b[at_i] +
                        (changed[part] - layer[part]) * own;
         }
     }
@@ -145,30 +157,48 @@ static int has_formula(const rb_rolling_model *of, const rb_rolling_case *rc)
 
 /* The bodies that the model has, with what their change displaces as w0. */
 static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc,
-                               int same_bodies, rb_rolling_model *v)
+                               motion moved, rb_rolling_model *v)
 {
+    const rb_bem_flexibility *f = &of->bodies.f;
+    const int moves = moved.scale != 1.0 || moved.shift != 0.0;
+
     v->bodies = of->bodies;
-    if (same_bodies)
+    if (rb_rolling_same_bodies(rc, &of->rc) && !moves)
         return RB_OK;
-    double *w0 = rb_alloc(2 * (size_t)of->bodies.f.m, 1);
-    const rb_status s = w0 ? changed_displacement(of, rc, w0) : RB_ENOMEM;
-    v->bodies.f.w0 = w0;
-    return s;
+    double *w0 = v->bodies.f.w0 = rb_alloc(2 * (size_t)f->m, 1);
+    if (moves) {
+        v->bodies.f.x = rb_alloc((size_t)f->m, 1);
+        v->bodies.f.h = rb_alloc((size_t)f->m, 1);
+    }
+    if (!w0 || !v->bodies.f.x || !v->bodies.f.h)
+        return RB_ENOMEM;
+    for (int i = 0; i < f->m && moves; i++) {
+        v->bodies.f.x[i] = moved.shift + moved.scale * f->x[i];
+        v->bodies.f.h[i] = moved.scale * f->h[i];
+    }
+    return changed_displacement(of, rc, moved.scale, w0);
 }
 
-/* by_formula: 1: bodies that change need not be made anew. */
-static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                        int by_formula, rb_rolling_model *v, rb_message *why)
+static int borrows_bodies(const rb_rolling_model *of, const rb_rolling_model *v)
 {
-    const int same_bodies = rb_rolling_same_bodies(rc, &of->rc);
-    const int borrows = same_bodies || (by_formula && has_formula(of, rc));
+    return v->bodies.f.m && v->bodies.f.data == of->bodies.f.data;
+}
+
+/* by_formula: 1: bodies that change, or elements that move, need no new flexibility. */
+static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
+                        int by_formula, motion moved, rb_rolling_model *v,
+                        rb_message *why)
+{
+    const int borrows = (rb_rolling_same_bodies(rc, &of->rc) && moved.scale == 1.0 &&
+                         moved.shift == 0.0) ||
+                        (by_formula && has_formula(of, rc));
 
     memset(v, 0, sizeof *v);
     v->rc = *rc;
     v->equal_instead = of->equal_instead;
-    rb_status s = copy_mesh(rc, &of->mesh, borrows, &v->mesh, why);
+    rb_status s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
     if (s == RB_OK && borrows)
-        s = borrow_bodies(of, rc, same_bodies, v);
+        s = borrow_bodies(of, rc, moved, v);
     else if (s == RB_OK)
         s = rb_rolling_bodies_create(rc, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
@@ -189,16 +219,22 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
     return s == RB_OK ? rb_rolling_variant_complete(v, why) : s;
 }
 
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
+                                  rb_rolling_model *v, rb_message *why)
+{
+    return create(of, &of->rc, 1, (motion){shift, scale}, v, why);
+}
+
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     rb_rolling_model *v, rb_message *why)
 {
-    return create(of, rc, 1, v, why);
+    return create(of, rc, 1, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, 0, v, why);
+    const rb_status s = create(of, rc, 0, at_rest, v, why);
     return s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
 }
 
@@ -206,9 +242,13 @@ void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
     if (v->problem.op == of->problem.op)
         v->problem.op = NULL;
-    if (v->bodies.f.m && v->bodies.f.x == of->bodies.f.x) {
+    if (borrows_bodies(of, v)) {
         if (v->bodies.f.w0 != of->bodies.f.w0)
             free(v->bodies.f.w0);
+        if (v->bodies.f.x != of->bodies.f.x)
+            free(v->bodies.f.x);
+        if (v->bodies.f.h != of->bodies.f.h)
+            free(v->bodies.f.h);
         memset(&v->bodies, 0, sizeof v->bodies);
     }
     rb_rolling_model_free(v);

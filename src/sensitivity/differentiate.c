@@ -1,10 +1,12 @@
 /* Derivatives of the results of a case with respect to one of its numbers (theory.md,
  * D4). At four (five at the end of a range) values of the number nearby the problem is
  * built anew on the same elements: its equations at the unknowns that are there give the
- * rates, and the results of the unknowns moved along the tangent their derivatives. */
+ * rates, and the results of the unknowns moved along the tangent their derivatives.
+ * Elements that the program has placed move with the contact (D6): what that adds follows
+ * from the derivatives with respect to two motions of the elements. */
 #include "sensitivity/internal.h"
 
-#include <math.h>
+#include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +16,9 @@ static const double STEP_OF_BODIES = 5e-4, STEP = 2e-5;
 
 /* A change of a result over the input's scale that is none, as a part of the result. */
 static const double ROUNDING = 1e-12;
+
+/* Of 1 - found_e: edges that stand at midpoints move with them, whatever these do. */
+static const double LEAST_DETERMINANT = 0.1;
 
 enum { PLACES = 5 };
 
@@ -59,12 +64,16 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     const int falls = x + longest > input->to;
     rb_rolling_case rc;
     const rb_status status =
-        input->vary(input->context, x + (falls ? -longest : longest), &rc, why);
+        input->vary
+            ? input->vary(input->context, x + (falls ? -longest : longest), &rc, why)
+            : RB_OK;
 
     if (status != RB_OK)
         return status;
-    v->step = (rb_rolling_same_bodies(&rc, &s->model->rc) ? STEP : STEP_OF_BODIES) *
-              input->scale;
+    v->step =
+        (input->vary && rb_rolling_same_bodies(&rc, &s->model->rc) ? STEP
+                                                                   : STEP_OF_BODIES) *
+        input->scale;
     const int can_fall = x - 2.0 * v->step > input->from,
               can_grow = x + 2.0 * v->step < input->to;
     v->at = can_fall && can_grow ? middle : can_grow ? ahead : behind;
@@ -92,6 +101,12 @@ static void variants_free(variants *v)
         rb_rolling_variant_free(v->base, &v->model[k]);
 }
 
+/* An input that cannot vary is a motion of the elements, of this kind. */
+typedef struct {
+    enum { STRETCH, SHIFT } kind;
+    double centre, half; /* of what is stretched */
+} motion;
+
 static rb_status variants_create(const rb_rolling_model *base,
                                  const rb_sensitivity_input *input, int freely,
                                  variants *v, rb_message *why)
@@ -99,17 +114,22 @@ static rb_status variants_create(const rb_rolling_model *base,
     rb_status s = RB_OK;
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
+        const double by = v->at.place[k] * v->step;
         rb_rolling_case rc;
-        s = input->vary(input->context, input->value + v->at.place[k] * v->step, &rc,
-                        why);
+        if (!input->vary) {
+            const motion *m = input->context;
+            s = m->kind == SHIFT
+                    ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
+                    : rb_rolling_variant_move(base, -by * m->centre / m->half,
+                                              1.0 + by / m->half, &v->model[k], why);
+            continue;
+        }
+        s = input->vary(input->context, input->value + by, &rc, why);
         if (s != RB_OK)
             return s;
         rc = on_the_same_elements(&rc, &base->rc, base->mesh.n);
-        if (freely) {
-            rc.creep = rc.creep_ratio = rc.force = NAN;
-            rc.free_axle = 0;
-            rc.force_ratio = 0.0;
-        }
+        if (freely)
+            rc = rb_sensitivity_without_force(&rc);
         s = rb_rolling_variant_create(base, &rc, &v->model[k], why);
     }
     return s;
@@ -169,43 +189,44 @@ static double *column_of(const rb_rolling_result *r, rb_rolling_solution *s)
                : NULL;
 }
 
-void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
+/* d = keep d + weight (x - less) of all that has derivatives; NULL: nothing. */
+static void blend(rb_rolling_solution *d, double keep, const rb_rolling_solution *x,
+                  double weight, const rb_rolling_solution *less)
 {
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
-        if (rb_sensitivity_has(&rb_rolling_solution_scalars.row[k]))
-            *number_of(&rb_rolling_solution_scalars.row[k], s) *= factor;
-    for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
-        double *x = column_of(&rb_rolling_solution_columns.row[k], s);
-        for (int i = 0; i < s->n && x; i++)
-            x[i] *= factor;
-    }
-}
-
-/* In the place of the first one the derivative: weights times what the others have more
- * than it, so that what does not change has a derivative of exactly 0. */
-static void combine(const stencil *at, double step, rb_rolling_solution *moved)
-{
-    rb_rolling_solution *d = &moved[0];
-
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        const int has = rb_sensitivity_has(r);
-        double sum = 0.0;
-        for (int j = 1; j < at->n && has; j++)
-            sum += at->weight[j] / step *
-                   (rb_rolling_number(r, &moved[j]) - rb_rolling_number(r, d));
-        if (r->kind != RB_RESULT_WHOLE)
-            *number_of(r, d) = has ? sum : NAN;
+        if (rb_sensitivity_has(r))
+            *number_of(r, d) = (keep != 0.0 ? keep * *number_of(r, d) : 0.0) +
+                               (x ? weight * (rb_rolling_number(r, x) -
+                                              (less ? rb_rolling_number(r, less) : 0.0))
+                                  : 0.0);
     }
     for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_columns.row[k];
-        double *x = column_of(r, d);
-        for (int i = 0; i < d->n && x; i++) {
-            double sum = 0.0;
-            for (int j = 1; j < at->n; j++)
-                sum += at->weight[j] / step * (column_of(r, &moved[j])[i] - x[i]);
-            x[i] = sum;
-        }
+        double *to = column_of(r, d);
+        for (int i = 0; i < d->n && to; i++)
+            to[i] = (keep != 0.0 ? keep * to[i] : 0.0) +
+                    (x ? weight * (rb_rolling_entry(r, x, i) -
+                                   (less ? rb_rolling_entry(r, less, i) : 0.0))
+                       : 0.0);
+    }
+}
+
+void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
+{
+    blend(s, factor, NULL, 0.0, NULL);
+}
+
+/* In the place of the second one the derivative: weights times what each has more than
+ * the first one, so that what does not change has a derivative of exactly 0. */
+static void combine(const stencil *at, double step, rb_rolling_solution *moved)
+{
+    for (int j = 1; j < at->n; j++)
+        blend(&moved[1], j > 1, &moved[j], at->weight[j] / step, &moved[0]);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (r->kind != RB_RESULT_WHOLE && !rb_sensitivity_has(r))
+            *number_of(r, &moved[1]) = NAN;
     }
 }
 
@@ -224,9 +245,10 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
     }
     if (s == RB_OK)
         combine(&v->at, v->step, moved);
-    *d = moved[0];
-    for (int k = 1; k < v->at.n; k++)
-        rb_rolling_solution_free(&moved[k]);
+    *d = moved[1];
+    for (int k = 0; k < v->at.n; k++)
+        if (k != 1)
+            rb_rolling_solution_free(&moved[k]);
     return s;
 }
 
@@ -243,33 +265,6 @@ static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int si
     if (status == RB_OK)
         status = differentiate_results(v, &tangent, d, why);
     rb_contact_state_free(&tangent);
-    return status;
-}
-
-/* The creepage of free rolling has its own equations. */
-static rb_status differentiate_free(const rb_sensitivity *s,
-                                    const rb_sensitivity_input *input, const variants *of,
-                                    int side, double *creepage, rb_message *why)
-{
-    const rb_sensitivity *freely = s->free_rolling;
-    variants v = {.base = freely->model, .at = of->at, .step = of->step};
-    rb_sensitivity_rate rate = {0};
-    rb_contact_state tangent = {0};
-    rb_status status = variants_create(freely->model, input, 1, &v, why);
-
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(freely->n, &rate);
-    if (status == RB_OK)
-        status = rates(&v, &rate);
-    if (status == RB_OK)
-        status = rb_contact_state_alloc(freely->n, &tangent);
-    if (status == RB_OK)
-        status = rb_sensitivity_tangent(freely, &rate, side, &tangent, why);
-    if (status == RB_OK)
-        *creepage = tangent.xi;
-    rb_contact_state_free(&tangent);
-    rb_sensitivity_rate_free(&rate);
-    variants_free(&v);
     return status;
 }
 
@@ -307,6 +302,139 @@ static void clean(const rb_rolling_solution *at, double scale, rb_rolling_soluti
     }
 }
 
+/* Where p^2, on a line through the second and third element in contact, is zero, on the
+ * side -1 or 1; *rate: of that place on elements that stay (p_rate NULL: none). */
+static double edge_of(const rb_rolling_model *model, const double *p_rate, int side,
+                      double *rate)
+{
+    const rb_contact_state *state = &model->state;
+    const double *p = state->p, *ends = model->mesh.ends;
+    int j = side > 0 ? state->n - 1 : 0;
+
+    while (state->zone[j] == RB_ZONE_SEPARATED)
+        j -= side;
+    j -= side;
+    const int i = j - side;
+    const double fall = gsl_pow_2(p[j] / p[i]),
+                 apart = 0.5 * (ends[j] + ends[j + 1] - ends[i] - ends[i + 1]);
+
+    *rate = p_rate ? apart * 2.0 * fall * (p_rate[j] / p[j] - p_rate[i] / p[i]) /
+                         gsl_pow_2(1.0 - fall)
+                   : 0.0;
+    return 0.5 * (ends[j] + ends[j + 1]) + apart * fall / (1.0 - fall);
+}
+
+/* Half-width and centre of the contact, and their rates. */
+static motion edges_of(const rb_rolling_model *model, const double *p_rate,
+                       double rate[2])
+{
+    double left, right;
+    const double from = edge_of(model, p_rate, -1, &left),
+                 to = edge_of(model, p_rate, 1, &right);
+
+    rate[0] = 0.5 * (right - left);
+    rate[1] = 0.5 * (right + left);
+    return (motion){STRETCH, 0.5 * (to + from), 0.5 * (to - from)};
+}
+
+/* (D6) how an input moves the elements: stretches them as Hertz's half-width grows, or as
+ * the contact that is found on them grows and shifts, e' = found' + found_e e'. */
+static void motions_of(const rb_sensitivity *s, int moves, const variants *v,
+                       const double *p_rate, double by[2])
+{
+    double found[2];
+
+    by[0] = by[1] = 0.0;
+    for (int k = 0; k < v->at.n && moves == RB_SENSITIVITY_HERTZ; k++)
+        by[0] +=
+            v->at.weight[k] / v->step * rb_rolling_derive(&v->model[k].rc).half_width;
+    if (moves != RB_SENSITIVITY_EDGES)
+        return;
+    edges_of(s->model, p_rate, found);
+    by[0] = s->gain[0] * found[0] + s->gain[1] * found[1];
+    by[1] = s->gain[2] * found[0] + s->gain[3] * found[1];
+}
+
+/* (1 - found_e)^-1 from the rates of p under both motions: what moves with the elements
+ * cancels the 1.  0: the edges do not tell how the elements move. */
+static int set_gain(rb_sensitivity *s, const double *stretched, const double *shifted)
+{
+    double a[2], b[2];
+
+    edges_of(s->model, stretched, a);
+    edges_of(s->model, shifted, b);
+    const double det = a[0] * b[1] - b[0] * a[1];
+    s->gain[0] = -b[1] / det;
+    s->gain[1] = b[0] / det;
+    s->gain[2] = a[1] / det;
+    s->gain[3] = -a[0] / det;
+    return fabs(det) > LEAST_DETERMINANT;
+}
+
+/* The tangent of free rolling, which has its own equations, and what the motion of its
+ * elements adds to its creepage. */
+static rb_status differentiate_free(const rb_sensitivity *freely,
+                                    const rb_sensitivity_input *input, const variants *of,
+                                    int side, rb_contact_state *tangent, rb_message *why)
+{
+    variants v = {.base = freely->model, .at = of->at, .step = of->step};
+    rb_sensitivity_rate rate = {0};
+    double by[2];
+    rb_status status = variants_create(freely->model, input, 1, &v, why);
+
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(freely->n, &rate);
+    if (status == RB_OK)
+        status = rates(&v, &rate);
+    if (status == RB_OK)
+        status = rb_contact_state_alloc(freely->n, tangent);
+    if (status == RB_OK)
+        status = rb_sensitivity_tangent(freely, &rate, side, tangent, why);
+    if (status == RB_OK) {
+        motions_of(freely, freely->moves, &v, tangent->p, by);
+        tangent->xi += by[0] * freely->creepage[0] + by[1] * freely->creepage[1];
+    }
+    rb_sensitivity_rate_free(&rate);
+    variants_free(&v);
+    return status;
+}
+
+static rb_status set_free_creepage(const rb_sensitivity *s,
+                                   const rb_sensitivity_input *input, const variants *v,
+                                   int side, rb_rolling_solution *d, rb_message *why)
+{
+    rb_contact_state tangent = {0};
+    rb_status status = RB_OK;
+
+    d->free_creepage = rolls_freely_at_rest(s) ? 0.0 : NAN;
+    if (!s->free_rolling || !input->vary)
+        return RB_OK;
+    status = differentiate_free(s->free_rolling, input, v, side, &tangent, why);
+    d->free_creepage = tangent.xi;
+    rb_contact_state_free(&tangent);
+    return status;
+}
+
+/* What the motion of the elements changes, but for free rolling, which has its own. */
+static void add_motions(const rb_sensitivity *s, const variants *v,
+                        rb_rolling_solution *d)
+{
+    const double free_creepage = d->free_creepage;
+    double by[2], found[2];
+
+    motions_of(s, s->moves, v, d->p, by);
+    for (int k = 0; k < 2; k++)
+        if (by[k] != 0.0)
+            blend(d, 1.0, &s->motion[k], by[k], NULL);
+    d->free_creepage = free_creepage;
+    if (s->moves == RB_SENSITIVITY_EDGES) { /* edges move as the elements there */
+        const motion m = edges_of(s->model, NULL, found);
+        d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
+        d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
+        d->half_width = 0.5 * (d->contact_to - d->contact_from);
+    }
+}
+
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
                                        const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
@@ -331,10 +459,10 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
         const int side = k ? 1 : -1;
         d->has[k] = 1;
         status = differentiate_side(s, &v, side, &d->rate, &d->value[k], why);
-        d->value[k].free_creepage = rolls_freely_at_rest(s) ? 0.0 : NAN;
-        if (status == RB_OK && s->free_rolling)
-            status =
-                differentiate_free(s, input, &v, side, &d->value[k].free_creepage, why);
+        if (status == RB_OK)
+            status = set_free_creepage(s, input, &v, side, &d->value[k], why);
+        if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
+            add_motions(s, &v, &d->value[k]);
         if (status == RB_OK)
             clean(&s->solution, input->scale, &d->value[k]);
     }
@@ -345,4 +473,76 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
     }
     variants_free(&v);
     return status;
+}
+
+/* ---- Elements that move (D6) ------------------------------------------------------- */
+
+/* Those that the program has placed: fitted to the edges of the only patch, or equal ones
+ * of an automatic zone under a gap that is symmetric. */
+static int motion_of(const rb_sensitivity *s)
+{
+    const rb_rolling_model *model = s->model;
+    const rb_rolling_case *rc = &model->rc;
+    const int equal = rc->mesh == RB_MESH_UNIFORM || model->equal_instead;
+
+    if (s->degenerate > 0 || s->solution.patches != 1 || s->solution.contact < 6 ||
+        (equal && rc->zone > 0.0))
+        return RB_SENSITIVITY_FIXED;
+    return !equal                                      ? RB_SENSITIVITY_EDGES
+           : rc->gap == RB_GAP_TABLE || rc->worn.n > 0 ? RB_SENSITIVITY_FIXED
+                                                       : RB_SENSITIVITY_HERTZ;
+}
+
+/* Of the creepage of free rolling, by its own contact on these elements. */
+static rb_status set_free_motion(rb_sensitivity *freely, int moves,
+                                 rb_sensitivity_input *input, motion *m)
+{
+    rb_contact_state tangent[2] = {{0}, {0}};
+    const variants v = {.at = middle, .step = STEP_OF_BODIES * input->scale};
+    rb_message why;
+    double rate[2];
+    rb_status status = RB_OK;
+
+    if (moves == RB_SENSITIVITY_EDGES)
+        *m = edges_of(freely->model, NULL, rate);
+    for (int k = 0; k < moves && status == RB_OK; k++) {
+        m->kind = k ? SHIFT : STRETCH;
+        status = differentiate_free(freely, input, &v, 1, &tangent[k], &why);
+        freely->creepage[k] = tangent[k].xi;
+    }
+    if (status == RB_OK &&
+        (moves != RB_SENSITIVITY_EDGES || set_gain(freely, tangent[0].p, tangent[1].p)))
+        freely->moves = moves;
+    rb_contact_state_free(&tangent[0]);
+    rb_contact_state_free(&tangent[1]);
+    return status;
+}
+
+rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
+{
+    const int moves = motion_of(s);
+    motion m = {STRETCH, 0.0, rb_rolling_derive(&s->model->rc).half_width};
+    double rate[2];
+    rb_status status = RB_OK;
+
+    if (moves == RB_SENSITIVITY_EDGES)
+        m = edges_of(s->model, NULL, rate);
+    rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
+    for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
+        rb_sensitivity_derivative d;
+        rb_message why;
+        m.kind = k ? SHIFT : STRETCH;
+        status = rb_sensitivity_differentiate(s, &input, &d, &why);
+        if (status == RB_OK) {
+            s->motion[k] = d.value[0];
+            memset(&d.value[0], 0, sizeof d.value[0]);
+        }
+        rb_sensitivity_derivative_free(&d);
+    }
+    if (status == RB_OK && s->free_rolling && !s->free_rolling->degenerate)
+        status = set_free_motion(s->free_rolling, moves, &input, &m);
+    if (status == RB_OK &&
+        (moves != RB_SENSITIVITY_EDGES || set_gain(s, s->motion[0].p, s->motion[1].p)))
+        s->moves = moves;
+    return status == RB_ENOMEM ? status : RB_OK;
 }

@@ -16,6 +16,10 @@ struct rb_sensitivity {
     struct rb_sensitivity_factors *factors; /* of the model's own zones; owned */
     struct rb_sensitivity *free_rolling; /* of the model that rolls freely; NULL: none */
     rb_rolling_model *freely;            /* that model; owned */
+    int moves;                           /* rb_sensitivity_elements, fixed at first */
+    rb_rolling_solution motion[2]; /* of elements stretched and shifted by 1 mm; owned */
+    double creepage[2];            /* of free rolling, by its motions */
+    double gain[4];                /* of these motions by half-width and centre found */
 };
 
 /* Pairs that are degenerate. */
@@ -29,6 +33,13 @@ void rb_sensitivity_residual(const rb_rolling_model *base,
                              const rb_rolling_model *variant, rb_sensitivity_rate *left);
 /* law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
+
+/* ---- differentiate.c --------------------------------------------------------------- */
+
+/* Whether and how the elements move.  RB_ENOMEM. */
+rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
+/* The case that rolls without a force. */
+rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc);
 
 /* ---- jacobian.c -------------------------------------------------------------------- */
 

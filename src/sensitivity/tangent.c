@@ -264,7 +264,7 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
 /* ---- Making one -------------------------------------------------------------------- */
 
 /* The case that rolls without a force. */
-static rb_rolling_case without_force(const rb_rolling_case *rc)
+rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc)
 {
     rb_rolling_case freely = *rc;
 
@@ -302,12 +302,12 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
     return status == RB_SINGULAR && s->degenerate ? RB_OK : status;
 }
 
-/* The creepage of free rolling is a solution of its own, on the same elements where they
- * are equal. */
+/* The creepage of free rolling is a solution of its own, here on the same elements
+ * where they hold it. */
 static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_case *rc = &model->rc, freely = without_force(rc);
+    const rb_rolling_case *rc = &model->rc, freely = rb_sensitivity_without_force(rc);
     rb_rolling_model *v;
     rb_status status;
 
@@ -317,12 +317,9 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    if (rc->mesh == RB_MESH_UNIFORM && !rb_rolling_law_depends_on_state(rc)) {
-        status = rb_rolling_variant_create(model, &freely, v, why);
-        if (status == RB_OK)
-            status = rb_rolling_problem_solve(&v->problem, &freely, 1, &v->state, why);
-        v->state.status = status;
-    } else {
+    status = rb_rolling_variant_solve(model, &freely, v, why);
+    if (status > 0) { /* fitted elements do not hold its contact: on others */
+        rb_rolling_variant_free(model, v);
         status = rb_rolling_model_create(&freely, v, why);
     }
     return status == RB_OK ? create(v, &s->free_rolling, why) : status;
@@ -336,23 +333,23 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
 
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
+    if (status == RB_OK && results) {
+        status = roll_freely(*s, &reason);
+        if (status > 0 || status == RB_EINVAL) { /* it has none; the others have */
+            rb_sensitivity_free((*s)->free_rolling);
+            (*s)->free_rolling = NULL;
+            status = RB_OK;
+        }
+        if (status == RB_OK)
+            status = rb_sensitivity_set_motion(*s);
+        if (status != RB_OK)
+            rb_fail(why, status, "%s", rb_status_reason(status, &reason));
+    }
     if (status != RB_OK) {
         rb_sensitivity_free(*s);
         *s = NULL;
-        return status;
     }
-    status = results ? roll_freely(*s, &reason) : RB_OK;
-    if (status > 0 || status == RB_EINVAL) { /* it has no derivatives; the others have */
-        rb_sensitivity_free((*s)->free_rolling);
-        (*s)->free_rolling = NULL;
-        return RB_OK;
-    }
-    if (status != RB_OK) {
-        rb_sensitivity_free(*s);
-        *s = NULL;
-        return rb_fail(why, status, "%s", rb_status_reason(status, &reason));
-    }
-    return RB_OK;
+    return status;
 }
 
 void rb_sensitivity_free(rb_sensitivity *s)
@@ -364,6 +361,8 @@ void rb_sensitivity_free(rb_sensitivity *s)
         rb_rolling_variant_free(s->model, s->freely);
     free(s->freely);
     rb_rolling_solution_free(&s->solution);
+    rb_rolling_solution_free(&s->motion[0]);
+    rb_rolling_solution_free(&s->motion[1]);
     free(s->border);
     free(s->slip);
     free(s->law_slip);
@@ -375,4 +374,9 @@ void rb_sensitivity_free(rb_sensitivity *s)
 int rb_sensitivity_degenerate(const rb_sensitivity *s)
 {
     return s->degenerate;
+}
+
+rb_sensitivity_elements rb_sensitivity_motion(const rb_sensitivity *s)
+{
+    return (rb_sensitivity_elements)s->moves;
 }
