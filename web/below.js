@@ -1,6 +1,6 @@
 /* Chapter 4: the stress below the contact of the first screen, coarse while a hand moves something; its largest value
  * and the place of it are the library's own. */
-import { card, html, segments, show, svg, ticks, width_of } from "./draw.js";
+import { card, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { svg_text } from "./take.js";
 import { say } from "./words.js";
@@ -84,7 +84,8 @@ export function below_view(words, page) {
         place = null;
     const picture = html("figure"),
         note = html("p", { class: "answer", "aria-live": "polite" }),
-        bar = html("div");
+        bar = html("div"),
+        notes = html("ul", { class: "notes" });
     const choice = html(
         "div",
         { class: "narrow" },
@@ -125,6 +126,7 @@ export function below_view(words, page) {
             picture,
             bar,
             note,
+            notes,
             html(
                 "div",
                 { class: "row" },
@@ -299,6 +301,7 @@ export function below_view(words, page) {
         choice.hidden = !revealed;
         node.classList.toggle("revealed", revealed);
         reveal_button.hidden = revealed;
+        show_notes(notes, data);
         if (!revealed) return;
         bar.replaceChildren(kind === "fringes" ? "" : scale_bar(words, scale));
         const a = data.numbers.half_width,

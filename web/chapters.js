@@ -1,5 +1,5 @@
 /* Chapters 1 to 3: each asks first, then answers with what the library has solved, then leaves it to the hand. */
-import { card, html, show, width_of } from "./draw.js";
+import { card, html, show, show_notes, width_of } from "./draw.js";
 import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
@@ -74,6 +74,7 @@ export function press_view(words, page) {
     const { store } = page,
         w = words.press,
         picture = html("figure"),
+        notes = html("ul", { class: "notes" }),
         told = html("p", { class: "answer", "aria-live": "polite" }),
         compared = html("p", { class: "note", "aria-live": "polite" });
     let guess = null,
@@ -132,6 +133,7 @@ export function press_view(words, page) {
             compared,
         ],
         picture,
+        notes,
         html(
             "div",
             { class: "row" },
@@ -153,16 +155,10 @@ export function press_view(words, page) {
             ghost = before && before !== a ? before : null,
             trouble = grey(node, page, "press");
         [load, radius].forEach((knob) => knob.sync(a));
+        show_notes(notes, a);
         node.classList.toggle("revealed", guess !== null);
-        const blank = {
-            ...a,
-            columns: {
-                ...a.columns,
-                p: a.columns.p.map(() => 0),
-                q: a.columns.q.map(() => 0),
-                zone: a.columns.zone.map(() => 0),
-            },
-        };
+        /* Elements at the ends of the axis, without pressure: how wide they are would tell. */
+        const blank = { ...a, columns: { x: [-24, 24], h: [0, 0], p: [0, 0], q: [0, 0], zone: [0, 0], slip: [0, 0] } };
         const wide = width_of(picture);
         picture.replaceChildren(
             tractions_picture(picture, words, guess === null ? blank : a, {
@@ -217,7 +213,8 @@ export function brake_view(words, page) {
         w = words.brake,
         picture = html("figure"),
         curve_host = html("figure"),
-        legend_row = html("div");
+        legend_row = html("div"),
+        notes = html("ul", { class: "notes" });
     const told = html("p", { class: "answer", "aria-live": "polite" }),
         state = html("p", { "aria-live": "polite" }),
         care = html("p", { class: "note", "aria-live": "polite" }),
@@ -328,6 +325,7 @@ export function brake_view(words, page) {
         ],
         picture,
         legend_row,
+        notes,
         html("div", { class: "revealing" }, curve_host),
         html(
             "div",
@@ -372,6 +370,7 @@ export function brake_view(words, page) {
             trouble = grey(node, page, "brake"),
             ghost = before && before !== a ? before : null;
         [drive, ...scales].forEach((knob) => knob.sync(a));
+        show_notes(notes, a);
         node.classList.toggle("revealed", revealed);
         see.hidden = revealed;
         const seen = scaled(a),
@@ -475,7 +474,9 @@ export function soft_view(words, page) {
         w = words.soft,
         picture = html("figure"),
         curve_host = html("figure"),
-        leaning = html("figure");
+        leaning = html("figure"),
+        notes = html("ul", { class: "notes" }),
+        notes_memory = html("ul", { class: "notes" });
     const told = html("p", { class: "answer", "aria-live": "polite" }),
         state = html("p", { "aria-live": "polite" }),
         costs = html("p", { "aria-live": "polite" });
@@ -533,7 +534,8 @@ export function soft_view(words, page) {
             costs,
         ],
         picture,
-        html("div", { class: "revealing" }, curve_host, html("h3", {}, w.leaning), leaning),
+        notes,
+        html("div", { class: "revealing" }, curve_host, html("h3", {}, w.leaning), leaning, notes_memory),
         html(
             "div",
             { class: "row" },
@@ -569,6 +571,7 @@ export function soft_view(words, page) {
         const ghost_of = (name) =>
             shown && store.ghosts[name] && store.ghosts[name] !== store.solved[name] ? store.ghosts[name] : null;
         [cover, poisson].forEach((knob) => knob.sync(a));
+        show_notes(notes, a);
         node.classList.toggle("revealed", shown);
         const wide = width_of(picture),
             tall = Math.round(Math.min(230, Math.max(150, wide * 0.3)));
@@ -610,6 +613,7 @@ export function soft_view(words, page) {
         );
         if (!m) return;
         speed.sync(m);
+        show_notes(notes_memory, m);
         leaning.replaceChildren(
             tractions_picture(leaning, words, m, {
                 width: wide,

@@ -6,6 +6,7 @@ import {
     line,
     segments,
     show,
+    show_notes,
     stairs,
     stroke,
     svg,
@@ -463,7 +464,7 @@ export function contact_view(words, page) {
             curve_width = width_of(curve_host);
         node.classList.toggle("stale", Boolean(trouble));
         numbers.replaceChildren(number_row(words, a, page.units, page.given));
-        notes.replaceChildren(...a.notes.map((text) => html("li", {}, text)));
+        show_notes(notes, a);
         const ghost = store.ghosts.main && store.ghosts.main !== a ? store.ghosts.main : null,
             seen = is_scaled ? scaled(a) : a;
         if (is_scaled)

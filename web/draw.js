@@ -121,6 +121,12 @@ export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth 
 export const card = (title, ...children) =>
     html("section", { class: "card" }, title && html("h3", {}, title), ...children);
 
+/* What the library notes of these answers, beside their numbers. */
+export const show_notes = (list, ...answers) =>
+    list.replaceChildren(
+        ...[...new Set(answers.flatMap((answer) => answer?.notes ?? []))].map((text) => html("li", {}, text)),
+    );
+
 /* One of several: entries [[value, text] ...]. */
 export const segments = (name, label, entries, chosen, choose) =>
     html(

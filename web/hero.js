@@ -441,6 +441,7 @@ export function hero_view(words, page) {
             fill: "soft",
             size: small,
             anchor: "middle",
+            halo: "paper",
         });
     }
     function scene_words(a) {

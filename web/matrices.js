@@ -21,7 +21,7 @@ function run_about(kinds, i) {
     return { from, size: to - from + 1 };
 }
 
-/* A matrix as shades: blue negative, orange positive, small values lifted by a root.  rows, columns:
+/* A matrix as shades: blue negative, ochre positive (orange is slip alone), small values lifted by a root.  rows, columns:
  * the kind of each, equal ones side by side are a block; explain(i, j, value, block) says what an
  * entry is, see(i, j) is told of it. */
 function shaded(words, name, matrix, { rows, columns, explain, see = () => {} }) {
@@ -40,11 +40,11 @@ function shaded(words, name, matrix, { rows, columns, explain, see = () => {} })
         ends = dark
             ? [
                   [108, 197, 228],
-                  [255, 154, 98],
+                  [217, 199, 104],
               ]
             : [
                   [20, 99, 126],
-                  [196, 80, 27],
+                  [122, 106, 29],
               ];
     for (let i = 0; i < rows.length; i++)
         for (let j = 0; j < columns.length; j++) {
@@ -116,7 +116,7 @@ function kinds_of(a, n) {
         return y < 0 && x > ends[0] && x < ends[n] && Math.hypot(x, y) > 0.9 * R ? "contact" : "free";
     });
 }
-const boundary_colours = { contact: "--slip", held: "--ink", free: "--rub" };
+const boundary_colours = { contact: "--reference", held: "--ink", free: "--rub" };
 
 /* The elements; see(i, j) marks two of them. */
 function boundary_picture(words, a, kinds) {
@@ -133,7 +133,7 @@ function boundary_picture(words, a, kinds) {
         kinds.map((kind, k) =>
             svg("path", {
                 d: `M${X(x0[k])} ${Y(y0[k])}L${X(x1[k])} ${Y(y1[k])}`,
-                style: stroke(boundary_colours[kind], kind === "held" ? 5 : 2.5),
+                style: stroke(boundary_colours[kind], kind === "free" ? 2.5 : 5),
             }),
         ),
         kinds.map((kind, k) =>

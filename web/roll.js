@@ -1,6 +1,6 @@
 /* From rest to steady rolling: the picture of a step, and under it the way there with the steady value that is
  * reached; load, friction, force or creepage drawn by hand over the way. */
-import { card, chart, html, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
+import { card, chart, html, line, player, segments, show, show_notes, stroke, svg, width_of } from "./draw.js";
 import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.js";
 import { slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
@@ -26,6 +26,7 @@ export function roll_view(words, page) {
         way = html("figure"),
         hand = html("figure"),
         legend_row = html("div"),
+        notes = html("ul", { class: "notes" }),
         same = html("div"),
         told = html("p", { class: "note", "aria-live": "polite" });
     const frames = player(words, {
@@ -88,7 +89,7 @@ export function roll_view(words, page) {
                 same,
             ),
         ),
-        card("", frames.node, picture, way, legend_row),
+        card("", frames.node, picture, way, legend_row, notes),
     );
 
     /* The case of the page, rolling from rest on equal elements. */
@@ -470,6 +471,7 @@ export function roll_view(words, page) {
                 data = answer;
                 steps_top = Math.max(...data["step.p"].at);
                 legend_row.replaceChildren(tractions_legend(words, data["step.zone"].at, false));
+                show_notes(notes, data);
                 return frames.set(data["step.p"].columns, first ? 0 : undefined);
             }
             if (data) frame(frames.at);
