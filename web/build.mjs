@@ -16,6 +16,7 @@ const PAGE = [
     "knob.js",
     "pen.js",
     "lens.js",
+    "matters.js",
     "contact.js",
     "take.js",
     "controls.js",
@@ -26,6 +27,7 @@ const PAGE = [
     "below.js",
     "matrices.js",
     "step.js",
+    "crack.js",
     "main.js",
 ];
 const LIMIT = 700e3;
@@ -37,19 +39,20 @@ function picture(file) {
     return `<img alt="${title}" src="data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}">`;
 }
 
-/* Modules in one: their imports are of each other. */
+/* Modules in one: their imports are of each other.  Lines without their indentation, which is a fifth of the page. */
 const joined = (files) =>
     files
         .map((file) =>
             readFileSync(`web/${file}`, "utf8")
                 .replace(/^import .*?;\n/gms, "")
-                .replace(/^export /gm, ""),
+                .replace(/^export /gm, "")
+                .replace(/^ +/gm, ""),
         )
         .join("\n");
 
 const [output, wasm] = process.argv.slice(2);
 const parts = {
-    STYLE: readFileSync("web/style.css", "utf8"),
+    STYLE: readFileSync("web/style.css", "utf8").replace(/^ +/gm, ""),
     WASM: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),
     WORKER: JSON.stringify(joined(WORKER)).replaceAll("</", "<\\/"),
     SCRIPT: joined(PAGE).replaceAll("</script", "<\\/script"),

@@ -14,6 +14,7 @@ import {
     width_of,
     zone_colours,
 } from "./draw.js";
+import { matters_card } from "./matters.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { say } from "./words.js";
 
@@ -398,6 +399,7 @@ export const curve_request = (given, slot) => {
 
 export function contact_view(words, page) {
     const { store } = page,
+        matters = matters_card(words, page),
         phone = matchMedia("(max-width: 920px)");
     let curve = null,
         curve_key = "",
@@ -433,17 +435,19 @@ export function contact_view(words, page) {
         tractions_card,
         html("div", { class: "beside" }, unit_switch, legend_row, note),
         html("section", { class: "card" }, html("h3", {}, words.curve_title), curve_host, curve_note),
+        matters.node,
     );
     const drives = () => formulation_of(page.given) === "steady";
     const wanted_curve = () => curve_request(page.given, "curve bench");
     function wants() {
-        if (store.holding || store.trouble("main")) return [];
+        if (store.holding || store.trouble("main")) return matters.wants();
         const all = [{ kind: "closed", slot: "closed bench", given: page.given }];
         if (drives() && Number(page.given.mu ?? 0.3) !== 0 && curve_key !== wanted_curve().key)
             all.push(wanted_curve());
-        return all;
+        return all.concat(matters.wants());
     }
     function take(answer, request) {
+        if (answer.kind === "derivatives") return matters.take(answer);
         if (answer.kind === "closed") closed = answer.refused ? null : { ...answer, given: request.given };
         else if (answer.kind === "curve") [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
         drawn_for = null;
@@ -455,6 +459,7 @@ export function contact_view(words, page) {
             : null;
 
     function draw() {
+        matters.draw();
         const a = page.answer,
             key = [a, closed, curve, store.ghosts.main, is_scaled, store.trouble("main"), store.holding];
         if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;

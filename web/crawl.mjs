@@ -74,7 +74,7 @@ export async function crawl({ stride, from, views, seconds }) {
                 for (const end of ["min", "max"])
                     for (const view of views) {
                         if (!mine()) continue;
-                        if (late()) return { states, wrong };
+                        if (late() && states) return { states, wrong };
                         await start();
                         choose();
                         await rest(`${preset} ${name} ${value}`);

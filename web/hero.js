@@ -327,10 +327,12 @@ export function hero_view(words, page) {
             window: fit.window.map((x, k) => mix(x, goal.window[k])),
             press: mix(fit.press, goal.press),
             slip: mix(fit.slip, goal.slip),
+            rub: mix(fit.rub, goal.rub),
         };
         if (
             Math.abs(fit.window[1] / goal.window[1] - 1) +
                 Math.abs(fit.press / goal.press - 1) +
+                Math.abs(fit.rub / goal.rub - 1) +
                 Math.abs(fit.slip / goal.slip - 1) <
             0.01
         )

@@ -17,8 +17,16 @@ export function fit_lens({ columns, numbers }) {
     const wide = window[1] - window[0];
     const way = offsets_of({ columns, numbers });
     const most = Math.max(way.slip_end, 0.55 * way.strain_end, 1e-9);
-    return { window, press: 1.15 * Math.max(...columns.p), slip: round_125((0.042 * wide) / most) };
+    const press = 1.15 * Math.max(...columns.p);
+    return {
+        window,
+        press,
+        slip: round_125((0.042 * wide) / most),
+        rub: rub_of(columns, press),
+    };
 }
+/* The friction that an arrow of full length stands for; small ones stay small. */
+const rub_of = ({ q }, press) => Math.max(0.12 * press, ...[...q].map(Math.abs));
 export function round_125(x) {
     const power = 10 ** Math.floor(Math.log10(x)),
         part = x / power;
@@ -32,8 +40,18 @@ export function lens_still_fits(fit, { columns, numbers }) {
         numbers.contact_from > fit.window[0] + 0.06 * wide && numbers.contact_to < fit.window[1] - 0.06 * wide;
     const way = offsets_of({ columns, numbers }),
         most = (fit.slip * Math.max(way.slip_end, 0.55 * way.strain_end)) / wide;
-    const high = Math.max(...columns.p) / fit.press;
-    return inside && contact > 0.3 * wide && high > 0.35 && high <= 1 && most < 0.1 && (most > 0.012 || fit.slip > 500);
+    const high = Math.max(...columns.p) / fit.press,
+        rub = rub_of(columns, fit.press) / fit.rub;
+    return (
+        inside &&
+        contact > 0.3 * wide &&
+        high > 0.35 &&
+        high <= 1 &&
+        rub > 0.35 &&
+        rub <= 1.4 &&
+        most < 0.1 &&
+        (most > 0.012 || fit.slip > 500)
+    );
 }
 
 /* Accumulated slip and strain of the material at x, in mm; material moves from the leading edge, at +x, to -x. */
@@ -169,7 +187,7 @@ export function draw_lens(pen, box, scene) {
             .reverse();
         const points = curve(c, n.contact_from, n.contact_to, inside);
         pen.shape([...points, ...base], { fill: "pressure", alpha: 0.16 });
-        pen.shape(points, { stroke: "pressure", width: 1.4, alpha: 0.55 });
+        pen.shape(points, { stroke: "pressure", width: 1.4, alpha: 0.55, name: "pressure" });
         if (ghost && ghost.numbers.contact_to > ghost.numbers.contact_from) {
             const g = ghost.columns,
                 list = [...g.x.keys()].filter((i) => g.zone[i] > 0);
@@ -217,8 +235,8 @@ export function draw_lens(pen, box, scene) {
             dots[group].push(...(group === "stick" ? [[X(x), (ya + yb) / 2]] : ends));
         }
         pen.strokes(groups.outside, { stroke: "soft", width: 1.3, alpha: 0.5 });
-        pen.strokes(groups.stick, { stroke: "stick", width: 2.2 });
-        pen.strokes(groups.slip, { stroke: "slip", width: 2.2, dash: [7, 4] });
+        pen.strokes(groups.stick, { stroke: "stick", width: 2.2, name: "stick" });
+        pen.strokes(groups.slip, { stroke: "slip", width: 2.2, dash: [7, 4], name: "slip" });
         for (const [x, y] of dots.outside) pen.circle(x, y, 2.4, { fill: "soft", alpha: 0.7 });
         for (const [x, y] of dots.slip) pen.circle(x, y, 3.6, { fill: "slip" });
         for (const [x, y] of dots.stick)
@@ -271,15 +289,15 @@ export function draw_lens(pen, box, scene) {
         );
     }
     function draw_friction() {
-        const most = Math.max(...[...c.q].map(Math.abs)),
-            scale = (0.9 * box.w) / spaces / Math.max(0.12 * fit.press, most);
+        const longest = (0.9 * box.w) / spaces,
+            scale = longest / fit.rub;
         const arrows = [];
         const step = (n.contact_to - n.contact_from) / 15;
         for (let k = 0; k < 15; k++) {
             const x = n.contact_from + (k + 0.5) * step;
             let i = 0;
             while (i < c.x.length - 1 && c.x[i] + c.h[i] / 2 < x) i++;
-            const long = c.q[i] * scale,
+            const long = Math.max(-2 * longest, Math.min(2 * longest, c.q[i] * scale)),
                 y = surface(x)[0] - 15;
             if (Math.abs(long) < 2.5) continue;
             const at = X(x) + 0,
@@ -297,7 +315,7 @@ export function draw_lens(pen, box, scene) {
             );
         }
         pen.strokes(arrows, { stroke: "lens-gap", width: 5, alpha: 0.7 });
-        pen.strokes(arrows, { stroke: "rub", width: 2.2 });
+        pen.strokes(arrows, { stroke: "rub", width: 2.2, name: "friction" });
     }
     function draw_words() {
         const right = box.x + box.w - 12,

@@ -123,8 +123,9 @@ export async function load_library(bytes) {
     }
 
     class Case {
-        constructor() {
-            this.at = c.rb_api_create();
+        /* For the purpose of a command, which decides what is refused and some defaults. */
+        constructor(purpose = "solve") {
+            this.at = with_text([purpose], (p) => c.rb_api_create_for(p));
         }
         free() {
             c.rb_api_free(this.at);
@@ -146,6 +147,26 @@ export async function load_library(bytes) {
         }
         pivots() {
             return c.rb_api_pivots(this.at);
+        }
+        derivatives() {
+            return c.rb_api_derivatives(this.at);
+        }
+        /* Input k of the derivatives: { name, unit, refusal }, or null. */
+        input(k) {
+            const field = (name) => with_text([name], (f) => text_at(c.rb_api_input(this.at, k, f, room, 4096)));
+            const name = field("name");
+            return name === null ? null : { name, unit: field("unit"), refusal: field("refusal") };
+        }
+        /* Passes the contact over a crack with these options. */
+        crack(options) {
+            const names = Object.keys(options),
+                list = c.malloc(8 * names.length + 8);
+            const status = with_text([...names, ...names.map((name) => String(options[name]))], (...at) => {
+                new Uint32Array(c.memory.buffer).set(at, list / 4);
+                return c.rb_api_crack(this.at, names.length, list, list + 4 * names.length);
+            });
+            c.free(list);
+            return status;
         }
         maxima(depth) {
             return c.rb_api_stress_maxima(this.at, depth);

@@ -9,13 +9,14 @@ import { CHAPTER_CASES, brake_view, press_view, soft_view } from "./chapters.js"
 import { roll_view } from "./roll.js";
 import { below_view } from "./below.js";
 import { step_view } from "./step.js";
+import { CRACK_CASE, crack_request, crack_view } from "./crack.js";
 import { bench_view } from "./bench.js";
 import { take_along } from "./take.js";
 import { say, words } from "./words.js";
 
 const at = (id) => document.getElementById(id);
 
-/* In the order of the page.  "cracks" comes between "below" and "step" when the library has them. */
+/* In the order of the page. */
 const CHAPTERS = [
     ["hero", hero_view],
     ["press", press_view],
@@ -23,9 +24,12 @@ const CHAPTERS = [
     ["soft", soft_view],
     ["below", below_view],
     ["step", step_view],
+    ["crack", crack_view],
     ["roll", roll_view],
     ["bench", bench_view],
 ];
+/* Cases that the library is asked for in another way than to solve them. */
+const REQUESTS = { crack: crack_request };
 /* The words of links of earlier pages. */
 const VIEWS_OF_LINKS = { contact: "bench", take: "bench" };
 
@@ -50,7 +54,11 @@ async function main() {
     const address = (state) => write_link(state.cases.main, current, state.drawn, embed);
     const store = make_store(
         {
-            cases: { main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, ...CHAPTER_CASES },
+            cases: {
+                main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail },
+                ...CHAPTER_CASES,
+                crack: CRACK_CASE,
+            },
             drawn: null,
         },
         {
@@ -114,15 +122,22 @@ async function main() {
                 ),
             ),
     };
-    page.take_along = (picture, file, canvas) => take_along(page, picture, file, canvas);
+    page.take_along = (...of) => take_along(page, ...of);
 
     /* ---- Solving ---- */
 
+    const request_of = (name) => ({
+        kind: "solve",
+        given: store.case(name),
+        ...REQUESTS[name]?.(store.case(name), store.holding),
+        slot: `solve ${name}`,
+        case: name,
+    });
     function solve_cases(names) {
         if (!solver) return;
         for (const name of names)
             if (name === "main" || Object.values(views).some((view) => near.has(view) && view.uses.includes(name)))
-                solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
+                solver.ask(request_of(name));
             else stale.add(name);
         ask_views((view) => view.uses.some((name) => names.includes(name)));
         store.rewrite();
@@ -145,16 +160,13 @@ async function main() {
         near.add(view);
         const cases = view.uses.filter((name) => stale.has(name) || !store.answers[name]);
         cases.forEach((name) => stale.delete(name));
-        if (solver)
-            for (const name of cases)
-                if (!solver.waits(`solve ${name}`))
-                    solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
+        if (solver) for (const name of cases) if (!solver.waits(`solve ${name}`)) solver.ask(request_of(name));
         if (stale.has(view)) ask_views((other) => other === view);
         draw_soon();
     }
     function take(answer, request, newer) {
         if (answer.broken) faults.push(answer.refused);
-        if (answer.kind !== "solve") return views[request.view]?.take(answer, request);
+        if (!request.case) return views[request.view]?.take(answer, request);
         if (answer.refused && newer) return;
         if (request.case === "main" && request.given === link_given && answer.refused) {
             /* A link whose case the library refuses opens the first case, with a note. */
@@ -162,7 +174,7 @@ async function main() {
             store.replace({ ...store.state, cases: { ...store.state.cases, main: { ...PRESETS.rail } } });
             return;
         }
-        store.answer(request.case, { ...answer, given: request.given });
+        store.answer(request.case, { ...answer, given: request.given, coarse: request.coarse });
         if (request.case === "main")
             tell(
                 answer.refused
@@ -386,7 +398,7 @@ async function main() {
         units: Object.fromEntries(solver.results.number.map((row) => [row.name, row.unit])),
     });
     at("headline-before").remove();
-    solver.ask({ kind: "solve", slot: "solve main", case: "main", given: page.given });
+    solver.ask(request_of("main"));
     const begin = linked ? current : "hero";
     for (const [name, make] of embed ? CHAPTERS.slice(0, 1) : CHAPTERS) build(name, make);
     near.add(views.hero);

@@ -93,7 +93,8 @@ export function svg_pen(width, height, palette) {
         String(text).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
     const number = (v) => Number(v.toFixed(2));
     const d = (points) => points.map(([x, y], k) => `${k ? "L" : "M"}${number(x)} ${number(y)}`).join("");
-    const look = ({ fill, stroke, width: wide = 1.5, dash, alpha = 1 }) =>
+    const look = ({ fill, stroke, width: wide = 1.5, dash, alpha = 1, name }) =>
+        (name ? `class="${safe(name)}" ` : "") +
         `fill="${fill ? safe(palette(fill)) : "none"}"` +
         (stroke
             ? ` stroke="${safe(palette(stroke))}" stroke-width="${wide}" stroke-linejoin="round" stroke-linecap="round"`
@@ -102,7 +103,7 @@ export function svg_pen(width, height, palette) {
         (alpha < 1 ? ` opacity="${alpha}"` : "");
     return {
         shape: (points, style) => out.push(`<path d="${d(points)}${style.fill ? "Z" : ""}" ${look(style)}/>`),
-        strokes: (lines, style) => out.push(`<path d="${lines.map(d).join("")}" ${look(style)}/>`),
+        strokes: (lines, style) => lines.length && out.push(`<path d="${lines.map(d).join("")}" ${look(style)}/>`),
         circle: (x, y, r, style) =>
             out.push(`<circle cx="${number(x)}" cy="${number(y)}" r="${number(r)}" ${look(style)}/>`),
         text(x, y, words, { fill = "ink", size = 13, weight = 400, anchor = "start", halo } = {}) {

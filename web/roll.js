@@ -403,6 +403,7 @@ export function roll_view(words, page) {
             );
         plot.root.append(
             svg("path", {
+                class: "way",
                 d: line([...d].map((v, i) => [plot.X(v), plot.Y(list[i] * percent)])),
                 style: stroke("--rub", 3),
             }),

@@ -96,6 +96,12 @@ export function with_mu(given, mu, numbers) {
     return hold(next, ALL_TANGENTIAL, "creep", String(Number.isFinite(creep) ? Number(creep.toPrecision(4)) : 0));
 }
 
+/* A case with a crack below its contact: the options of the contact, and those of the crack. */
+const of_crack = (name) => /^crack-|^fluid$/.test(name);
+const only = (given, which) => Object.fromEntries(Object.entries(given).filter(([name]) => which(name)));
+export const contact_of = (given) => only(given, (name) => !of_crack(name));
+export const crack_of = (given) => only(given, of_crack);
+
 /* Which of three grounds is given: rigid, of the same material, another elastic one. */
 export const ground_of = (given) =>
     "similar" in given && given.similar !== "no" ? "similar" : "young-b" in given ? "other" : "rigid";

@@ -1,24 +1,27 @@
 /* Take it away: the case as a file and as a command, its numbers and its picture. */
 import { card, html } from "./draw.js";
 import { tractions_picture } from "./contact.js";
-import { write_link } from "./state.js";
+import { contact_of, crack_of, write_link } from "./state.js";
 import { say } from "./words.js";
 
+const words_for_crack = (given) => Object.entries(crack_of(given)).map(([name, text]) => `--${name} ${text}`);
 export const command_of = (given, options) =>
-    "rollbem " +
-    options
-        .filter((o) => o.name in given && o.kind !== "group")
-        .map((o) =>
-            o.kind === "flag"
-                ? given[o.name] === "yes"
-                    ? `--${o.name}`
-                    : ""
-                : /^[\w.+-]+$/.test(given[o.name])
-                  ? `--${o.name} ${given[o.name]}`
-                  : `--${o.name} '${given[o.name].replaceAll("'", "'\\''")}'`,
-        )
-        .filter(Boolean)
-        .join(" ");
+    [
+        words_for_crack(given).length ? "rollbem crack" : "rollbem",
+        ...options
+            .filter((o) => o.name in given && o.kind !== "group")
+            .map((o) =>
+                o.kind === "flag"
+                    ? given[o.name] === "yes"
+                        ? `--${o.name}`
+                        : ""
+                    : /^[\w.+-]+$/.test(given[o.name])
+                      ? `--${o.name} ${given[o.name]}`
+                      : `--${o.name} '${given[o.name].replaceAll("'", "'\\''")}'`,
+            )
+            .filter(Boolean),
+        ...words_for_crack(given),
+    ].join(" ");
 
 export const ini_of = (given, options) =>
     options
@@ -29,6 +32,11 @@ export const ini_of = (given, options) =>
                 ? `[${group.name}]\n${rows.map((o) => `${o.name} = ${given[o.name]}`).join("\n")}\n`
                 : "";
         })
+        .concat(
+            ["[crack]\n", ...Object.entries(crack_of(given)).map(([name, text]) => `${name} = ${text}\n`)]
+                .join("")
+                .replace(/^\[crack\]\n$/, ""),
+        )
         .filter(Boolean)
         .join("\n");
 
@@ -153,6 +161,24 @@ async function copy_text(text) {
     }
 }
 
+/* The lesson to a figure, and the pages of docs/ that are the same on every one. */
+export const LESSONS = {
+    "rollbem-contact": "course/06-rolling.md",
+    "rollbem-press": "course/03-hertz.md",
+    "rollbem-brake": "course/06-rolling.md",
+    "rollbem-soft": "course/08-bodies.md",
+    "rollbem-stress": "course/09-stress.md",
+    "rollbem-crack": "crack.md",
+    "rollbem-roll": "course/07-transient.md",
+    tractions: "course/05-friction.md",
+};
+export const PAGES = { theory: "theory.md", page: "page.md" };
+/* Served, the page lies beside the site's pages; as a file by itself it names those of the sources. */
+const link_to = (file) =>
+    /^https?:$/.test(location.protocol)
+        ? html("a", { href: file.replace(/\.md$/, ".html") }, file.replace(/\.md$/, ""))
+        : `docs/${file}`;
+
 /* A menu beside a figure: its picture as a file, its case as text.  picture(): the text of an SVG file;
  * canvas(): what a clip is taken from, if it moves; given(): the case that the figure shows. */
 export function take_along(page, picture, name, canvas, given = () => page.given) {
@@ -162,10 +188,10 @@ export function take_along(page, picture, name, canvas, given = () => page.given
     const copies = {
         command: () => command_of(given(), options),
         ini: () => ini_of(given(), options),
-        python: () => python_of(given(), options),
-        link: () => location.href.split("#")[0] + write_link(given(), "hero", null),
+        ...(!words_for_crack(given()).length && { python: () => python_of(given(), options) }),
+        link: () => location.href.split("#")[0] + write_link(contact_of(given()), "hero", null),
         embed: () =>
-            `<iframe src="${(location.href.split("#")[0] + write_link(given(), "hero", null, true)).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>`,
+            `<iframe src="${(location.href.split("#")[0] + write_link(contact_of(given()), "hero", null, true)).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>`,
     };
     const button = (text, act) =>
         html(
@@ -214,7 +240,15 @@ export function take_along(page, picture, name, canvas, given = () => page.given
                     }),
                 ),
             ),
-            html("p", { class: "note" }, w.lesson),
+            html(
+                "p",
+                { class: "note" },
+                w.lesson,
+                link_to(LESSONS[name]),
+                ". ",
+                ...Object.entries(PAGES).flatMap(([key, file]) => [w[key], link_to(file), ". "]),
+                w.cite,
+            ),
             said,
         ),
     );

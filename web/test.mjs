@@ -20,6 +20,9 @@ import { crawl } from "./crawl.mjs";
 import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
+import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
+import { effects } from "./matters.js";
+import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
 import { PRESETS, ground_of, share_of_ground, with_mu, with_point, with_support } from "./state.js";
@@ -458,6 +461,73 @@ await test("the largest stress is the library's, not the grid's", () => {
         `${got["maxima.max_shear"].at[0]}, the program has ${JSON.stringify(want.max_shear)}`,
     );
 });
+await test("a pass over a crack is the program's, dry and with water", () => {
+    for (const more of [{}, { fluid: "trapped", "crack-angle": "60" }]) {
+        const { coarse, ...request } = crack_request({ ...CRACK_CASE, ...more }, false),
+            got = answer(library, request),
+            want = JSON.parse(
+                run(["crack", "--json", "--quiet", ...words_of(request.given), ...words_of(request.crack)]).stdout,
+            );
+        check(!got.refused && !coarse, got.refused);
+        const most = Math.max(want.summary.K_I_max, want.summary.K_II_max);
+        for (const name of Object.keys(got.summary))
+            check_close(got.summary[name], want.summary[name], 1e-5 * most, `${name} ${JSON.stringify(more)}`);
+        for (const name of ["K_I", "K_II"])
+            want.table[name].forEach((v, k) =>
+                check_close(got[`crack.${name}`].at[k], v, 1e-5 * most, `${name}, position ${k}`),
+            );
+        /* Open faces are apart, closed ones touch, and the last node opens as K_I says. */
+        const k = got["crack.K_I"].at.reduce((best, v, i, all) => (v > all[best] ? i : best), 0),
+            faces = faces_at(got, k);
+        check(
+            faces.open.at(-1) > 0 && [...faces.open].every((v, j) => v >= 0 && (faces.zone[j] === 0 || v < 1e-9)),
+            "faces",
+        );
+    }
+    const { kind, K_I, K_II } = at_the_mouth(answer(library, crack_request(CRACK_CASE, true)));
+    check(kind === "slides" && K_I < 1 && K_II > 500, `${kind}: ${K_I}, ${K_II}`);
+});
+await test("a crack that the library refuses is refused with its line", () => {
+    const got = answer(library, crack_request({ ...CRACK_CASE, "crack-angle": "180" }, true));
+    check(/^--crack-angle: expected more than 0 and less than 180/.test(got.refused), got.refused);
+});
+await test("which input matters: the derivatives are differences of the library's own solutions", () => {
+    const given = { ...PRESETS.rail, mesh: "uniform", zone: "12" },
+        got = answer(library, { kind: "derivatives", given }),
+        names = got.inputs.map(({ name }) => name),
+        value = (name) => got["derivative.value"].at[names.indexOf(name)];
+    for (const result of ["max_pressure", "tangential_load"]) {
+        const list = effects(names, got["derivative.value"].at, got[`derivative.${result}`].at, got.numbers[result]);
+        for (const name of ["load", "young", "radius", "mu", "creep-ratio"]) {
+            const at = (part) =>
+                    solve({ ...given, [name]: String(value(name) * (1 + part)) }).numbers[result] /
+                    Math.abs(got.numbers[result]),
+                want = (at(1e-5) - at(-1e-5)) / 2e-3,
+                have = list.find((row) => row.name === name)?.more ?? 0;
+            check_close(have, want, 1e-6, `${result} by ${name}`);
+        }
+        check(
+            list.every((row, k) => !k || Math.abs(row.more) <= Math.abs(list[k - 1].more) + 1e-12),
+            `${result}: not sorted`,
+        );
+    }
+    /* It skids: friction follows the load and mu alone, by as many percent. */
+    const slides = answer(library, { kind: "derivatives", given: { ...given, "creep-ratio": "3" } }),
+        list = effects(
+            slides.inputs.map(({ name }) => name),
+            slides["derivative.value"].at,
+            slides["derivative.tangential_load"].at,
+            slides.numbers.tangential_load,
+        );
+    check(
+        list.length === 2 &&
+            list.every(({ name, more }) => ["mu", "load"].includes(name) && Math.abs(more + 0.01) < 1e-9),
+        JSON.stringify(list),
+    );
+});
+await test("lessons that figures name are there", () => {
+    for (const file of [...Object.values(LESSONS), ...Object.values(PAGES)]) check(existsSync(`docs/${file}`), file);
+});
 await test("Carter's tractions are the library's", () => {
     const got = answer(library, { kind: "closed", given: PRESETS.rail }),
         worst = Math.max(...got["closed.q"].at.map((q, i) => Math.abs(q - got.columns.q[i])));
@@ -507,7 +577,7 @@ async function crawled(browser, page) {
 }
 
 const IDLE = "window.rollbem && rollbem.page.answer && rollbem.idle()";
-const VIEWS = ["hero", "press", "brake", "soft", "below", "step", "roll", "bench"];
+const VIEWS = ["hero", "press", "brake", "soft", "below", "step", "crack", "roll", "bench"];
 async function views(page) {
     const number = (name) => page.run(`rollbem.page.answer.numbers.${name}`);
     /* The numbers that the page holds, and those that it shows, against a run of the program. */
@@ -690,6 +760,10 @@ async function views(page) {
     await test("the chapters answer what they ask", async () => {
         await page.run("rollbem.open('press')");
         await settled();
+        const wide = await page.run(
+            "[...document.querySelectorAll('#at-press figure path')].map((e) => e.getBBox().width).filter((w) => w > 1)",
+        );
+        check(Math.min(...wide) > 0.9 * Math.max(...wide), `what is drawn before the guess gives it away: ${wide}`);
         await page.run("rollbem.views.press.answer('16')");
         await settled();
         check(/Yes, 15.9\d* mm.*99\d MPa/.test(await text_of("#at-press .answer")), await text_of("#at-press .answer"));
@@ -751,6 +825,301 @@ async function views(page) {
             "0.4 at the surface 0.4 p₀",
         ])
             check(table.includes(want), `${want} is not in ${table.join("; ")}`);
+    });
+    await test("the chapter of the crack: a guess, the wheel dragged over it, its tip, water, undo", async () => {
+        await page.run("rollbem.open('crack')");
+        await settled();
+        await page.run("rollbem.views.crack.answer('slides')");
+        await settled();
+        check(
+            /^Yes. They are pressed together.*K_I = 0\. .*K_II = 79\d/.test(await text_of("#at-crack .answer")),
+            await text_of("#at-crack .answer"),
+        );
+        const seen = () =>
+            page.run(
+                "(() => { const { data, place } = rollbem.views.crack.shown(); return { place, coarse: rollbem.store.answers.crack.coarse, positions: data['crack.x'].at.length, K: data.summary.K_I_max }; })()",
+            );
+        /* By hand: what is solved on the way is coarse, and fine when the hand lets go. */
+        const drag = async (name, dx, dy) => {
+            const box = await page.run(
+                `(() => { const h = document.querySelector('#at-crack [data-handle=${name}]'); h.scrollIntoView({ block: 'center', behavior: 'instant' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()`,
+            );
+            const mouse = (type, k) =>
+                page.tab("Input.dispatchMouseEvent", {
+                    type,
+                    x: box[0] + k * dx,
+                    y: box[1] + k * dy,
+                    button: "left",
+                    buttons: type === "mouseReleased" ? 0 : 1,
+                    clickCount: 1,
+                });
+            await mouse("mousePressed", 0);
+            for (const k of [0.3, 0.6, 1]) await mouse("mouseMoved", k);
+            await page.until("rollbem.solver.idle()");
+            const on_the_way = await seen();
+            await mouse("mouseReleased", 1);
+            await settled();
+            return on_the_way;
+        };
+        const before = await seen();
+        await drag("wheel", -120, 0);
+        const there = await seen();
+        check(
+            there.place < before.place - 0.5 && there.K === before.K,
+            `the wheel: ${JSON.stringify([before, there])}`,
+        );
+        const on_the_way = await drag("tip", 20, 40),
+            after = await seen();
+        check(
+            on_the_way.coarse && on_the_way.positions === 61 && !after.coarse && after.positions === 121,
+            `the tip: ${JSON.stringify([on_the_way, after])}`,
+        );
+        check(
+            Number(await page.run("rollbem.store.case('crack')['crack-angle']")) > 35 &&
+                Math.abs(after.place - there.place) < 0.06,
+            `the tip: ${JSON.stringify(await page.run("rollbem.store.case('crack')"))}, the wheel at ${after.place}`,
+        );
+        await page.run("rollbem.store.undo()");
+        await settled();
+        check((await page.run("rollbem.store.case('crack')['crack-angle']")) === "30", "undo");
+        /* By keys. */
+        for (const [name, key, holds] of [
+            ["wheel", "ArrowRight", `rollbem.views.crack.shown().place > ${there.place} + 0.05`],
+            ["tip", "ArrowLeft", "rollbem.store.case('crack')['crack-angle'] === '32'"],
+            ["tip", "ArrowDown", "rollbem.store.case('crack')['crack-length'] === '1.05'"],
+        ]) {
+            await page.run(
+                `{ const h = document.querySelector('#at-crack [data-handle=${name}]'); h.focus(); h.dispatchEvent(new KeyboardEvent('keydown', { key: '${key}', bubbles: true, cancelable: true })); }`,
+            );
+            await settled();
+            check(
+                (await page.run(holds)) && (await page.run(`document.activeElement.dataset.handle === '${name}'`)),
+                `${name} ${key}`,
+            );
+        }
+        await page.run("document.querySelector('#at-crack [name=fluid][value=trapped]').click()");
+        await settled();
+        const wet = await seen();
+        check(
+            wet.K > 5 * before.K &&
+                /Before: \d/.test(await page.run("document.querySelector('#at-crack').textContent")),
+            `${wet.K} with water, ${before.K} dry`,
+        );
+        /* The command that is copied gives the page's numbers. */
+        const command = await page.run(
+            "(() => { let text = ''; navigator.clipboard.writeText = async (t) => { text = t; }; [...document.querySelectorAll('#at-crack .menu button')].find((b) => b.textContent === 'Copy as command').click(); return text; })()",
+        );
+        const want = JSON.parse(run([...command.split(" ").slice(1), "--json", "--quiet"]).stdout).summary;
+        check_close(wet.K, want.K_I_max, 1e-4 * want.K_I_max, command);
+        /* Refused: grey, with the library's line. */
+        await page.run("rollbem.store.set('crack', { ...rollbem.store.case('crack'), 'crack-angle': '180' })");
+        await settled();
+        check(
+            /^Not solved: --crack-angle: expected more than 0/.test(await text_of("#at-crack .answer")) &&
+                (await page.run("document.querySelector('#at-crack figure').classList.contains('stale')")),
+            await text_of("#at-crack .answer"),
+        );
+        await page.run("rollbem.store.undo()");
+        await settled();
+    });
+    await test("which input matters: bars that follow the sliders", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('bench')");
+        await settled();
+        const bars = () =>
+            page.run(
+                "[...document.querySelectorAll('#at-bench .bar')].map((b) => [b.dataset.input, b.querySelector('.value').textContent, Math.round(b.querySelector('.more').getBoundingClientRect().width)])",
+            );
+        const first = await bars();
+        check(
+            JSON.stringify(
+                first
+                    .slice(0, 3)
+                    .map(([name, text]) => name + text)
+                    .sort(),
+            ) === '["load+0.5 %","radius−0.5 %","young+0.5 %"]' && first[0][2] > 40,
+            JSON.stringify(first),
+        );
+        await page.run("document.querySelector('#at-bench [name=matters][value=tangential_load]').click()");
+        await settled();
+        const friction = await bars();
+        await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '1.2' })");
+        await settled();
+        const slides = await bars();
+        check(
+            friction.some(([name]) => name === "creep-ratio") && !slides.some(([name]) => name === "creep-ratio"),
+            JSON.stringify([friction, slides]),
+        );
+        check(
+            /matters most/.test(await page.run("document.querySelector('.bars').nextSibling.textContent")),
+            "no sentence",
+        );
+    });
+    await test("notes of the library stand beside the chapter's numbers", async () => {
+        await page.run("rollbem.open('soft')");
+        await settled();
+        await page.run("rollbem.views.soft.answer('larger')");
+        await settled();
+        check(
+            /strains are large/.test(
+                await page.run("[...document.querySelectorAll('#at-soft .notes')].map((n) => n.textContent).join()"),
+            ),
+            "no note",
+        );
+    });
+    await test("orange is slip alone: no matrix has it", async () => {
+        await page.run(
+            "rollbem.preset('rail'); rollbem.open('step'); document.querySelector('#at-step details').open = true",
+        );
+        await settled();
+        const orange = await page.run(
+            "[...document.querySelectorAll('#at-step .matrix canvas')].map((c) => { const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let k = 0; k < d.length; k += 4) n += Math.hypot(d[k] - 196, d[k + 1] - 80, d[k + 2] - 27) < 60; return n; })",
+        );
+        check(orange.length >= 2 && orange.every((n) => n === 0), `${orange}`);
+    });
+    await test("the three sentences of docs/page.md are what the first screen shows", async () => {
+        const text = readFileSync("docs/page.md", "utf8").replace(/\s+/g, " ");
+        for (const sentence of [
+            "on the left, at the rear, the lines are torn; on the right, where the material enters, they are whole",
+            "a little slower than it travels, a quarter of a percent",
+            "Braking harder moves the border to the front, until all of it slips and the wheel skids",
+        ])
+            check(text.includes(sentence), sentence);
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        const places = () =>
+            page.run(`(() => {
+                const picture = new DOMParser().parseFromString(rollbem.views.hero.picture_of(), "image/svg+xml").documentElement;
+                document.body.append(picture);
+                const box = (name) => { const b = picture.querySelector("path." + name)?.getBBox(); return b ? [b.x, b.x + b.width] : null; };
+                const found = [box("slip"), box("stick")];
+                picture.remove();
+                return found;
+            })()`);
+        const [slip, stick] = await places(),
+            facts = await text_of(".facts");
+        /* lines lean, so that those at the border stand above each other */
+        check(slip[0] < stick[0] - 100 && slip[1] < stick[1] - 100, `${slip} torn, ${stick} whole`);
+        check(/the rim turns\s*0.26 % slower than it travels/.test(facts), facts);
+        await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '0.8' })");
+        await settled();
+        const [, harder] = await places();
+        check(harder[0] > stick[0] + 40, `whole from ${stick[0]}, then from ${harder[0]}`);
+        await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '1.1' })");
+        await settled();
+        check((await text_of("#headline")) === "Now it skids." && !(await places())[1], await text_of("#headline"));
+    });
+    await test("what takes long is cancelled with its worker, and the page goes on", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('bench')");
+        await settled();
+        await page.run(
+            "rollbem.page.change({ support: 'arc', mesh: 'uniform', 'contact-elements': '400', 'outer-elements': '800', load: '100' })",
+        );
+        await page.until("!document.getElementById('busy').hidden");
+        await page.run("document.querySelector('#busy button').click()");
+        await settled();
+        check(
+            /cancelled/.test(await text_of("#message")) &&
+                (await page.run("document.querySelector('.contact').classList.contains('stale')")),
+            await text_of("#message"),
+        );
+        await page.run("rollbem.preset('rail')");
+        await settled();
+        await same_as_the_program();
+    });
+    await test("what plays goes on while sliders move", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('roll')");
+        await settled();
+        await page.run("document.querySelector('#at-roll .players .main').click()");
+        await page.run("rollbem.page.change({ ...rollbem.page.given, 'creep-ratio': '0.6' })");
+        await page.until("rollbem.solver.idle()");
+        const at = await page.run("rollbem.views.roll.player.at");
+        await page.until(`rollbem.views.roll.player.at > ${at}`);
+        check((await text_of("#at-roll .players .main")) === "Pause", "it stopped");
+        await page.run("rollbem.views.roll.player.stop()");
+    });
+    /* Of each end of a slider, held by a hand so that axes stay: where the lines of its figure are. */
+    const lines_of = (view) =>
+        page.run(`(() => {
+            const places = {}, put = (name, e) => { let k = 0; while (name + k in places) k++; const long = e.getTotalLength(); places[name + k] = Array.from({ length: 11 }, (_, i) => e.getPointAtLength((long * i) / 10)).flatMap((p) => [p.x, p.y]); };
+            for (const e of document.querySelectorAll("#at-${view} svg path[class], #at-${view} svg circle")) put(e.getAttribute("class") ?? "circle", e);
+            if ("${view}" === "hero") {
+                const picture = new DOMParser().parseFromString(rollbem.views.hero.picture_of(), "image/svg+xml").documentElement;
+                document.body.append(picture);
+                for (const e of picture.querySelectorAll("path[class]")) put(e.getAttribute("class"), e);
+                picture.remove();
+            }
+            return places;
+        })()`);
+    /* Sliders whose figure does not move, and the sentence that says why. */
+    const STILL = {
+        "brake-load": /Load, radius and stiffness do not change this curve/,
+        "brake-radius": /Load, radius and stiffness do not change this curve/,
+        "brake-young": /Load, radius and stiffness do not change this curve/,
+    };
+    await test("a slider's whole range moves its figure by 20 px, or a sentence says why not", async () => {
+        await page.size(1280, 900);
+        const found = [];
+        for (const [view, presets] of [
+            ["hero", ["rail"]],
+            ["press", [""]],
+            ["brake", [""]],
+            ["soft", [""]],
+            ["below", ["rail"]],
+            ["crack", [""]],
+            ["roll", ["rail"]],
+            ["bench", process.env.ROLLBEM_TEST_ALL ? ["rail", "stiff", "roll", "addi"] : ["rail"]],
+        ])
+            for (const preset of presets) {
+                if (preset) await page.run(`rollbem.preset('${preset}')`);
+                await page.run(`rollbem.open('${view}')`);
+                await settled();
+                await page.run(
+                    `rollbem.views['${view}'].answer?.(document.querySelector('#at-${view} .choice')?.dataset.value); rollbem.views['${view}'].see?.(); rollbem.views['${view}'].reveal?.()`,
+                );
+                await settled();
+                const sliders = await page.run(
+                    `[...document.querySelectorAll('#at-${view} input[type=range]')].filter((s) => s.offsetParent && !s.closest('.players')).map((s) => s.dataset.dial ?? s.dataset.knob ?? s.id)`,
+                );
+                for (const name of sliders) {
+                    const slider = `document.querySelector('#at-${view} [data-dial="${name}"], #at-${view} [data-knob="${name}"], #at-${view} input[type=range][id="${name}"]')`;
+                    await page.run(`{ const s = ${slider}; s.dispatchEvent(new PointerEvent('pointerdown')); }`);
+                    const ends = [];
+                    let way = 0;
+                    /* Between the ends too where these are mirror images. */
+                    for (const part of [0, 1, 0.5]) {
+                        if (way >= 20) break;
+                        await page.run(
+                            `{ const s = ${slider}; s.value = Number(s.min) + ${part} * (s.max - s.min); s.dispatchEvent(new Event('input')); }`,
+                        );
+                        await page.until("rollbem.solver.idle()");
+                        await page.run(
+                            "new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve, 30))))",
+                        );
+                        await page.until("rollbem.solver.idle()");
+                        ends.push({
+                            places: await lines_of(view),
+                            trouble: await page.run(
+                                "Object.keys(rollbem.store.answers).map(rollbem.store.trouble).find(Boolean) ?? ''",
+                            ),
+                        });
+                        const [one, other] = [ends[0].places, ends.at(-1).places];
+                        for (const key of Object.keys(one).filter((name) => other[name]))
+                            one[key].forEach((v, k) => {
+                                way = Math.max(way, Math.abs(v - other[key][k]));
+                            });
+                    }
+                    await page.run(`${slider}.dispatchEvent(new PointerEvent('pointerup'))`);
+                    await settled();
+                    await page.run("rollbem.store.undo()");
+                    await new Promise((resolve) => setTimeout(resolve, 50));
+                    await settled();
+                    const said = STILL[name]?.test(await page.run(`document.querySelector('#at-${view}').textContent`));
+                    if (way < 20 && !said && !ends.some(({ trouble }) => trouble))
+                        found.push(`${view} ${preset} ${name}: ${way.toFixed(1)} px`);
+                    if (said && way > 20) found.push(`${view} ${name} is said to move nothing: ${way.toFixed(1)} px`);
+                }
+            }
+        check(!found.length, found.join("; "));
     });
     await test("hands on the hero, by keys: brake, turn, press", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");

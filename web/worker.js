@@ -8,13 +8,13 @@ export const LEFT_OUT = ["accuracy", "error", "irregularity"];
 
 /* A case of these words.  Of each slot of requests the last case is kept: where only values differ
  * they are set on it, and the library uses what it can of its matrices again. */
-function case_of(library, slot, given) {
+function case_of(library, slot, given, purpose) {
     const kept = (library.kept ??= new Map()),
         last = kept.get(slot),
         names = Object.keys(given);
     const same = last && names.length === Object.keys(last.given).length && names.every((name) => name in last.given);
     if (!same) last?.work.free();
-    const work = same ? last.work : new library.Case();
+    const work = same ? last.work : new library.Case(purpose);
     kept.set(slot, { work, given });
     return { work, changed: same ? names.filter((name) => given[name] !== last.given[name]) : names };
 }
@@ -24,7 +24,7 @@ function forget_case(library, slot) {
 }
 
 /* Solved and asked; refused where the page cannot.  files: those that the words name, by name. */
-function solve_case(library, slot, given, then, files = {}) {
+function solve_case(library, slot, given, then, { files = {}, purpose } = {}) {
     library.files.clear();
     for (const [name, text] of Object.entries(files)) library.files.set(name, new TextEncoder().encode(text));
     for (const [name, text] of Object.entries(given)) {
@@ -33,7 +33,7 @@ function solve_case(library, slot, given, then, files = {}) {
             return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
     }
     if (library.files.size) forget_case(library, slot); /* a case reads its files once */
-    const { work, changed } = case_of(library, slot, given),
+    const { work, changed } = case_of(library, slot, given, purpose),
         start = performance.now();
     try {
         if (changed.some((name) => work.set(name, given[name]) < 0) || work.solve() < 0) {
@@ -101,7 +101,7 @@ const answers = {
             ...all_results(work, l),
             ...arrays(work, ["closed.p", "closed.q"]),
         })),
-    roll: (library, { slot, given, files }) => solve_case(library, slot, given, steps, files),
+    roll: (library, { slot, given, files }) => solve_case(library, slot, given, steps, { files }),
     pivots: (library, { slot, given }) => solve_case(library, slot, given, pivots),
     curve: (library, { slot, given, from, to, points }) =>
         solve_case(library, slot, given, (work, { results }) =>
@@ -112,6 +112,47 @@ const answers = {
                           results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at]),
                       ),
                   },
+        ),
+    /* Of the numbers of a solution, with respect to every input. */
+    derivatives: (library, { slot, given }) =>
+        solve_case(library, slot, given, (work, l) => {
+            if (work.derivatives() !== 0) return { refused: work.message };
+            const inputs = [];
+            for (let k = 0, input; (input = work.input(k)) !== null; k++) inputs.push(input);
+            return {
+                numbers: Object.fromEntries(l.results.number.map(({ name }) => [name, work.number(name)])),
+                inputs,
+                ...arrays(
+                    work,
+                    ["value", ...l.results.number.map((row) => row.name)].map((name) => `derivative.${name}`),
+                ),
+            };
+        }),
+    /* The contact, then its pass over a crack. */
+    crack: (library, { slot, given, crack }) =>
+        solve_case(
+            library,
+            slot,
+            given,
+            (work, l) => {
+                if (work.crack(crack) !== 0) return { refused: work.message };
+                const columns = ["x", "K_I", "K_II", "open_length", "stick_length", "fluid_pressure"],
+                    faces = ["opening", "sliding", "zone", "path.x", "path.y"],
+                    nodes = ["x", "y", "t_x", "t_y"].map((name) => `node.${name}`),
+                    sums = ["K_I_max", "K_I_min", "K_II_max", "K_II_min", "delta_K_II", "fluid_pressure_max"];
+                return {
+                    ...all_results(work, l),
+                    crack,
+                    ...arrays(
+                        work,
+                        [...columns, ...faces, ...nodes].map((name) => `crack.${name}`),
+                    ),
+                    summary: Object.fromEntries(
+                        sums.map((name) => [name, work.array(`crack.summary.${name}`)?.at[0] ?? Number.NaN]),
+                    ),
+                };
+            },
+            { purpose: "crack" },
         ),
     guess: (library, { slot, given, zones }) =>
         solve_case(library, slot, given, (work) => {
