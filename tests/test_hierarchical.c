@@ -175,30 +175,35 @@ static void singular_systems_are_refused(void **state)
 
 /* ---- Behind the system ------------------------------------------------------------- */
 
-static void condense(const rb_bem_mesh *mesh, int dense, double *F)
+static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                     int subtracted, double *F)
 {
     rb_bem_system *system;
     rb_bem_flexibility f;
     rb_message why;
-    CHECK_STATUS(rb_bem_system_create_as(mesh, steel, dense, &system, &why), RB_OK);
-    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
+    CHECK_STATUS(rb_bem_system_create_as(mesh, material, dense, &system, &why), RB_OK);
+    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
+                     system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * (CONTACT + 1)), RB_OK);
     rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
 }
 
-/* Neighbours that differ by orders of length, and both supports. */
+/* Neighbours that differ by orders of length, both supports, and loads whose singular
+ * part is subtracted: what these leave is multiplied by a tree of clusters then. */
 static void the_flexibility_is_the_dense_one(void **state)
 {
     (void)state;
     enum { M = CONTACT + 1, SIZE = 2 * M * 2 * CONTACT };
     const rb_bem_support support[] = {RB_BEM_HUB, RB_BEM_ARC, RB_BEM_HUB};
     const double half[] = {0.01, 0.5, 2.5};
-    for (int k = 0; k < 3; k++) {
-        rb_bem_mesh mesh = wheel(support[k], half[k], 300);
+    const rb_bem_material incompressible = {1.0, 0.5};
+    for (int k = 0; k < 12; k++) {
+        rb_bem_mesh mesh = wheel(support[k % 3], half[k % 3], 300);
         double F[2][SIZE], most = 0.0;
         for (int dense = 0; dense < 2; dense++)
-            condense(&mesh, dense, F[dense]);
+            condense(&mesh, k < 6 ? steel : incompressible, dense, k / 3 % 2, F[dense]);
         for (int i = 0; i < SIZE; i++)
             most = fmax(most, fabs(F[1][i]));
         for (int i = 0; i < SIZE; i++)
@@ -324,6 +329,19 @@ static void failing_allocations(void **state)
         assert_true(refused ? h == NULL : h != NULL);
         rb_hierarchical_free(h);
     }
+    rb_bem_system *system;
+    CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, 0, &system, NULL), RB_OK);
+    for (int k = 0, refused = 1; refused; k++) {
+        rb_bem_flexibility f;
+        alloc_fail_after(k);
+        const rb_status s =
+            rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        rb_bem_flexibility_free(&f);
+    }
+    rb_bem_system_free(system);
     free(unit);
     rb_bem_mesh_free(&mesh);
 }

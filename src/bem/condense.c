@@ -2,8 +2,10 @@
  * solved in closed form where that is wanted (B10). */
 #include "bem/system.h"
 #include "bem/assemble.h"
+#include "bem/given.h"
 #include "bem/internal.h"
 #include "bem/large.h"
+#include "bem/skeleton.h"
 #include "bem/strip.h"
 #include "rollbem/blas.h"
 
@@ -187,7 +189,7 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
     return p->bonded ? left_over_on_bond(s, unit, p->bonded) : RB_ENOMEM;
 }
 
-static rb_status subtracted_loads(const particular *p, double *X)
+static rb_status subtracted_loads_dense(const particular *p, double *X)
 {
     const rb_bem_system *s = p->s;
     const size_t loads = 2 * (size_t)s->mesh.contact_n;
@@ -208,6 +210,175 @@ static rb_status subtracted_loads(const particular *p, double *X)
     rb_blas_threads(threads);
     free(b.columns);
     free(b.values);
+    return status;
+}
+
+/* ---- The same on long boundaries, by products of a tree -----------------------------
+ */
+
+/* Elements near the contact, whose values every load decides by itself, and those far
+ * from it, where a few loads stand for all. */
+typedef struct {
+    int near, far;
+    int *element; /* the near ones first; owned, as all here */
+    int sampled;  /* far elements that tell which loads stand for the others */
+    int *sample;
+    int kept;   /* so many loads stand for all */
+    int *order; /* loads: these first */
+    double *T;  /* kept x others */
+} split;
+
+static void split_free(split *p)
+{
+    free(p->element);
+    free(p->sample);
+    free(p->order);
+    free(p->T);
+}
+
+static double distance_from(double complex middle, const rb_bem_mesh *mesh, int k)
+{
+    return cabs(rb_strip_midpoint(mesh, k) - middle);
+}
+
+/* Fields of loads vary over lengths of a part of the distance from them: one element on
+ * either side for every twentieth that the distance grows by tells them. */
+static rb_status split_elements(const rb_bem_mesh *mesh, split *p)
+{
+    enum { PARTS = 20, MOST = 2000 };
+    const int n = mesh->n, from = mesh->contact_first, to = from + mesh->contact_n - 1;
+    const double complex a = mesh->x0[from] + mesh->y0[from] * I,
+                         b = mesh->x1[to] + mesh->y1[to] * I, middle = 0.5 * (a + b);
+    const double reach = cabs(b - a); /* twice the radius of the contact */
+    char seen[2 * MOST] = {0};
+
+    *p = (split){.element = rb_alloc_int((size_t)n), .sample = rb_alloc_int(2 * MOST)};
+    if (!p->element || !p->sample)
+        return RB_ENOMEM;
+    for (int k = 0; k < n; k++)
+        if (distance_from(middle, mesh, k) < reach)
+            p->element[p->near++] = k;
+    for (int k = 0; k < n; k++) {
+        const double r = distance_from(middle, mesh, k) / reach;
+        if (r < 1.0)
+            continue;
+        const int right = creal(rb_strip_midpoint(mesh, k)) > creal(middle),
+                  bin = (int)fmin(PARTS * log(r), MOST - 1);
+        p->element[p->near + p->far++] = k;
+        if (!seen[2 * bin + right])
+            p->sample[p->sampled++] = k;
+        seen[2 * bin + right] = 1;
+    }
+    return RB_OK;
+}
+
+/* Which loads stand for all far from the contact: traction times distance over the shear
+ * modulus is of the order of a displacement. */
+static rb_status choose_loads(const particular *p, split *far)
+{
+    const rb_bem_mesh *mesh = &p->s->mesh;
+    const int loads = 2 * mesh->contact_n;
+    const double complex middle =
+        rb_strip_midpoint(mesh, mesh->contact_first + mesh->contact_n / 2);
+    rb_skeleton seen;
+    rb_status s = rb_skeleton_alloc(2 * far->sampled, loads, &seen);
+
+    if (s != RB_OK)
+        return s;
+    for (int i = 0; i < far->sampled; i++) {
+        const int k = far->sample[i];
+        const double over = distance_from(middle, mesh, k) / p->s->material.shear;
+        for (int c = 0; c < mesh->contact_n; c++) {
+            double value[2][2];
+            left_over(p, k, c, value);
+            for (int l = 0; l < 2; l++)
+                for (int d = 0; d < 2; d++)
+                    seen.K[2 * i + d + (size_t)(2 * c + l) * (size_t)seen.ld] =
+                        value[l][d] *
+                        (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
+        }
+    }
+    s = rb_skeleton_factor(&seen, 1e-2 * p->s->tolerance);
+    if (s == RB_OK) {
+        far->kept = seen.rank;
+        far->order = rb_alloc_int((size_t)loads);
+        far->T = rb_alloc((size_t)far->kept, (size_t)(loads - far->kept) + 1);
+        s = far->order && far->T ? rb_skeleton_split(&seen, far->kept, far->order, far->T)
+                                 : RB_ENOMEM;
+    }
+    rb_skeleton_free(&seen);
+    return s;
+}
+
+/* X += B value of some elements under some loads; load: which; NULL: all. */
+static rb_status multiply_values(const particular *p, const rb_given *given, int count,
+                                 const int *element, int loads, const int *load,
+                                 double *X)
+{
+    const size_t rows = 2 * (size_t)count;
+    double *value = rb_alloc(rows, (size_t)loads);
+
+    if (!value)
+        return RB_ENOMEM;
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
+    for (int i = 0; i < count; i++)
+        for (int l = 0; l < loads; l++) {
+            const int which = load ? load[l] : l;
+            double own[2][2];
+            left_over(p, element[i], which / 2, own);
+            for (int d = 0; d < 2; d++)
+                value[2 * (size_t)i + (size_t)d + (size_t)l * rows] = own[which % 2][d];
+        }
+    const rb_status s = rb_given_multiply(given, count, element, loads, value, X);
+    free(value);
+    return s;
+}
+
+static rb_status add_far(const particular *p, const rb_given *given, const split *far,
+                         double *X)
+{
+    const size_t rows = (size_t)p->s->dofs;
+    const int others = 2 * p->s->mesh.contact_n - far->kept, n = p->s->dofs;
+    double *few = rb_alloc(rows, (size_t)far->kept),
+           *rest = rb_alloc(rows, (size_t)others + 1);
+    rb_status s = few && rest
+                      ? multiply_values(p, given, far->far, far->element + far->near,
+                                        far->kept, far->order, few)
+                      : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        if (others > 0)
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, far->kept,
+                        1.0, few, n, far->T, far->kept, 0.0, rest, n);
+        for (int l = 0; l < far->kept + others; l++)
+            cblas_daxpy(n, 1.0,
+                        l < far->kept ? few + (size_t)l * rows
+                                      : rest + (size_t)(l - far->kept) * rows,
+                        1, X + (size_t)far->order[l] * rows, 1);
+    }
+    free(few);
+    free(rest);
+    return s;
+}
+
+static rb_status subtracted_loads_long(const particular *p, double *X)
+{
+    const rb_bem_system *s = p->s;
+    rb_given *given = NULL;
+    split parts = {0};
+    rb_status status = split_elements(&s->mesh, &parts);
+
+    if (status == RB_OK)
+        status = choose_loads(p, &parts);
+    if (status == RB_OK)
+        status = rb_given_create(&s->mesh, s->material, s->unit, s->tolerance, &given);
+    if (status == RB_OK)
+        status = multiply_values(p, given, parts.near, parts.element,
+                                 2 * s->mesh.contact_n, NULL, X);
+    if (status == RB_OK)
+        status = add_far(p, given, &parts, X);
+    rb_given_free(given);
+    split_free(&parts);
     return status;
 }
 
@@ -280,7 +451,7 @@ static rb_status solve_loads(const rb_bem_system *s, const particular *p, double
     memcpy(X + rows * loads, s->b, (size_t)s->dofs * sizeof *X);
     if (p) {
         memset(X, 0, rows * loads * sizeof *X);
-        status = subtracted_loads(p, X);
+        status = (s->A ? subtracted_loads_dense : subtracted_loads_long)(p, X);
     } else {
         memcpy(X, s->Gc, rows * loads * sizeof *X);
     }

@@ -265,8 +265,8 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     if (s->A)
         return factor_dense(s, why);
     s->rcond = NAN;
-    const rb_status status = rb_hierarchical_create(&s->mesh, s->material, s->unit,
-                                                    tolerance(s->material), &s->h);
+    const rb_status status =
+        rb_hierarchical_create(&s->mesh, s->material, s->unit, s->tolerance, &s->h);
     return status == RB_SINGULAR
                ? rb_fail(why, status, "boundary elements: the system is singular")
                : status;
@@ -304,6 +304,7 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
     rb_bem_system *s = system_alloc(mesh, dense);
     if (s) {
         s->material = material;
+        s->tolerance = tolerance(material);
         s->bond = bond;
     } else {
         rb_bond_free(bond);

@@ -28,6 +28,7 @@ struct rb_bem_system {
     double *Gc;    /* columns of the contact tractions, 2n x 2 contact_n */
     double *unit;  /* of each element's tractions, n [stress] */
     lapack_int *pivot;
+    double tolerance; /* of a hierarchical matrix */
     double rcond, seconds_assembly, seconds_factor;
 };
 

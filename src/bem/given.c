@@ -1,0 +1,492 @@
+#include "bem/given.h"
+#include "bem/internal.h"
+#include "bem/mixed.h"
+#include "bem/skeleton.h"
+#include "rollbem/blas.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Elements of the smallest clusters. */
+enum { LEAF = 32 };
+/* Radius of the circle beyond which a skeleton stands for a cluster, over its own. */
+static const double REACH = 2.0;
+
+typedef struct {
+    int columns, kept; /* of its own elements or of its parts' skeletons; the skeleton */
+    int *column;       /* columns: their dofs; owned, as all here */
+    int *order;        /* columns: places in `column`, skeleton first */
+    double *T;         /* kept x others: the others are the skeleton's times T */
+    int near, far;     /* elements within reach; those within the parent's reach alone */
+    int *point;        /* near + far: which elements these are, the near ones first */
+} cluster;
+
+/* What a cluster does to neighbouring points of one leaf. */
+typedef struct {
+    const cluster *from;
+    int first, count; /* of its points */
+} view;
+
+struct rb_given {
+    rb_mixed matrix; /* its columns are what others have as values, and the reverse */
+    int levels, points;
+    double tolerance;
+    int *order;       /* n: element j is the mesh's order[j] */
+    double *factor;   /* 2n: of a value in the units of its column */
+    cluster *cluster; /* levels 0 ... levels, level by level */
+    int *first;       /* 2^levels + 1: where the views of a leaf begin */
+    view *view;
+};
+
+static cluster *at(const rb_given *g, int level, int k)
+{
+    return g->cluster + ((size_t)1 << level) - 1 + k;
+}
+
+static size_t clusters_of(const rb_given *g)
+{
+    return ((size_t)2 << g->levels) - 1;
+}
+
+void rb_given_free(rb_given *g)
+{
+    if (!g)
+        return;
+    for (size_t i = 0; g->cluster && i < clusters_of(g); i++) {
+        free(g->cluster[i].column);
+        free(g->cluster[i].order);
+        free(g->cluster[i].T);
+        free(g->cluster[i].point);
+    }
+    rb_mixed_free(&g->matrix);
+    free(g->order);
+    free(g->factor);
+    free(g->cluster);
+    free(g->first);
+    free(g->view);
+    free(g);
+}
+
+/* The leaf that holds an element. */
+static int leaf_of(int n, int levels, int element)
+{
+    int k = (int)(((size_t)element << levels) / (size_t)n);
+    while (rb_cluster_first(n, levels, k + 1) <= element)
+        k++;
+    return k;
+}
+
+/* ---- The tree ---------------------------------------------------------------------- */
+
+/* The circle beyond which a cluster is far. */
+static rb_circle reach_of(const rb_given *g, int level, int k)
+{
+    rb_circle circle =
+        rb_cluster_circle(g->matrix.element, rb_cluster_first(g->matrix.n, level, k),
+                          rb_cluster_first(g->matrix.n, level, k + 1));
+    circle.r *= REACH;
+    return circle;
+}
+
+/* The elements that the parent reaches, in two lists: every element is far from exactly
+ * one cluster on the way from a leaf to the root, or near the leaf. */
+static rb_status part_points(const rb_given *g, int level, int k)
+{
+    const cluster *parent = at(g, level - 1, k / 2);
+    const rb_circle reach = reach_of(g, level, k);
+    cluster *c = at(g, level, k);
+    int far = parent->near;
+
+    c->point = rb_alloc_int((size_t)parent->near + 1);
+    if (!c->point)
+        return RB_ENOMEM;
+    for (int i = 0; i < parent->near; i++) {
+        const rb_element *e = &g->matrix.element[parent->point[i]];
+        const double dx = e->mx - reach.x, dy = e->my - reach.y;
+        const int is_near = dx * dx + dy * dy < reach.r * reach.r;
+        c->point[is_near ? c->near++ : --far] = parent->point[i];
+    }
+    c->far = parent->near - c->near;
+    for (int i = c->near, j = parent->near - 1; i < j; i++, j--) { /* ascending again */
+        const int kept = c->point[i];
+        c->point[i] = c->point[j];
+        c->point[j] = kept;
+    }
+    return RB_OK;
+}
+
+static rb_status list_columns(const rb_given *g, int level, int k)
+{
+    cluster *c = at(g, level, k);
+    const int first = rb_cluster_first(g->matrix.n, level, k);
+
+    if (level == g->levels) {
+        c->columns = 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first);
+        c->column = rb_alloc_int((size_t)c->columns);
+        for (int i = 0; c->column && i < c->columns; i++)
+            c->column[i] = 2 * first + i;
+        return c->column ? RB_OK : RB_ENOMEM;
+    }
+    const cluster *part = at(g, level + 1, 2 * k);
+    c->columns = part[0].kept + part[1].kept;
+    c->column = rb_alloc_int((size_t)c->columns);
+    for (int i = 0; c->column && i < c->columns; i++)
+        c->column[i] = i < part[0].kept ? part[0].column[part[0].order[i]]
+                                        : part[1].column[part[1].order[i - part[0].kept]];
+    return c->column ? RB_OK : RB_ENOMEM;
+}
+
+/* What its columns do on the circle decides what they do beyond it. */
+static rb_status skeletonise(const rb_given *g, int level, int k)
+{
+    cluster *c = at(g, level, k);
+    rb_circle reach = reach_of(g, level, k);
+    rb_skeleton seen = {0};
+    rb_mixed_rows rows = {0};
+    rb_status s = list_columns(g, level, k);
+
+    if (s == RB_OK)
+        s = rb_mixed_rows_make(&g->matrix, 0, NULL, &reach, g->points, &rows);
+    if (s == RB_OK)
+        s = rb_skeleton_alloc(rows.rows, c->columns, &seen);
+    if (s == RB_OK)
+        s = rb_mixed_block(&g->matrix, &rows, c->columns, c->column,
+                           (rb_matrix_view){seen.K, 1, (size_t)seen.ld});
+    if (s == RB_OK)
+        s = rb_skeleton_factor(&seen, g->tolerance);
+    if (s == RB_OK) {
+        c->kept = seen.rank;
+        c->order = rb_alloc_int((size_t)c->columns);
+        c->T = rb_alloc((size_t)c->kept, (size_t)(c->columns - c->kept) + 1);
+        s = c->order && c->T ? rb_skeleton_split(&seen, c->kept, c->order, c->T)
+                             : RB_ENOMEM;
+    }
+    rb_mixed_rows_free(&rows);
+    rb_skeleton_free(&seen);
+    return s;
+}
+
+typedef rb_status stage(const rb_given *g, int level, int k);
+
+static rb_status for_clusters(const rb_given *g, int level, stage *run)
+{
+    rb_status s = RB_OK;
+
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(dynamic) if (level > 3)
+    for (int k = 0; k < 1 << level; k++) {
+        const rb_status own = run(g, level, k);
+        if (own != RB_OK)
+#pragma omp critical
+            s = own;
+    }
+    return s;
+}
+
+/* Points from the root down, skeletons from the leaves up. */
+static rb_status make_tree(const rb_given *g)
+{
+    cluster *root = at(g, 0, 0);
+    rb_status s = RB_OK;
+
+    root->near = g->matrix.n;
+    root->point = rb_alloc_int((size_t)root->near);
+    if (!root->point)
+        return RB_ENOMEM;
+    for (int i = 0; i < root->near; i++)
+        root->point[i] = i;
+    for (int level = 1; level <= g->levels && s == RB_OK; level++)
+        s = for_clusters(g, level, part_points);
+    for (int level = g->levels; level > 0 && s == RB_OK; level--)
+        s = for_clusters(g, level, skeletonise);
+    return s;
+}
+
+/* The points of all clusters leaf by leaf; view NULL: only counted. */
+static void list_views(const rb_given *g, view *list, int *next)
+{
+    const int n = g->matrix.n, leaves = 1 << g->levels;
+
+    for (size_t i = 1; i < clusters_of(g); i++) {
+        const cluster *c = &g->cluster[i];
+        const int leaf_itself = (int)i + 1 >= leaves, all = c->near + c->far;
+        for (int first = leaf_itself ? 0 : c->near; first < all;) {
+            const int k = leaf_of(n, g->levels, c->point[first]),
+                      last = rb_cluster_first(n, g->levels, k + 1),
+                      end = first < c->near ? c->near : all;
+            int count = 0;
+            while (first + count < end && c->point[first + count] < last &&
+                   c->point[first + count] == c->point[first] + count)
+                count++;
+            if (list)
+                list[next[k]] = (view){c, first, count};
+            next[k]++;
+            first += count;
+        }
+    }
+}
+
+static rb_status make_views(rb_given *g)
+{
+    const size_t leaves = (size_t)1 << g->levels;
+    int *next = rb_alloc_int(leaves);
+
+    g->first = rb_alloc_int(leaves + 1);
+    if (next && g->first) {
+        list_views(g, NULL, next);
+        for (size_t k = 0; k < leaves; k++) {
+            g->first[k + 1] = g->first[k] + next[k];
+            next[k] = g->first[k];
+        }
+        g->view = calloc((size_t)g->first[leaves] + 1, sizeof *g->view);
+        if (g->view)
+            list_views(g, g->view, next);
+    }
+    free(next);
+    return g->view ? RB_OK : RB_ENOMEM;
+}
+
+/* Columns that are of order one, like those of the unknowns. */
+static rb_status make_matrix(const rb_bem_mesh *mesh, rb_bem_material material,
+                             const double *unit, rb_given *g)
+{
+    rb_status s = rb_mixed_make(mesh, material, unit, g->levels, g->order, &g->matrix);
+
+    if (s != RB_OK)
+        return s;
+    rb_held_contours_free(&g->matrix.contours); /* which belong to the unknowns */
+    for (int i = 0; i < 2 * mesh->n; i++) {
+        const double own = unit[g->order[i / 2]];
+        g->factor[i] = g->matrix.held[i] ? -1.0 : -1.0 / own;
+        g->matrix.held[i] = !g->matrix.held[i];
+    }
+    return RB_OK;
+}
+
+rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                          const double *unit, double tolerance, rb_given **given)
+{
+    rb_given *g = calloc(1, sizeof *g);
+    rb_status s = g ? RB_OK : RB_ENOMEM;
+
+    if (g) {
+        g->levels = rb_cluster_levels(mesh->n, LEAF);
+        g->tolerance = tolerance;
+        g->points = 2 * (int)ceil(-log(tolerance) / log(REACH));
+        g->order = rb_alloc_int((size_t)mesh->n);
+        g->factor = rb_alloc(2 * (size_t)mesh->n, 1);
+        g->cluster = calloc(clusters_of(g), sizeof *g->cluster);
+        s = g->order && g->factor && g->cluster ? RB_OK : RB_ENOMEM;
+    }
+    const int threads = rb_blas_threads(1);
+    if (s == RB_OK)
+        s = make_matrix(mesh, material, unit, g);
+    if (s == RB_OK)
+        s = make_tree(g);
+    if (s == RB_OK)
+        s = make_views(g);
+    rb_blas_threads(threads);
+    *given = s == RB_OK ? g : NULL;
+    if (s != RB_OK)
+        rb_given_free(g);
+    return s;
+}
+
+/* ---- Products ---------------------------------------------------------------------- */
+
+/* Values of all columns of a cluster (columns x q) and of its skeleton (kept x q); NULL
+ * where they are zero. */
+typedef struct {
+    double *all, *skeleton;
+} values;
+
+typedef struct {
+    const rb_given *g;
+    int q, rows;
+    const double *value; /* rows x q, the given ones */
+    int *place;          /* n, in the clusters' order: of an element in them, or -1 */
+    values *of;          /* of each cluster */
+    double *X;
+} product;
+
+static rb_status leaf_values(const product *p, const cluster *c, values *v)
+{
+    int any = 0;
+
+    for (int i = 0; i < c->columns; i += 2)
+        any = any || p->place[c->column[i] / 2] >= 0;
+    if (!any)
+        return RB_OK;
+    v->all = rb_alloc((size_t)c->columns, (size_t)p->q);
+    for (int i = 0; v->all && i < c->columns; i++) {
+        const int dof = c->column[i], place = p->place[dof / 2];
+        for (int l = 0; place >= 0 && l < p->q; l++)
+            v->all[i + (size_t)l * (size_t)c->columns] =
+                p->g->factor[dof] *
+                p->value[2 * place + dof % 2 + (size_t)l * (size_t)p->rows];
+    }
+    return v->all ? RB_OK : RB_ENOMEM;
+}
+
+/* Those of its parts' skeletons, one below the other. */
+static rb_status parent_values(const product *p, int level, int k, values *v)
+{
+    const cluster *part = at(p->g, level + 1, 2 * k), *c = at(p->g, level, k);
+    values *from = &p->of[part - p->g->cluster];
+
+    if (from[0].skeleton || from[1].skeleton) {
+        v->all = rb_alloc((size_t)c->columns, (size_t)p->q);
+        if (!v->all)
+            return RB_ENOMEM;
+        for (int h = 0, row = 0; h < 2; row += part[h++].kept)
+            if (from[h].skeleton)
+                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[h].kept, p->q,
+                                    from[h].skeleton, part[h].kept, v->all + row,
+                                    c->columns);
+    }
+    return RB_OK;
+}
+
+/* The skeleton's values: its own, and T times those of the others. */
+static rb_status condense(const product *p, const cluster *c, values *v)
+{
+    const size_t kept = (size_t)c->kept, others = (size_t)c->columns - kept;
+    double *rest = rb_alloc(others + 1, (size_t)p->q);
+
+    v->skeleton = rb_alloc(kept, (size_t)p->q);
+    if (!rest || !v->skeleton) {
+        free(rest);
+        return RB_ENOMEM;
+    }
+    for (size_t l = 0; l < (size_t)p->q; l++) {
+        const double *all = v->all + l * (size_t)c->columns;
+        for (size_t i = 0; i < kept; i++)
+            v->skeleton[i + l * kept] = all[c->order[i]];
+        for (size_t i = 0; i < others; i++)
+            rest[i + l * others] = all[c->order[kept + i]];
+    }
+    if (others > 0)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q, (int)others,
+                    1.0, c->T, c->kept, rest, (int)others, 1.0, v->skeleton, c->kept);
+    free(rest);
+    return RB_OK;
+}
+
+static rb_status make_values(const product *p, int level, int k)
+{
+    const cluster *c = at(p->g, level, k);
+    values *v = &p->of[c - p->g->cluster];
+    rb_status s =
+        level == p->g->levels ? leaf_values(p, c, v) : parent_values(p, level, k, v);
+
+    if (s == RB_OK && v->all)
+        s = condense(p, c, v);
+    if (level < p->g->levels) {
+        free(v->all);
+        v->all = NULL;
+    }
+    return s;
+}
+
+/* Y += what the cluster of a view does to points of leaf k, by all its columns where they
+ * are near. */
+static rb_status add_view(const product *p, const view *w, int k, double *Y, int ld)
+{
+    const rb_given *g = p->g;
+    const cluster *c = w->from;
+    const values *v = &p->of[c - g->cluster];
+    const int near = w->first < c->near, columns = near ? c->columns : c->kept,
+              m = 2 * w->count;
+    int *row = rb_alloc_int((size_t)m + (size_t)columns), *column = row ? row + m : NULL;
+    double *A = rb_alloc((size_t)m, (size_t)columns);
+    rb_mixed_rows rows = {0};
+    rb_status s = row && A ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        for (int i = 0; i < m; i++)
+            row[i] = 2 * c->point[w->first + i / 2] + i % 2;
+        for (int j = 0; j < columns; j++)
+            column[j] = c->column[near ? j : c->order[j]];
+        s = rb_mixed_rows_make(&g->matrix, m, row, NULL, 0, &rows);
+    }
+    if (s == RB_OK)
+        s = rb_mixed_block(&g->matrix, &rows, columns, column,
+                           (rb_matrix_view){A, 1, (size_t)m});
+    if (s == RB_OK)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, p->q, columns, 1.0, A,
+                    m, near ? v->all : v->skeleton, columns, 1.0,
+                    Y + (row[0] - 2 * rb_cluster_first(g->matrix.n, g->levels, k)), ld);
+    rb_mixed_rows_free(&rows);
+    free(row);
+    free(A);
+    return s;
+}
+
+static rb_status add_leaf(const product *p, int k)
+{
+    const rb_given *g = p->g;
+    const int first = rb_cluster_first(g->matrix.n, g->levels, k),
+              m = 2 * (rb_cluster_first(g->matrix.n, g->levels, k + 1) - first);
+    double *Y = rb_alloc((size_t)m, (size_t)p->q);
+    rb_status s = Y ? RB_OK : RB_ENOMEM;
+
+    for (int i = g->first[k]; i < g->first[k + 1] && s == RB_OK; i++)
+        if (p->of[g->view[i].from - g->cluster].skeleton)
+            s = add_view(p, &g->view[i], k, Y, m);
+    for (size_t l = 0; s == RB_OK && l < (size_t)p->q; l++)
+        for (int i = 0; i < m; i++)
+            p->X[2 * (size_t)g->order[first + i / 2] + (size_t)(i % 2) +
+                 l * 2 * (size_t)g->matrix.n] += Y[(size_t)i + l * (size_t)m];
+    free(Y);
+    return s;
+}
+
+static rb_status multiply(const product *p, int count, const int *element)
+{
+    const rb_given *g = p->g;
+    int *place = rb_alloc_int((size_t)g->matrix.n);
+    rb_status s = place ? RB_OK : RB_ENOMEM;
+
+    for (int j = 0; place && j < g->matrix.n; j++)
+        place[j] = p->place[j] = -1;
+    for (int i = 0; place && i < count; i++)
+        place[element[i]] = i;
+    for (int j = 0; place && j < g->matrix.n; j++)
+        p->place[j] = place[g->order[j]];
+    free(place);
+    for (int level = g->levels; level > 0; level--)
+        for (int k = 0; k < 1 << level && s == RB_OK; k++)
+            s = make_values(p, level, k);
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic)
+    for (int k = 0; k < (s == RB_OK ? 1 << g->levels : 0); k++) {
+        const rb_status own = add_leaf(p, k);
+        if (own != RB_OK)
+#pragma omp critical
+            s = own;
+    }
+    return s;
+}
+
+rb_status rb_given_multiply(const rb_given *g, int count, const int *element, int columns,
+                            const double *value, double *X)
+{
+    product p = {.g = g,
+                 .q = columns,
+                 .rows = 2 * count,
+                 .value = value,
+                 .place = rb_alloc_int((size_t)g->matrix.n),
+                 .of = calloc(clusters_of(g), sizeof *p.of),
+                 .X = X};
+    const int threads = rb_blas_threads(1);
+    const rb_status s = p.place && p.of ? multiply(&p, count, element) : RB_ENOMEM;
+
+    rb_blas_threads(threads);
+    for (size_t i = 0; p.of && i < clusters_of(g); i++) {
+        free(p.of[i].all);
+        free(p.of[i].skeleton);
+    }
+    free(p.of);
+    free(p.place);
+    return s;
+}
