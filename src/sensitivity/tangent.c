@@ -302,8 +302,8 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
     return status == RB_SINGULAR && s->degenerate ? RB_OK : status;
 }
 
-/* The creepage of free rolling is a solution of its own, here on the same elements
- * where they hold it. */
+/* The creepage of free rolling is a solution of its own, on the same elements where
+ * they are equal. */
 static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
@@ -317,11 +317,9 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    status = rb_rolling_variant_solve(model, &freely, v, why);
-    if (status > 0) { /* fitted elements do not hold its contact: on others */
-        rb_rolling_variant_free(model, v);
-        status = rb_rolling_model_create(&freely, v, why);
-    }
+    status = rc->mesh == RB_MESH_UNIFORM
+                 ? rb_rolling_variant_solve(model, &freely, v, why)
+                 : rb_rolling_model_create(&freely, v, why);
     return status == RB_OK ? create(v, &s->free_rolling, why) : status;
 }
 
