@@ -53,20 +53,23 @@ static const char *other_command(const char *word)
     return NULL;
 }
 
-/* yield_shear: as printed; NAN: nowhere. */
-static const char *fault_of_command(const json_t *root, char **argv, int argc,
-                                    const char *folder, int is_confined)
+/* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
+ * RB_ENOMEM. */
+static rb_status fault_of_command(const json_t *root, char **argv, int argc,
+                                  const char *folder, int is_confined, const char **fault)
 {
     const char *other = other_command(argv[1]);
     const int is_stress = other && strcmp(other, "stress") == 0;
-    double given = NAN;
+    double given = NAN; /* yield_shear as printed; NAN: nowhere */
     int files = 0;
-    const char *fault = NULL;
-    if ((other && !is_stress) || is_stress != (json_object_get(root, "maxima") != NULL))
-        return "it is another command's";
+    *fault = NULL;
+    if ((other && !is_stress) || is_stress != (json_object_get(root, "maxima") != NULL)) {
+        *fault = "it is another command's";
+        return RB_OK;
+    }
     rb_case *words = cli_case_create(is_stress ? RB_CASE_STRESS : RB_CASE_SINGLE);
     if (!words)
-        return "out of memory";
+        return RB_ENOMEM;
     if (is_confined)
         rb_case_confine(words, folder);
     const cli_exit code =
@@ -75,41 +78,45 @@ static const char *fault_of_command(const json_t *root, char **argv, int argc,
     json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
     const json_t *printed = json_object_get(root, "shakedown");
     const double yield = json_number_value(json_object_get(printed, "yield_shear"));
-    if (files > 0)
+    const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !inputs);
+    if (files > 0 || no_memory)
         ; /* a case file may have changed since, or be elsewhere */
     else if (code != CLI_CONTINUE)
-        fault = "it is no command line of rollbem";
+        *fault = "it is no command line of rollbem";
     else if (!json_equal(inputs, json_object_get(root, "inputs")))
-        fault = "it has other inputs than `inputs`";
+        *fault = "it has other inputs than `inputs`";
     else if (printed &&
              (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
-        fault = "yield_shear of shakedown is not --yield-shear";
+        *fault = "yield_shear of shakedown is not --yield-shear";
     json_decref(inputs);
     rb_case_free(words);
-    return fault;
+    return no_memory ? RB_ENOMEM : RB_OK;
 }
 
-/* The command line that the result quotes against its inputs. */
-static void compare_command(const char *path, const json_t *root, const char *folder,
-                            int is_confined, rb_report_certificate *found)
+/* The command line that the result quotes against its inputs.  RB_ENOMEM. */
+static rb_status compare_command(const char *path, const json_t *root, const char *folder,
+                                 int is_confined, rb_report_certificate *found,
+                                 rb_message *why)
 {
     const char *text = json_string_value(json_object_get(root, "command"));
     const char *fault = "it is no command line of rollbem";
+    rb_status s = RB_OK;
     if (text && strncmp(text, "rollbem", 7) == 0 && strchr(" ", text[7])) {
         char *line = strdup(text + 7);
         int argc;
         char **argv = line ? cli_split_line(line, &argc) : NULL;
         const int kept = cli_keep_failures(1);
-        fault = argv ? fault_of_command(root, argv, argc, folder, is_confined)
-                     : "out of memory";
+        s = argv ? fault_of_command(root, argv, argc, folder, is_confined, &fault)
+                 : RB_ENOMEM;
         cli_keep_failures(kept);
         free(argv);
         free(line);
     }
-    if (fault) {
+    if (s == RB_OK && fault) {
         printf("%s: violated: command: %s\n", path, fault);
         found->violations++;
     }
+    return s == RB_OK ? s : rb_fail(why, s, "%s: out of memory", path);
 }
 
 /* Jansson 2.14 cuts a text that it has no memory for and reads on. */
@@ -141,10 +148,9 @@ static cli_exit check_json(const char *path, const char *text, size_t size,
         return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
                         root ? 1 : error.line, root ? "no object" : error.text);
     }
-    const rb_status s =
-        rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    rb_status s = rb_report_certify_solutions(stdout, path, root, words, &found, &why);
     if (s == RB_OK)
-        compare_command(path, root, folder, is_confined, &found);
+        s = compare_command(path, root, folder, is_confined, &found, &why);
     json_decref(root);
     return tell(path, s, &found, &why);
 }
