@@ -113,6 +113,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                orthogonal_shear, tension
  *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
  *   crack.summary.K_I_max ...    one number each
+ *   crack.growth.length crack.growth.cycles ...   with "paris", an entry per length
  *   crack.opening crack.sliding crack.zone  nodes x positions
  *   crack.node.x crack.node.y crack.node.length   an entry per node: its place, and the
  *                                length that it stands for

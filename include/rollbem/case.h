@@ -410,7 +410,30 @@ typedef struct {
     int fluid;            /* rb_crack_fluid */
     double remote_stress; /* [stress] */
     int unloaded, coupled;
+    double paris;              /* C; NAN: the crack does not grow */
+    rb_numbers paris_law;      /* C, m: in lengths and K of the case's units */
+    int paris_range;           /* rb_case_crack_range */
+    int tension;               /* 1: grows across the largest tension, 0: straight on */
+    double threshold, grow_to; /* [K]; length in half-widths, NAN: twice the length */
+    int grow_steps;
 } rb_case_crack;
+
+/* Which range of K over a pass makes a crack grow. */
+typedef enum {
+    RB_CRACK_MIXED,  /* (dK_I^4 + 8 dK_II^4)^(1/4) (Tanaka) */
+    RB_CRACK_MODE_II /* dK_II */
+} rb_case_crack_range;
+
+/* A crack that grows by da/dN = C dK^m, at its lower tip: an entry per length, the first
+ * one as it is given; owned. */
+typedef struct {
+    int n; /* 0: not asked for */
+    double *length, *tip_x, *tip_y, *angle, *K_I_max, *delta_K_II, *delta_K, *rate,
+        *cycles;  /* until it has that length */
+    int rests;    /* 1: below the threshold at the last length */
+    int surfaced; /* 1: it came back to the surface: a piece breaks out */
+    rb_crack_path path;
+} rb_case_crack_growth;
 
 rb_case_crack rb_case_crack_defaults(void);
 /* The options of such a crack, section [crack]; their values stand in an rb_case_crack.
@@ -418,7 +441,7 @@ rb_case_crack rb_case_crack_defaults(void);
 extern const rb_option rb_case_crack_options[];
 extern const int rb_case_crack_options_n;
 
-enum { RB_CASE_CRACK_NOTES = 4 };
+enum { RB_CASE_CRACK_NOTES = 6 };
 typedef struct {
     rb_case_result contact; /* solution n = 0: unloaded */
     double half_width;      /* [length] */
@@ -428,6 +451,7 @@ typedef struct {
     rb_crack_summary summary;
     int has_errors;
     rb_crack_summary errors; /* of each number of the summary */
+    rb_case_crack_growth growth;
     int notes;
     char note[RB_CASE_CRACK_NOTES][200]; /* how the result is to be read */
     rb_units units;                      /* of all values but shape and contact.model */
@@ -446,7 +470,8 @@ rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
 void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
 void rb_case_crack_free(rb_case_crack_result *result);
 /* Numbers of rb_crack_summary and columns of rb_crack_history. */
-extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns;
+extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
+    rb_case_crack_growth_columns;
 /* ---- Fits to measured creep curves (theory.md, D5) ----------------------------------
  */
 

@@ -1046,6 +1046,14 @@ static rb_status keep_crack(rb_api *a, const rb_case_crack_result *r)
         for (int i = 0; i < r->history.n; i++)
             made->at[i] = rb_rolling_entry(row, &r->history, i);
     }
+    for (int k = 0; k < rb_case_crack_growth_columns.n && r->growth.n > 0; k++) {
+        const rb_rolling_result *row = &rb_case_crack_growth_columns.row[k];
+        snprintf(name, sizeof name, "crack.growth.%s", row->name);
+        if (!rb_api_copy_array(
+                a, name, r->growth.n, 1,
+                *(double *const *)(const void *)((const char *)&r->growth + row->offset)))
+            return RB_ENOMEM;
+    }
     for (int k = 0; k < rb_case_crack_scalars.n; k++) {
         const rb_rolling_result *row = &rb_case_crack_scalars.row[k];
         const double x = rb_rolling_number(row, &r->summary);

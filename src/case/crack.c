@@ -25,6 +25,10 @@ static const rb_choice fluids[] = {{"none", RB_CRACK_DRY},
                                    {"pressure", RB_CRACK_PRESSURE},
                                    {NULL, 0}};
 
+static const rb_choice ranges[] = {
+    {"mixed", RB_CRACK_MIXED}, {"mode-II", RB_CRACK_MODE_II}, {NULL, 0}};
+static const rb_choice directions[] = {{"coplanar", 0}, {"tension", 1}, {NULL, 0}};
+
 const rb_option rb_case_crack_options[] = {
     RB_GROUP_LINE("crack", "Crack in B; lengths in Hertz half-widths of the load"),
     RB_NUMBER_LINE("crack-length", PLACE(length), "a", RB_ABOVE(0), "along the crack"),
@@ -55,6 +59,22 @@ const rb_option rb_case_crack_options[] = {
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
     RB_FLAG_LINE("coupled", PLACE(coupled),
                  "the contact, without friction, feels the crack: one problem for both"),
+    RB_NUMBER_LINE(
+        "paris", PLACE(paris), "-", RB_ABOVE(0),
+        "C,m: the crack grows by da/dN = C dK^m a pass, in the units of length "
+        "and K",
+        .unset = "it does not grow", .list = PLACE(paris_law)),
+    RB_CHOICE_LINE("paris-range", PLACE(paris_range), ranges,
+                   "dK of that law: (dK_I^4 + 8 dK_II^4)^(1/4) (Tanaka), or dK_II"),
+    RB_NUMBER_LINE("threshold", PLACE(threshold), "MPa.mm^0.5", RB_FROM(0),
+                   "dK below which it rests"),
+    RB_CHOICE_LINE("growth", PLACE(tension), directions,
+                   "straight on, or across the largest tension ahead of the tip over a "
+                   "pass (Erdogan and Sih)"),
+    RB_NUMBER_LINE("grow-to", PLACE(grow_to), "a", RB_ABOVE(0), "length where it ends",
+                   .unset = "twice the length"),
+    RB_INTEGER_LINE("grow-steps", PLACE(grow_steps), RB_FROM_TO(1, 60),
+                    "increments of that growth"),
 };
 const int rb_case_crack_options_n =
     sizeof rb_case_crack_options / sizeof rb_case_crack_options[0];
@@ -67,7 +87,10 @@ rb_case_crack rb_case_crack_defaults(void)
                            .elements = 40,
                            .from = NAN,
                            .to = NAN,
-                           .passes = 1};
+                           .passes = 1,
+                           .paris = NAN,
+                           .grow_to = NAN,
+                           .grow_steps = 10};
 }
 
 /* ---- Results ----------------------------------------------------------------------- */
@@ -124,12 +147,26 @@ static const rb_rolling_result columns[] = {
     COLUMN(max_pressure, .unit = "MPa", .meaning = "of a contact that feels the crack"),
 };
 
+#define GROWTH(name, ...) OF(rb_case_crack_growth, #name, name, __VA_ARGS__)
+static const rb_rolling_result growth_columns[] = {
+    GROWTH(length, .unit = "mm", .meaning = "along the crack"),
+    GROWTH(tip_x, .unit = "mm", .meaning = "of the tip"),
+    GROWTH(tip_y, .unit = "mm", .meaning = "of the tip"),
+    GROWTH(angle, .unit = "degrees", .meaning = "to the surface, of its last piece"),
+    GROWTH(K_I_max, IS_K, .meaning = "in a pass at this length"),
+    GROWTH(delta_K_II, IS_K, .meaning = "in a pass at this length"),
+    GROWTH(delta_K, IS_K, .meaning = "that makes it grow"),
+    GROWTH(rate, .unit = "mm", .meaning = "da/dN, a pass"),
+    GROWTH(cycles, .meaning = "passes until it has this length"),
+};
+
 #define TABLE(rows)                                                                      \
     {                                                                                    \
         sizeof(rows) / sizeof *(rows), rows                                              \
     }
 const rb_rolling_results rb_case_crack_scalars = TABLE(scalars);
 const rb_rolling_results rb_case_crack_columns = TABLE(columns);
+const rb_rolling_results rb_case_crack_growth_columns = TABLE(growth_columns);
 
 static double *number_of(rb_crack_summary *s, int k)
 {
@@ -155,12 +192,19 @@ void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
     }
     for (int i = 0; i < 2 * r->history.n * r->history.nodes; i++)
         r->history.D[i] = rb_unit_shown(units, "mm", r->history.D[i]);
+    for (int k = 0; k < rb_case_crack_growth_columns.n && r->growth.n > 0; k++) {
+        double *const *column = (void *)((char *)&r->growth + growth_columns[k].offset);
+        for (int i = 0; i < r->growth.n && growth_columns[k].unit; i++)
+            (*column)[i] = rb_unit_shown(units, growth_columns[k].unit, (*column)[i]);
+    }
 }
 
 void rb_case_crack_free(rb_case_crack_result *r)
 {
     rb_case_result_free(&r->contact);
     rb_crack_history_free(&r->history);
+    free(r->growth.length);
+    r->growth.length = NULL;
 }
 
 /* ---- Positions --------------------------------------------------------------------- */
@@ -251,7 +295,8 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
             "(--similar, --young-b)");
     if (k->coupled && k->fluid != RB_CRACK_DRY)
         return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
-    return check_positions(c, k, why);
+    const rb_status s = rb_case_check_growth(k, why);
+    return s == RB_OK ? check_positions(c, k, why) : s;
 }
 
 /* ---- Load -------------------------------------------------------------------------- */
@@ -446,6 +491,16 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         find_notes(c, k, &t, r);
         if (r->history.n > 0)
             r->summary = rb_crack_summarise(&r->history, r->passes);
+        if (s == RB_OK && !isnan(k->paris) && finer == 1)
+            s = rb_case_grow_crack(c, k, &passage, r, why);
+        if (r->growth.surfaced)
+            note(r,
+                 "The crack came back to the surface at a length of %.4g mm: a piece "
+                 "breaks out.",
+                 r->growth.length[r->growth.n - 1]);
+        if (r->growth.rests)
+            note(r, "The crack rests: dK is below the threshold at a length of %.4g mm.",
+                 r->growth.length[r->growth.n - 1]);
     }
     rb_crack_free(crack);
     track_free(&t);

@@ -66,6 +66,15 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why);
 /* Gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
+/* ---- growth.c ---------------------------------------------------------------------- */
+
+/* What is wrong with the growth that is asked for. */
+rb_status rb_case_check_growth(const rb_case_crack *crack, rb_message *why);
+/* From the first length, whose summary r has, on under the same load: r->growth. */
+rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *crack,
+                             const rb_crack_passage *passage, rb_case_crack_result *r,
+                             rb_message *why);
+
 /* ---- resolve.c ----------------------------------------------------------------------
  */
 

@@ -15,15 +15,24 @@ static const char sign_of_K[] =
     "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides towards the tip; "
     "x: where the contact stands";
 
+static const char about_growth[] =
+    "growth: a row per length of the crack; cycles: passes until it has that length; "
+    "sharp tip, linear elasticity, no wear of the mouth";
+
+/* A crack that grows: its lengths; otherwise the positions of the contact. */
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
                                 const char *command, const rb_report_style *style)
 {
-    const rb_report_columns columns = columns_of(r);
+    const int grows = r->growth.n > 0;
+    const rb_report_columns columns =
+        grows
+            ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units}
+            : columns_of(r);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
-    rb_report_comment(&c, "%s", sign_of_K);
+    rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
     for (int k = 0; k < r->notes; k++)
         rb_report_comment(&c, "note: %s", r->note[k]);
-    return rb_report_end_columns(&c, r->history.n, 1, &columns);
+    return rb_report_end_columns(&c, grows ? r->growth.n : r->history.n, 1, &columns);
 }
 
 static json_t *numbers(const rb_crack_summary *s)
@@ -59,6 +68,15 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
         rb_report_json_set(root, "contact", rb_report_json_summary(&r->contact.solution));
     rb_report_json_set(root, "summary", summary);
     rb_report_json_set(root, "table", table);
+    if (r->growth.n > 0) {
+        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0,
+                                          r->units};
+        json_t *grown = json_object();
+        rb_report_json_columns(&grown, r->growth.n, &growth, 0);
+        rb_report_json_set(&grown, "rests", json_boolean(r->growth.rests));
+        rb_report_json_set(&grown, "surfaced", json_boolean(r->growth.surfaced));
+        rb_report_json_set(root, "growth", grown);
+    }
 }
 
 /* ---- For people -------------------------------------------------------------------- */
@@ -98,6 +116,14 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
     if (!isnan(s->pass_change))
         fprintf(out, "  passes    the last one changed K by at most %.2g %s\n",
                 s->pass_change, K);
+    if (r->growth.n > 0) {
+        const int last = r->growth.n - 1;
+        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g passes%s\n",
+                r->growth.length[0], r->growth.length[last], mm, r->growth.cycles[last],
+                r->growth.rests      ? ", where it rests"
+                : r->growth.surfaced ? ", then to the surface"
+                                     : "");
+    }
     fprintf(out, "  residual  %.2g\n", s->residual);
 }
 
