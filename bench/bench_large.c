@@ -119,14 +119,14 @@ static void apply_both(int n)
     double t[2][REPEATS], *r = rb_alloc(2 * (size_t)n, 1),
                           *w = rb_alloc(2 * (size_t)n + 2, 1);
 
-    if (!r || !w || rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL) != RB_OK)
+    if (!r || !w || rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL) != RB_OK)
         stop("no memory");
     for (int i = 0; i < 2 * n; i++)
         r[i] = sin(i);
     for (int dense = 0; dense < 2; dense++) {
         rb_rolling_case by = rc;
         by.contact.solver = dense ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
-        if (rb_rolling_bodies_create(&by, &mesh, &bodies, NULL) != RB_OK)
+        if (rb_rolling_bodies_create(&by, NULL, &mesh, &bodies, NULL) != RB_OK)
             stop("no memory");
         for (int k = 0; k < REPEATS; k++) {
             const double start = processor_seconds();
@@ -166,7 +166,7 @@ static void solve_both(int n, int unlike)
     const double fast = processor_seconds() - start;
     dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     start = processor_seconds();
-    if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
+    if (rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, NULL) != RB_OK ||
         rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) !=
             RB_OK ||
         rb_contact_state_alloc(n, &state) != RB_OK)

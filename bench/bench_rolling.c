@@ -78,7 +78,7 @@ static void stages(void)
 /* Processor seconds of the complementarity problem alone, by one solver on one model. */
 static double solve_seconds(rb_rolling_model *model, rb_contact_solver solver, int runs)
 {
-    rb_rolling_case rc = model->rc;
+    rb_rolling_case rc = *model->rc;
     rb_contact_state state;
     double best = INFINITY;
 

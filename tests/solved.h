@@ -17,6 +17,12 @@ static inline rb_rolling_solution solved(const rb_rolling_case *rc)
     return s;
 }
 
+/* The case of a model, of which a test wants to know what it does under another one. */
+static inline rb_rolling_case *case_of(rb_rolling_model *model)
+{
+    return (rb_rolling_case *)model->rc;
+}
+
 static inline rb_rolling_model solved_model(const rb_rolling_case *rc)
 {
     rb_rolling_model model;

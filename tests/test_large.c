@@ -48,7 +48,8 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     } else
         assert_int_equal(model.bodies.transforms.n, rc->contact_elements);
     dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
-    CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, &why),
+                 RB_OK);
     assert_non_null(bodies.F);
     CHECK_STATUS(
         rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &why),
@@ -447,9 +448,11 @@ static void failing_allocations(void **state)
     (void)state;
     const rb_rolling_case given = steady(DISSIMILAR, RB_ROLLING_LARGE);
     for (int k = 0, refused = 1; k < 60 && refused; k++) { /* up to the coarser start */
-        rb_rolling_model model = {.rc = given};
+        rb_rolling_model model;
         rb_rolling_mesh mesh;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&given, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_model_begin(&given, NULL, &model, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&given, NULL, -1.3, 1.3, &mesh, NULL),
+                     RB_OK);
         alloc_fail_after(k);
         const rb_status s = rb_rolling_model_build(&model, &mesh, NULL);
         refused = alloc_failed();

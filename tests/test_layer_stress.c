@@ -254,7 +254,7 @@ static void what_relaxes_everywhere_alike_has_the_elastic_stress(void **state)
         rc.speed = 100.0;
         rb_rolling_model model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, relaxing, NULL), RB_OK);
-        model.rc.a.memory.n = 0; /* the same tractions */
+        case_of(&model)->a.memory.n = 0; /* the same tractions */
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, elastic, NULL), RB_OK);
         for (int i = 0; i < 3; i++) {
             CHECK_REL(relaxing[i].sxx, elastic[i].sxx, 1e-12, "sxx, point %d", i);

@@ -163,8 +163,8 @@ static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.0, 1.0, &mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_EINVAL);
     assert_string_equal(why.text,
                         "relaxation: bodies that relax and do not roll steadily "
                         "need a history of steps in time");
@@ -184,7 +184,7 @@ static void absurd_sizes_are_refused(void **state)
     rc.mesh = RB_MESH_UNIFORM;
     CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
     rc.contact.solver = RB_SOLVER_LEMKE;
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_EINVAL);
     assert_non_null(
         strstr(why.text, "a contact of 1000000 elements would need 1.92e+05"));
     rc.a.support = RB_BEM_HUB;

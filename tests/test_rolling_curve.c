@@ -271,9 +271,9 @@ static void a_hundredth_of_the_half_width_is_followed(void **state)
         rc.creep_ratio = -1.0;
         rb_rolling_model model = solved_model(&rc);
         for (int i = 0; i < 2; i++) {
-            rb_rolling_contact_edges(&model.rc, &model.mesh, &model.state, &from[i],
+            rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i],
                                      &to[i]);
-            model.rc.creep_ratio = last;
+            case_of(&model)->creep_ratio = last;
             CHECK_STATUS(rb_rolling_model_control(&model, NULL), RB_OK);
         }
         rb_rolling_model_free(&model);

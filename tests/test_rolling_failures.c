@@ -89,9 +89,9 @@ static rb_status pose_large(void *context)
     rb_rolling_mesh mesh = {0};
     rb_rolling_bodies bodies = {0};
     rb_contact_problem p = {0};
-    rb_status s = rb_rolling_mesh_uniform(rc, -1.3, 1.3, &mesh, NULL);
+    rb_status s = rb_rolling_mesh_uniform(rc, NULL, -1.3, 1.3, &mesh, NULL);
     if (s == RB_OK)
-        s = rb_rolling_bodies_create(rc, &mesh, &bodies, NULL);
+        s = rb_rolling_bodies_create(rc, NULL, &mesh, &bodies, NULL);
     if (s == RB_OK)
         s = rb_rolling_problem_create(rc, &mesh, &bodies, NULL, &p, NULL);
     rb_contact_problem_free(&p);

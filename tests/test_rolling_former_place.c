@@ -29,8 +29,8 @@ static pressed press(const rb_rolling_case *rc, double from, double to)
 {
     pressed d;
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, from, to, &d.mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(rc, &d.mesh, &d.bodies, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, from, to, &d.mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
     const int n = d.mesh.n;
     d.p = rb_alloc((size_t)n, 2);
     d.q = d.p + n;

@@ -31,8 +31,8 @@ static posed pose(const rb_rolling_case *rc, const rb_rolling_past *past)
 {
     posed d = {.rc = *rc};
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, -1.0, 0.8, &d.mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(rc, &d.mesh, &d.bodies, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
     if (rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &why) != RB_OK)
         fail_msg("%s", why.text);
     d.K = rb_contact_operator_matrix(d.p.op);
@@ -260,8 +260,9 @@ static void softening_has_a_limit(void **state)
             continue;
         }
         d = (posed){.rc = rc};
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.0, 0.8, &d.mesh, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, &d.mesh, &d.bodies, &why), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &why),
+                     RB_OK);
         CHECK_STATUS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &why),
                      RB_EINVAL);
         assert_non_null(strstr(why.text, "has no unique solution"));

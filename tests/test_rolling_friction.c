@@ -164,11 +164,11 @@ static void an_interface_yields_by_itself(void **state)
         rb_rolling_mesh mesh;
         rb_rolling_bodies with, without;
         rc.contact_elements = large ? 1501 : 31;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &without, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &without, NULL), RB_OK);
         rc.interlayer_normal = 2e-5;
         rc.interlayer_tangential = 3e-5;
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &with, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &with, NULL), RB_OK);
         const int n = mesh.n, m = n + 1;
         double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 2);
         for (int i = 0; i < 2 * n; i++)
@@ -207,8 +207,8 @@ static void an_interface_moves_with_the_steps(void **state)
         rc.contact_elements = n;
         rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
         rc.interlayer_tangential = 1e-2;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
         assert_int_equal(bodies.F == NULL, large);
         CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead),
                      RB_OK);

@@ -101,8 +101,8 @@ static void coefficients_forget_from_the_leading_edge_on(void **state)
             before[i] = 0.25 + 0.001 * i;
         }
         for (int k = 0; k < 3; k++) { /* no memory, with it, with a past */
-            model.rc.friction.memory = k ? 0.01 : 0.0;
-            model.rc.friction.memory_slip = 15.0;
+            case_of(&model)->friction.memory = k ? 0.01 : 0.0;
+            case_of(&model)->friction.memory_slip = 15.0;
             model.carried.mu = k == 2 ? before : NULL;
             CHECK_STATUS(rb_rolling_law_coefficients(&model, mu, &why), RB_OK);
             double upstream = rest;
@@ -156,8 +156,8 @@ static void starts_slide_up_to_their_place(void **state)
     CHECK_STATUS(rb_rolling_law_start(&model, x[10], NULL), RB_OK);
     for (int i = 0; i < model.problem.n; i++)
         CHECK_ABS(model.problem.bound[i], i < 10 ? 0.2 : 0.4, 1e-12, "element %d", i);
-    model.rc.friction.heat = -0.1;
-    model.rc.friction.heat_range = 50.0;
+    case_of(&model)->friction.heat = -0.1;
+    case_of(&model)->friction.heat_range = 50.0;
     CHECK_STATUS(rb_rolling_law_start(&model, x[0], NULL), RB_OK);
     CHECK_ABS(model.problem.bound[0], 0.4, 1e-12, "at rest and cold");
     CHECK_STATUS(rb_rolling_law_start(&model, INFINITY, NULL), RB_OK);
@@ -174,10 +174,10 @@ static void bounds_start_where_they_are_told(void **state)
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     rb_rolling_model model = solved_model(&rc);
-    model.rc.friction.start = &start;
+    case_of(&model)->friction.start = &start;
     for (int k = 0; k < 2; k++) {
-        model.rc.formulation = k ? RB_STATIC : RB_TRANSIENT;
-        rb_rolling_start_bounds(&model.rc, &model.bodies, &model.problem);
+        case_of(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
+        rb_rolling_start_bounds(model.rc, &model.bodies, &model.problem);
         for (int i = 0; i < model.problem.n; i++) {
             const double at = model.bodies.f.x[i];
             CHECK_ABS(model.problem.bound[i],
@@ -405,8 +405,8 @@ static void all_solutions_of_one_are_one(void **state)
     assert_non_null(strstr(why.text, "not under a given force"));
     model.problem.force_given = 0;
     for (int k = 0; k < 2; k++) {
-        model.rc.formulation = k ? RB_STEADY : RB_TRANSIENT;
-        model.rc.friction.fall[0] = k ? 0.0 : 0.1;
+        case_of(&model)->formulation = k ? RB_STEADY : RB_TRANSIENT;
+        case_of(&model)->friction.fall[0] = k ? 0.0 : 0.1;
         CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "all solutions: of steady rolling with"));
     }
@@ -423,7 +423,7 @@ static void starts_that_fail_are_counted(void **state)
     rc.contact_elements = 6;
     rc.creep_ratio = 0.5;
     rb_rolling_model model = solved_model(&rc);
-    model.rc.contact.tol = 1e-300; /* rounding leaves more */
+    case_of(&model)->contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
     CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
     assert_int_equal(all.n, 1);
@@ -558,9 +558,10 @@ static void newtons_method_may_have_no_memory(void **state)
     assert_true(model->problem.n <= 60);
     memcpy(from.bound, model->problem.bound, (size_t)model->problem.n * sizeof(double));
     assert_true(alloc_fail_each(go_to_rest, &from) > 5);
-    model->rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    model->rc.friction.heat = -0.1;
-    model->rc.friction.heat_range = 100.0;
+    case_of(model)->heat_a =
+        (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    case_of(model)->friction.heat = -0.1;
+    case_of(model)->friction.heat_range = 100.0;
     assert_true(alloc_fail_each(set_friction, model) > 2);
     rb_rolling_model_free(model);
 }

@@ -63,8 +63,8 @@ static void check_state(const rb_rolling_model *model, const double *before,
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *s = &model->state;
-    const rb_rolling_friction *f = &model->rc.friction;
-    const double V = model->rc.speed, rest = by_formula(&model->rc, 0.0);
+    const rb_rolling_friction *f = &model->rc->friction;
+    const double V = model->rc->speed, rest = by_formula(model->rc, 0.0);
     double *gap = rb_alloc((size_t)p->n, 2), *slip = gap + p->n, mu = rest;
 
     assert_non_null(gap);
@@ -72,7 +72,7 @@ static void check_state(const rb_rolling_model *model, const double *before,
     for (int i = p->n - 1; i >= 0; i--) {
         const double v =
             s->zone[i] == RB_ZONE_STICK ? 0.0 : fabs(slip[i]) / p->e_T[i] * V;
-        const double now = by_formula(&model->rc, v), small = 1e-9 * p->stress;
+        const double now = by_formula(model->rc, v), small = 1e-9 * p->stress;
         const double upstream = before ? before[i] : mu;
         mu = s->p[i] == 0.0 ? rest : now;
         if (f->memory > 0.0 && s->p[i] > 0.0)
@@ -570,7 +570,7 @@ static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, 
     steps_seen *seen = context;
     const int n = model->mesh.n;
     (void)steps;
-    if (model->rc.formulation == RB_TRANSIENT)
+    if (model->rc->formulation == RB_TRANSIENT)
         check_state(model, seen->before, "step");
     assert_true(step < 200 && n <= seen->n);
     const double *mu = model->problem.bound, way = h->step / model->bodies.f.h[0];
@@ -700,7 +700,7 @@ static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, i
     const rb_rolling_program *program = seen->program;
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *s = &model->state;
-    const int n = p->n, m = n + 1, rolls = model->rc.formulation == RB_TRANSIENT;
+    const int n = p->n, m = n + 1, rolls = model->rc->formulation == RB_TRANSIENT;
     double w[200], mu = program->mu[step < program->n ? step : program->n - 1];
     (void)steps;
     assert_true(2 * m <= 200);
@@ -862,11 +862,11 @@ static void a_step_has_two_starts(void **state)
         const rb_rolling_past past = {.w_T = w + m + 1, .step = 0.1};
         memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
         rb_contact_problem_free(&model.problem);
-        model.rc.formulation = RB_TRANSIENT;
-        model.rc.creep = 0.001;
-        model.rc.friction.start = start ? &sliding : NULL;
+        case_of(&model)->formulation = RB_TRANSIENT;
+        case_of(&model)->creep = 0.001;
+        case_of(&model)->friction.start = start ? &sliding : NULL;
         model.carried.mu = before;
-        CHECK_STATUS(rb_rolling_problem_create(&model.rc, &model.mesh, &model.bodies,
+        CHECK_STATUS(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies,
                                                &past, &model.problem, &why),
                      RB_OK);
         const rb_status s = rb_rolling_model_resolve(&model, 1, &why);

@@ -138,7 +138,7 @@ static void pivots_tell_their_attempt(void **state)
     (void)state;
     for (int kwak = 0; kwak < 2; kwak++) {
         rb_rolling_model model = dissimilar_model(0, 0), again;
-        rb_rolling_case rc = model.rc;
+        rb_rolling_case rc = *model.rc;
         int attempt = -1;
         rc.contact.solver = RB_SOLVER_LEMKE;
         rc.contact.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;

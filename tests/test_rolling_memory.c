@@ -276,12 +276,13 @@ static void contacts_figures_are_met(void **state)
         rb_rolling_bodies bodies;
         rb_contact_problem problem;
         rb_contact_state s;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -8.0, 7.84, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -8.0, 7.84, &mesh, NULL), RB_OK);
         rb_rolling_mesh_free(&mesh);
         rb_rolling_case grid = rc;
         grid.contact_elements = 99;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&grid, -8.0, 7.84, &mesh, NULL), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&grid, &mesh, &bodies, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&grid, NULL, -8.0, 7.84, &mesh, NULL),
+                     RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&grid, NULL, &mesh, &bodies, NULL), RB_OK);
         CHECK_STATUS(
             rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, &problem, NULL),
             RB_OK);

@@ -32,14 +32,14 @@ static void equal_elements_are_equal_along_the_surface(void **state)
     (void)state;
     rb_rolling_mesh mesh;
     rb_rolling_case rc = plane(7);
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -2.0, 5.0, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -2.0, 5.0, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 7);
     for (int i = 0; i <= 8; i++)
         CHECK_ABS(mesh.ends[i], i - 2.0, 1e-14, "end %d of a half-plane", i);
     rb_rolling_mesh_free(&mesh);
 
     rc.a.support = RB_BEM_ARC;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -20.0, 30.0, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -20.0, 30.0, &mesh, NULL), RB_OK);
     CHECK_REL(mesh.ends[0], -20.0, 1e-14, "first end");
     CHECK_REL(mesh.ends[7], 30.0, 1e-14, "last end");
     const double arc = 50.0 * (asin(0.6) - asin(-0.4)) / 7.0;
@@ -55,15 +55,17 @@ static void meshes_stay_on_the_lower_half(void **state)
     rb_rolling_mesh mesh;
     rb_message why;
     rb_rolling_case rc = rb_rolling_case_defaults();
-    check_refused(rb_rolling_mesh_uniform(&rc, 1.0, 1.0, &mesh, &why), &why, "is empty");
-    check_refused(rb_rolling_mesh_uniform(&rc, -1.0, 50.0, &mesh, &why), &why,
+    check_refused(rb_rolling_mesh_uniform(&rc, NULL, 1.0, 1.0, &mesh, &why), &why,
+                  "is empty");
+    check_refused(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 50.0, &mesh, &why), &why,
                   "wider than the radius, 50 mm");
-    check_refused(rb_rolling_mesh_uniform(&rc, -50.0, 1.0, &mesh, &why), &why,
+    check_refused(rb_rolling_mesh_uniform(&rc, NULL, -50.0, 1.0, &mesh, &why), &why,
                   "wider than the radius, 50 mm");
     rc.contact_elements = 3;
-    check_refused(rb_rolling_mesh_uniform(&rc, -49.0, 49.0, &mesh, &why), &why,
+    check_refused(rb_rolling_mesh_uniform(&rc, NULL, -49.0, 49.0, &mesh, &why), &why,
                   "no room for the element before it");
-    check_refused(rb_rolling_mesh_fitted(&rc, 2.0, 1.0, &mesh, &why), &why, "is empty");
+    check_refused(rb_rolling_mesh_fitted(&rc, NULL, 2.0, 1.0, &mesh, &why), &why,
+                  "is empty");
 }
 
 /* ---- The gap ----------------------------------------------------------------------- */
@@ -116,9 +118,8 @@ static void an_irregularity_rides_with_the_material(void **state)
     rb_rolling_case rc = plane(10);
     rc.gap = RB_GAP_PARABOLA;
     rc.irregularity = (rb_rolling_table){3, x, y};
-    rc.passed = 3.0;
     assert_false(rb_rolling_is_convex(&rc));
-    CHECK_STATUS(rb_rolling_gap_along(&rc, 6, places, gap), RB_OK);
+    CHECK_STATUS(rb_rolling_gap_along(&rc, 3.0, 6, places, gap), RB_OK);
     for (int i = 0; i < 6; i++) {
         const double s = fmin(1.0, fabs(places[i] + 3.0));
         const double own = 0.2 * (1.0 - 1.5 * s * s + 0.5 * s * s * s);
@@ -160,7 +161,7 @@ static void fitted_elements_meet_both_edges(void **state)
     (void)state;
     const rb_rolling_case rc = plane(20);
     rb_rolling_mesh mesh;
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, -1.0, 3.0, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 3.0, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 20 + 6 + 6);
     for (int i = 0; i <= 20; i++)
         CHECK_ABS(mesh.ends[6 + i], 1.0 - 2.0 * cos(M_PI * i / 20.0), 1e-14, "end %d", i);
@@ -187,24 +188,26 @@ static void fitted_elements_reach_as_far_as_asked(void **state)
     rb_rolling_span span = {.from = -1.0, .to = 1.0, .room_left = 2.5 * step};
     rb_rolling_mesh mesh;
     span.room_right = step * (pow(1.5, 9) - 1.0) / 0.5 * 1.0001;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, 1, &span, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
+                 RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 10); /* nine do not reach it */
     rb_rolling_mesh_free(&mesh);
 
     span = (rb_rolling_span){.from = -1e-9, .to = 1e-9, .room_right = 10.0};
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, 1, &span, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
+                 RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 64);
     rb_rolling_mesh_free(&mesh);
 
     /* 0.1 is left of 47.5, where an element beside the edge is 0.065 long */
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, -47.4, 47.4, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -47.4, 47.4, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 60 + 2 + 2);
     CHECK_REL(mesh.ends[0], -47.5, 1e-14, "to the end of what there is");
     CHECK_REL(mesh.ends[64], 47.5, 1e-14, "to the end of what there is");
     CHECK_REL(length(&mesh, 64), 1.5 * length(&mesh, 63), 1e-9, "there is room for it");
     rb_rolling_mesh_free(&mesh);
     /* 0.075 are less than 1.25 elements: one longer one */
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, -1.0, 47.425, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 47.425, &mesh, NULL), RB_OK);
     CHECK_REL(mesh.ends[mesh.n], 47.5, 1e-14, "to the end of what there is");
     CHECK_MAX(mesh.n, 60 + 6 + 2, "elements");
     rb_rolling_mesh_free(&mesh);
@@ -216,7 +219,7 @@ static void the_element_before_the_mesh_stays_on_the_wheel(void **state)
     (void)state;
     const rb_rolling_case rc = plane(4);
     rb_rolling_mesh mesh;
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, -30.0, 47.0, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -30.0, 47.0, &mesh, NULL), RB_OK);
     CHECK_REL(length(&mesh, mesh.n), fmin(1.5 * length(&mesh, mesh.n - 1), 1.25), 1e-12,
               "of 2.5 mm");
     CHECK_MAX(mesh.ends[mesh.n + 1], 50.0, "on the wheel");
@@ -256,7 +259,8 @@ static void patches_share_the_elements_by_their_width(void **state)
         const rb_rolling_span span[2] = {{.from = 0.0, .to = rows[k].to[0]},
                                          {.from = 4.0, .to = rows[k].to[1]}};
         rb_rolling_mesh mesh;
-        CHECK_STATUS(rb_rolling_mesh_spans(&rc, 2, span, &mesh, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         for (int i = 0; i < 2; i++) {
             assert_int_equal(count_between(&mesh, span[i].from, span[i].to),
                              rows[k].across[i]);
@@ -279,7 +283,8 @@ static void elements_between_patches_meet(void **state)
                                          {.from = e, .to = 1.0 + e}};
         const double step = gsl_pow_2(sin(0.5 * M_PI / 30.0));
         rb_rolling_mesh mesh;
-        CHECK_STATUS(rb_rolling_mesh_spans(&rc, 2, span, &mesh, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         const int n = count_between(&mesh, -e, e), first = 6 + 30;
         int side = 0; /* so many elements of either side, unstretched, are no longer */
         while (2.0 * step * (pow(1.5, side + 1) - 1.0) / 0.5 <= 2.0 * e)
@@ -307,7 +312,8 @@ static void patches_far_apart_have_64_elements_between_them(void **state)
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
                                      {.from = 19.9999, .to = 20.0}};
     rb_rolling_mesh mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, 2, span, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
+                 RB_OK);
     const int n = count_between(&mesh, -19.9999, 19.9999);
     assert_in_range(n, 60, 64);
     for (int i = 0; i < mesh.n; i++)
@@ -322,7 +328,8 @@ static void unequal_elements_grow_until_they_are_alike(void **state)
     const rb_rolling_case rc = plane(60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
     rb_rolling_mesh mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, 2, span, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
+                 RB_OK);
     const int n = count_between(&mesh, 0.0, 1.0), first = 6 + 15;
     assert_in_range(n, 6, 24);
     CHECK_REL(length(&mesh, first + 1), 1.5 * length(&mesh, first), 1e-9, "on the left");
@@ -344,9 +351,11 @@ static void a_result_has_the_elements_of_its_mesh(void **state)
         double x[32], h[32];
         rc.a.support = k % 2 ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         if (k < 2)
-            CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -7.0, 9.0, &mesh, NULL), RB_OK);
+            CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -7.0, 9.0, &mesh, NULL),
+                         RB_OK);
         else
-            CHECK_STATUS(rb_rolling_mesh_fitted(&rc, -7.0, 9.0, &mesh, NULL), RB_OK);
+            CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -7.0, 9.0, &mesh, NULL),
+                         RB_OK);
         for (int i = 0; i < mesh.n; i++) {
             const double y[2] = {k % 2 ? sqrt(2500.0 - gsl_pow_2(mesh.ends[i])) : 0.0,
                                  k % 2 ? sqrt(2500.0 - gsl_pow_2(mesh.ends[i + 1]))

@@ -48,10 +48,11 @@ static void release(table *t)
 /* Solved on elements over a part of the table alone. */
 static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, double to)
 {
-    rb_rolling_model model = {.rc = *rc};
+    rb_rolling_model model;
     rb_rolling_mesh mesh;
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, from, to, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_model_begin(rc, NULL, &model, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &why), RB_OK);
     const rb_status s = rb_rolling_model_build(&model, &mesh, &why);
     if (s != RB_OK && s != RB_ZONE)
         fail_msg("%s", why.text);

@@ -125,7 +125,7 @@ static void pairs_answer_as_their_elements_do(void **state)
 static void check_beside_lemke(rb_rolling_model *model)
 {
     rb_contact_problem *p = &model->problem;
-    rb_rolling_case rc = model->rc;
+    rb_rolling_case rc = *model->rc;
     rb_contact_state newton, lemke;
 
     CHECK_STATUS(rb_contact_state_alloc(p->n, &newton), RB_OK);

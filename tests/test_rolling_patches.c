@@ -280,7 +280,7 @@ static void the_peak_is_hertzs(void **state)
             m.p[i] = square > 0.0 ? 700.0 * sqrt(square) : 0.0;
             m.zone[i] = square > 0.0 ? RB_ZONE_STICK : RB_ZONE_SEPARATED;
         }
-        model.rc = m.rc;
+        model.rc = &m.rc;
         model.mesh = m.mesh;
         model.state = m.state;
         CHECK_REL(rb_rolling_peak_pressure(&model), 700.0, 1e-12, "peak at %g", at);

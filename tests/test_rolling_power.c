@@ -78,11 +78,12 @@ static void other_slip_belongs_to_its_element(void **state)
 static void elastic_bodies_lose_nothing(void **state)
 {
     (void)state;
-    rb_rolling_model model = {.rc = rb_rolling_case_defaults()};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    const rb_rolling_model model = {.rc = &rc};
     double power;
     CHECK_STATUS(rb_rolling_hysteresis(&model, &power), RB_OK);
     assert_true(isnan(power)); /* static */
-    model.rc.formulation = RB_STEADY;
+    rc.formulation = RB_STEADY;
     CHECK_STATUS(rb_rolling_hysteresis(&model, &power), RB_OK);
     CHECK_ABS(power, 0.0, 0.0, "steady");
 }

@@ -617,7 +617,7 @@ static void the_past_moves_with_the_material(void **state)
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
     rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.3, 0.3, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &track, NULL), RB_OK);
     for (int rolls = 0; rolls < 2; rolls++) {
         for (int i = 0; i < 2 * ALL; i++) {
@@ -689,7 +689,7 @@ static void a_step_loses_what_its_dashpot_does(void **state)
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
     rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.3, 0.3, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL), RB_OK);
     for (int j = 0; j < 15; j++) {
         const double step = steps[j / 3];
         const int kind = j % 3; /* from rest; held; both */

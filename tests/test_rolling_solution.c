@@ -164,8 +164,8 @@ static void shift_and_creepage_at_rest(void **state)
     rb_rolling_model model = solved_model(&rc);
     for (int k = 0; k < 3; k++) {
         model.shift = 0.01 * k;
-        model.rc.creep = k == 1 ? 0.02 : NAN;
-        model.rc.creep_ratio = k == 2 ? 0.5 : NAN;
+        case_of(&model)->creep = k == 1 ? 0.02 : NAN;
+        case_of(&model)->creep_ratio = k == 2 ? 0.5 : NAN;
         rb_rolling_solution s = of(&model);
         CHECK_REL(s.tangential_shift, 0.001 + 0.01 * k, 1e-12, "shift %d", k);
         CHECK_ABS(s.creepage,

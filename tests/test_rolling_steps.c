@@ -194,12 +194,13 @@ static double stick_under_a_flat_punch(int elements)
 {
     const rb_rolling_case rc = spence(elements);
     rb_rolling_mesh mesh;
-    rb_rolling_model model = {.rc = rc};
+    rb_rolling_model model;
 
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.1, 0.1, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_model_begin(&rc, NULL, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.1, 0.1, &mesh, NULL), RB_OK);
     memset(mesh.gap, 0, (size_t)mesh.n * sizeof(double));
     model.mesh = mesh;
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &model.bodies, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &model.bodies, NULL), RB_OK);
     CHECK_STATUS(
         rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, &model.problem, NULL),
         RB_OK);
@@ -377,8 +378,8 @@ static void large_contacts_know_what_is_ahead(void **state)
     rb_rolling_former_place ahead;
     const int n = RB_ROLLING_LARGE, m = n + 1;
 
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.2, 0.2, &mesh, NULL), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
     assert_null(bodies.F);
     CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead),
                  RB_OK);

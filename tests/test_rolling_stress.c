@@ -220,7 +220,7 @@ static void a_grid_lies_under_the_contact(void **state)
     rb_rolling_stress_grid grid;
     double from, to;
     rb_message why = {""};
-    rb_rolling_contact_edges(&model.rc, &model.mesh, &model.state, &from, &to);
+    rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from, &to);
     CHECK_STATUS(rb_rolling_stress_on_grid(&model, 5, 3, 0.0, &grid, NULL), RB_OK);
     const double a = 0.5 * (to - from);
     for (int k = 0; k < 15; k++) {

@@ -492,7 +492,7 @@ static void many_outer_elements_fit_their_own_contact(void **state)
     const double *ends = model.mesh.ends + (model.mesh.n - rc.contact_elements) / 2;
     const double h = ends[1] - ends[0];
     assert_true(s.boundary_elements > 610);
-    assert_int_equal(model.rc.outer_elements, 610);
+    assert_int_equal(model.rc->outer_elements, 610);
     CHECK_ABS(s.contact_from, ends[0], 0.5 * h, "left edge");
     CHECK_ABS(s.contact_to, ends[rc.contact_elements], 0.5 * h, "right edge");
     rb_rolling_solution_free(&s);

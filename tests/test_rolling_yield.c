@@ -108,8 +108,8 @@ static void rolling_from_a_shift_is_met(void **state)
     double r[2 * N], w[2 * (N + 1)], w_T[N], yielded[N + 1] = {0}, own[N];
 
     rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.2, 1.2, &mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(N, &x), RB_OK);
     for (int step = 0; step < 6; step++) {
         const rb_rolling_past past = {w_T, yielded, 0.08};
@@ -380,9 +380,9 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
     rb_message why;
     CHECK_STATUS(rb_rolling_model_solution(m, &s, &why), RB_OK);
     for (int i = 0; i < p->n; i++) {
-        const double tau = m->rc.yield_stress + m->rc.hardening * s.plastic[i];
+        const double tau = m->rc->yield_stress + m->rc->hardening * s.plastic[i];
         const double own = s.plastic[i] - c->before[i];
-        CHECK_MAX(fabs(s.q[i]) - fmin(tau, m->rc.mu * s.p[i]), 1e-9 * s.max_pressure,
+        CHECK_MAX(fabs(s.q[i]) - fmin(tau, m->rc->mu * s.p[i]), 1e-9 * s.max_pressure,
                   "step %d, element %d", step, i);
         CHECK_MAX(-own, 1e-15, "step %d, element %d", step, i);
         if (own > 1e-9) {

@@ -553,7 +553,7 @@ static void free_rolling_may_need_other_elements(void **state)
 {
     (void)state;
     rb_rolling_case rc = halfplane(0.0, 1.0, 80);
-    rb_rolling_model model = {0};
+    rb_rolling_model model;
     rb_rolling_mesh mesh;
     rb_message why = {""};
     double creepage;
@@ -562,12 +562,12 @@ static void free_rolling_may_need_other_elements(void **state)
     rb_rolling_solution freely = solved(&rc);
     rc.force_ratio = NAN;
     rc.creep_ratio = 3.0;
-    model.rc = rc;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.85, 1.6, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_model_begin(&rc, NULL, &model, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.85, 1.6, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_rolling_model_build(&model, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_OK);
     CHECK_REL(creepage, freely.creepage, 1e-9, "on its own elements");
-    model.rc.zone = 1.6; /* a given zone stays */
+    case_of(&model)->zone = 1.6; /* a given zone stays */
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_ZONE);
     rb_rolling_solution_free(&freely);
     rb_rolling_model_free(&model);

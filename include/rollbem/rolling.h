@@ -175,10 +175,9 @@ typedef struct {
     const rb_rolling_profile *profile; /* RB_GAP_TABLE; borrowed */
     /* What a surface has too little (> 0) or too much (< 0) of where it is irregular,
      * added to the gap: points that begin and end with 0 and lie at these x before
-     * rolling.  It rides with the material, towards -x; `passed` says how far.  Not in
-     * steady. */
+     * rolling.  It rides with the material, towards -x; `passed` of a mesh says how far.
+     * Not in steady. */
     rb_rolling_table irregularity;
-    double passed; /* [length]; histories set it */
     /* What is worn off the surfaces in the contact frame, added to the gap: linear
      * between the points, nothing beyond them [length]. */
     rb_rolling_table worn;
@@ -274,21 +273,35 @@ double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
 /* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
+/* How a case is discretised: what a search for its mesh varies while the case stays. */
+typedef struct {
+    int elements; /* in the potential contact, or across that of a fitted mesh */
+    rb_rolling_near_field near_field;
+    int outer_elements;
+    double outer_refinement; /* the four as of the case */
+} rb_rolling_plan;
+
+/* That of the case itself, which builders follow where they get no plan (NULL). */
+rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc);
+
 /* The potential contact: n elements between ends[0] and ends[n] and the upstream element
  * [ends[n], ends[n + 1]] (theory.md 4.2). */
 typedef struct {
     int n;
-    double *ends; /* n + 2 abscissae [length]; owned */
-    double *gap;  /* n: g_0 at the midpoints, without approach [length]; owned */
+    double *ends;  /* n + 2 abscissae [length]; owned */
+    double *gap;   /* n: g_0 at the midpoints, without approach [length]; owned */
+    double passed; /* by how much the irregularity has come nearer [length] */
 } rb_rolling_mesh;
 
 /* Equal elements between from and to. */
-rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double to,
-                                  rb_rolling_mesh *mesh, rb_message *why);
+rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  double from, double to, rb_rolling_mesh *mesh,
+                                  rb_message *why);
 /* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, and
  * growing ones outside each edge (theory.md 5.1). */
-rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
-                                 rb_rolling_mesh *mesh, rb_message *why);
+rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 double from, double to, rb_rolling_mesh *mesh,
+                                 rb_message *why);
 /* The elements of a result; borrowed. */
 typedef struct {
     int n;
@@ -317,8 +330,9 @@ typedef struct {
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
-rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                   rb_rolling_bodies *bodies, rb_message *why);
+rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
+                                   rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 
 /* A row of the table of bodies (src/rolling/body.c): whoever asks what a body is asks its
@@ -587,7 +601,9 @@ typedef struct {
 
 /* Everything between case and solution, kept for further solves on the same mesh. */
 typedef struct {
-    rb_rolling_case rc; /* borrows the profile */
+    const rb_rolling_case *rc; /* a copy that nobody changes, in a history that of the
+                                  last step; borrows the profile; owned */
+    rb_rolling_plan plan;      /* of the mesh and bodies at hand */
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
     rb_contact_problem problem;

@@ -492,7 +492,7 @@ double rb_api_number(const rb_api *a, const char *name)
 static api_array *boundary_matrices(rb_api *a, const char *name)
 {
     const rb_bem_mesh *mesh = rb_bem_system_mesh(a->result.model.bodies.system_a);
-    const rb_rolling_case *rc = &a->result.model.rc;
+    const rb_rolling_case *rc = a->result.model.rc;
     api_array *H = rb_api_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
     api_array *G = rb_api_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
     if (!H || !G ||
@@ -853,7 +853,7 @@ int rb_api_newton(rb_api *a)
     if (!has_model(a))
         return a->status;
     rb_contact_problem problem = a->result.model.problem; /* arrays stay the model's */
-    rb_rolling_case rc = a->result.model.rc;
+    rb_rolling_case rc = *a->result.model.rc;
     rc.contact.solver = RB_SOLVER_NEWTON;
     problem.trace = keep_newton_step;
     problem.trace_context = a;
@@ -939,7 +939,7 @@ static rb_status begin_stress(rb_api *a, const char *arrays)
                        a->result.has_errors
                            ? "the stress needs a case that is solved without error bars"
                            : "nothing is solved");
-    return rb_rolling_stress_check(&a->result.model.rc, &a->why);
+    return rb_rolling_stress_check(a->result.model.rc, &a->why);
 }
 
 int rb_api_stress(rb_api *a, int nx, int ny, double depth)

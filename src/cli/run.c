@@ -76,7 +76,7 @@ static rb_status keep_snapshot(watch *w, const rb_rolling_model *model, int step
     rb_status s = rb_rolling_model_solution(model, &solution, w->why);
     rb_rolling_solution_convert(&solution, w->units);
     if (s == RB_OK)
-        s = cli_write_snapshot(w->steps->snapshots, step, &model->rc, &solution,
+        s = cli_write_snapshot(w->steps->snapshots, step, model->rc, &solution,
                                &w->steps->style, w->why);
     w->written = step;
     rb_rolling_solution_free(&solution);

@@ -140,9 +140,9 @@ static rb_status relax(history_state *r, double interval, int rolls, rb_message 
         const rb_rolling_case step = rb_rolling_memory_case(r->rc, interval);
         rb_contact_problem_free(&model->problem);
         rb_rolling_bodies_free(&model->bodies);
-        s = rb_rolling_bodies_create(&step, &model->mesh, &model->bodies, why);
+        s = rb_rolling_bodies_create(&step, NULL, &model->mesh, &model->bodies, why);
         if (s == RB_OK)
-            s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
+            s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                           &model->problem, why);
         r->interval = interval;
     }
@@ -167,12 +167,12 @@ static void follow_way(rb_rolling_model *model, double mu_before)
 {
     rb_contact_problem *p = &model->problem;
 
-    if (model->rc.mu == mu_before)
+    if (model->rc->mu == mu_before)
         return;
-    if (rb_rolling_law_depends_on_state(&model->rc))
-        rb_contact_set_friction(p, rb_rolling_largest_mu(&model->rc), p->bound);
+    if (rb_rolling_law_depends_on_state(model->rc))
+        rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
     else
-        rb_rolling_start_bounds(&model->rc, &model->bodies, p);
+        rb_rolling_start_bounds(model->rc, &model->bodies, p);
 }
 
 static void record(history_state *r, double distance)
@@ -181,7 +181,7 @@ static void record(history_state *r, double distance)
     const rb_rolling_model *model = r->model;
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
-    const int k = h->n++, rolls = model->rc.formulation == RB_TRANSIENT;
+    const int k = h->n++, rolls = model->rc->formulation == RB_TRANSIENT;
 
     h->distance[k] = distance;
     if (rolls)
@@ -193,14 +193,14 @@ static void record(history_state *r, double distance)
     h->force_ratio[k] = rb_rolling_force_ratio(model);
     h->residual[k] = state->residual;
     h->max_pressure[k] = rb_rolling_peak_pressure(model);
-    rb_rolling_contact_edges(&model->rc, &model->mesh, state, &h->contact_from[k],
+    rb_rolling_contact_edges(model->rc, &model->mesh, state, &h->contact_from[k],
                              &h->contact_to[k]);
     if (rolls)
         h->dissipation[k] = rb_rolling_dissipated_power(
-            &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+            model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     h->moment[k] = rb_contact_moment(p, state);
     double torque_b;
-    rb_rolling_torques(&model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k],
+    rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k],
                        &torque_b);
     if (h->torque_b)
         h->torque_b[k] = torque_b;
@@ -216,7 +216,7 @@ static void record(history_state *r, double distance)
         h->lost_work[k] = r->past.lost;
     }
     if (h->mu)
-        h->mu[k] = model->rc.mu;
+        h->mu[k] = model->rc->mu;
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
         h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
@@ -255,9 +255,9 @@ static rb_status follow(history_state *r)
     state->delta = r->found->delta[r->history->n];
     state->xi = r->found->xi[r->history->n];
     model->half_width =
-        rb_rolling_hertz_half_width(&model->rc, fmax(0.0, rb_rolling_model_load(model)));
-    if (!isnan(model->rc.creep_ratio) && model->rc.formulation == RB_TRANSIENT)
-        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc.creep_ratio);
+        rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
+        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
     const rb_status s = rb_contact_residual(&model->problem, state, &v);
     state->residual = v.scaled;
     state->status = RB_OK;
@@ -273,7 +273,7 @@ static rb_status answer_rolled(history_state *r, rb_message *why)
 {
     if (!r->found)
         return rb_rolling_model_control(r->model, why);
-    rb_rolling_set_control(&r->model->rc, &r->model->problem);
+    rb_rolling_set_control(r->model->rc, &r->model->problem);
     return follow(r);
 }
 
@@ -289,11 +289,11 @@ static rb_status assess(const history_state *r, rb_status s, rb_message *reason,
 
 /* The rows are checked beforehand; between two of them mu and the load both vary, and
  * their product may be less than a force that is linear. */
-static rb_status check_force(const history_state *r, rb_message *why)
+static rb_status check_force(const history_state *r, const rb_rolling_case *step,
+                             rb_message *why)
 {
     rb_message reason = {""};
-    const rb_status s =
-        r->program->mu ? rb_rolling_case_check(&r->model->rc, &reason) : RB_OK;
+    const rb_status s = r->program->mu ? rb_rolling_case_check(step, &reason) : RB_OK;
 
     return assess(r, s, &reason, why);
 }
@@ -303,12 +303,11 @@ static rb_status check_force(const history_state *r, rb_message *why)
 static rb_status static_step(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
     const rb_rolling_past past = {r->w_T, model->carried.yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
-    const double before = time_of(r), mu_before = rest->mu;
+    const double before = time_of(r), mu_before = model->rc->mu;
     rb_message reason = {""};
     rb_status s = first ? RB_OK : remember(r, 0.0);
 
@@ -316,20 +315,22 @@ static rb_status static_step(history_state *r, rb_message *why)
         return s;
     r->part++;
     const double interval = time_of(r) - before;
-    *rest = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
-    s = check_force(r, why);
-    if (rest->formulation == RB_TRANSIENT && isnan(rest->force) &&
-        isnan(rest->force_ratio))
-        rest->force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
-    rest->formulation = RB_STATIC;
+    rb_rolling_case rest =
+        rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
+    s = check_force(r, &rest, why);
+    if (rest.formulation == RB_TRANSIENT && isnan(rest.force) && isnan(rest.force_ratio))
+        rest.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
+    rest.formulation = RB_STATIC;
     model->shift = r->shift;
+    if (s == RB_OK)
+        s = rb_rolling_model_set_case(model, &rest, why);
     if (s == RB_OK)
         s = relax(r, interval, 0, why);
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
-    rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, p);
-    rb_rolling_set_control(rest, p);
+    rb_rolling_set_past(&rest, &model->bodies, first ? NULL : &past, p);
+    rb_rolling_set_control(&rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
     s = assess(r, answer_at_rest(r, &reason), &reason, why);
     r->shift += model->state.xi;
@@ -349,10 +350,10 @@ static rb_status static_step(history_state *r, rb_message *why)
 /* The irregularity has come nearer by the way so far. */
 static rb_status move_gap(rb_rolling_model *model, double way)
 {
-    model->rc.passed = way;
-    if (model->rc.irregularity.n == 0)
+    model->mesh.passed = way;
+    if (model->rc->irregularity.n == 0)
         return RB_OK;
-    const rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
+    const rb_status s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
     rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
     return s;
 }
@@ -361,15 +362,17 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 static rb_status rolled_step(history_state *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const double c = r->history->step, mu_before = model->rc.mu;
+    const double c = r->history->step, mu_before = model->rc->mu;
     const rb_rolling_past past = {r->w_T, model->carried.yielded, c};
     rb_message reason = {""};
     rb_status s = remember(r, c);
 
     remember_friction(r, c);
-    model->rc = rb_rolling_program_step(r->program, r->rc, from, to);
+    const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, to);
     if (s == RB_OK)
-        s = check_force(r, why);
+        s = check_force(r, &step, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_set_case(model, &step, why);
     if (s == RB_OK)
         s = relax(r, interval_of(r, c), 1, why);
     if (s == RB_OK)
@@ -377,16 +380,16 @@ static rb_status rolled_step(history_state *r, double from, double to, rb_messag
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
-    if (from == 0.0 && model->rc.friction.start)
-        rb_rolling_start_bounds(&model->rc, &model->bodies, &model->problem);
+    if (from == 0.0 && model->rc->friction.start)
+        rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
     if (r->history->max_temperature)
         rb_rolling_heat_track_advance(&r->heat);
-    rb_rolling_set_past(&model->rc, &model->bodies, &past, &model->problem);
+    rb_rolling_set_past(model->rc, &model->bodies, &past, &model->problem);
     s = assess(r, answer_rolled(r, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
     if (s >= 0 && r->history->max_temperature)
-        rb_rolling_heat_track_step(&model->rc, model->state.q, model->state.lambda,
+        rb_rolling_heat_track_step(model->rc, model->state.q, model->state.lambda,
                                    &r->heat, model->carried.temperature);
     if (s >= 0) {
         relaxed(r, interval_of(r, c));
@@ -516,13 +519,13 @@ static rb_status match_elements(history_state *r, double step, rb_message *why)
     rb_rolling_model *model = r->model;
     const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
     const double middle = 0.5 * (from + to);
-    rb_rolling_case equal = *r->rc;
+    rb_rolling_plan plan = model->plan;
     rb_rolling_mesh mesh;
 
-    equal.contact_elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
-    const double half = 0.5 * equal.contact_elements * step;
+    plan.elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
+    const double half = 0.5 * plan.elements * step;
     rb_status s =
-        rb_rolling_mesh_uniform(&equal, middle - half, middle + half, &mesh, why);
+        rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh, why);
     if (s != RB_OK)
         return s;
     rb_rolling_mesh_free(&model->mesh);

@@ -89,6 +89,7 @@ static rb_status glassy_flexibility(const rb_rolling_case *rc, int rolls,
                                     const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
                                     rb_message *why)
 {
+    const rb_rolling_plan plan = rb_rolling_plan_of(rc);
     rb_rolling_body glassy = *body;
     rb_rolling_body_flexibility made = {0};
 
@@ -98,7 +99,7 @@ static rb_status glassy_flexibility(const rb_rolling_case *rc, int rolls,
         return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why);
     }
     const rb_status s =
-        rb_rolling_kind_of(&glassy)->flexibility(rc, &glassy, mesh, &made, why);
+        rb_rolling_kind_of(&glassy)->flexibility(rc, &plan, &glassy, mesh, &made, why);
     rb_bem_system_free(made.system);
     *f = made.f;
     return s;

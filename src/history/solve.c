@@ -59,12 +59,14 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
                                    rb_rolling_solution *solution, rb_message *why)
 {
     const double start = rb_seconds();
-    rb_rolling_model model = {.rc = *rc};
+    rb_rolling_model model = {0};
     rb_rolling_mesh mesh = {0};
     rb_status s = rb_rolling_case_check(rc, why);
 
     if (s == RB_OK)
-        s = rb_rolling_mesh_uniform(rc, from, to, &mesh, why);
+        s = rb_rolling_model_begin(rc, NULL, &model, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&model, &mesh, why);
     s = take_solution(&model, s, solution, why);

@@ -127,11 +127,14 @@ static rb_status pose(wear_state *r, const double *F, rb_message *why)
     const double *own = model->bodies.F;
 
     rb_contact_problem_free(&model->problem);
-    model->rc.worn = worn_of(r);
-    rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
+    rb_rolling_case worn = *model->rc;
+    worn.worn = worn_of(r);
+    rb_status s = rb_rolling_model_set_case(model, &worn, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
     model->bodies.F = F;
     if (s == RB_OK)
-        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
+        s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
     model->bodies.F = own;
     return s;
@@ -253,9 +256,9 @@ static double depth_of_turn(const wear_state *r)
 
     return r->wear->coefficient *
            (r->wear->law == RB_WEAR_ARCHARD
-                ? rb_rolling_slid_pressure(&model->rc, state->n, state->lambda, state->p,
+                ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p,
                                            h, e_T)
-                : rb_rolling_dissipated_power(&model->rc, state->n, state->lambda,
+                : rb_rolling_dissipated_power(model->rc, state->n, state->lambda,
                                               state->q, h, e_T));
 }
 
@@ -274,7 +277,7 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         rb_rolling_model_free(&r->model);
         s = rb_rolling_model_create(&r->rc, &r->model, why);
         if (s != RB_OK)
-            break;
+            return s;
         depth = depth_of_turn(r);
         const double radius = before - turns * (1.0 - share) * depth,
                      moved = r->rc.a.radius;
@@ -291,7 +294,7 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
     }
     r->passage = share * depth;
     r->track += turns_b ? 0.0 : r->passage * turns * 2.0 * M_PI * before;
-    r->work = rb_rolling_dissipated_power(&r->model.rc, r->model.state.n,
+    r->work = rb_rolling_dissipated_power(r->model.rc, r->model.state.n,
                                           r->model.state.lambda, r->model.state.q,
                                           r->model.bodies.f.h, r->model.problem.e_T);
     return s;

@@ -193,7 +193,7 @@ static rb_status fit_motion(rb_certificate *c, rb_message *why)
             unit[i] -= w[i];
         x->delta = fit(n, unit, printed);
     }
-    if (p->force_given || !isnan(c->model.rc.creep_ratio)) {
+    if (p->force_given || !isnan(c->model.rc->creep_ratio)) {
         kinematics_at(c, 0.0, 1.0, unit);
         for (size_t i = n; i < 2 * n; i++)
             unit[i] -= w[i];
@@ -207,7 +207,7 @@ static rb_status fit_motion(rb_certificate *c, rb_message *why)
 static rb_status read_state(rb_certificate *c, rb_message *why)
 {
     rb_rolling_model *m = &c->model;
-    const int n = m->mesh.n, is_static = m->rc.formulation == RB_STATIC;
+    const int n = m->mesh.n, is_static = m->rc->formulation == RB_STATIC;
     rb_status s = rb_certificate_column(c->name, c->table, "p_MPa", n, m->state.p, why);
 
     if (s == RB_OK)
@@ -289,7 +289,7 @@ static void check_forces(rb_certificate *c)
     const rb_contact_state *x = &c->model.state;
     const double P = weighted(p->n, p->load_N, x->p, p->load_T, x->q);
     const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
-    const rb_rolling_derived d = rb_rolling_derive(&c->model.rc);
+    const rb_rolling_derived d = rb_rolling_derive(c->model.rc);
 
     if (c->summary) {
         rb_certificate_expect(c, "normal_load", 0,
@@ -310,7 +310,7 @@ static void check_forces(rb_certificate *c)
 void rb_certificate_motion(rb_certificate *c)
 {
     const rb_contact_problem *p = &c->model.problem;
-    const rb_rolling_case *rc = &c->model.rc;
+    const rb_rolling_case *rc = c->model.rc;
     if (p->force_given)
         return;
     if (c->step == 0 && rc->formulation == RB_STEADY && !isnan(rc->creep_ratio))
@@ -362,9 +362,9 @@ static void check_zone(rb_certificate *c, int i, double slack, double yield)
  * its boundary again, on ends of elements that differ by a rounding. */
 static double rounding_of_displacements(const rb_certificate *c)
 {
-    return c->hierarchical                              ? 1e-10
-           : rb_rolling_can(&c->model.rc, RB_BODY_FLAT) ? 1e-13
-                                                        : 2e-12;
+    return c->hierarchical                             ? 1e-10
+           : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13
+                                                       : 2e-12;
 }
 
 /* The residual that the result prints is believed where it is below what was asked for.
@@ -377,7 +377,7 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
                           ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
                                    "hierarchical") == 0
                           : c->again.hierarchical;
-    const double asked = fmax(c->model.rc.contact.tol, p->rounding);
+    const double asked = fmax(c->model.rc->contact.tol, p->rounding);
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
     c->displacement =
@@ -452,7 +452,7 @@ static double rounding_of(const rb_certificate *c, const char *key)
                                           .load = s->normal_load,
                                           .pressure = s->max_pressure,
                                           .radius =
-                                              rb_rolling_larger_radius(&c->model.rc)};
+                                              rb_rolling_larger_radius(c->model.rc)};
 
     if (strcmp(key, "residual") == 0)
         return c->tol;
@@ -576,7 +576,7 @@ static double slack_of_summary(const rb_certificate *c, const char *key, double 
  */
 static void compare_solver(rb_certificate *c)
 {
-    const rb_contact_options *asked = &c->model.rc.contact;
+    const rb_contact_options *asked = &c->model.rc->contact;
     const char *solver = rb_certificate_word(c->summary, "solver");
     const char *form = rb_certificate_word(c->summary, "lcp_form");
     const char *pivoted = rb_case_word("lcp-form", RB_LCP_PIVOTED),
@@ -598,8 +598,8 @@ static void check_hysteresis(rb_certificate *c)
                                       : c->again.hysteresis;
     double allowed;
 
-    if (c->model.rc.formulation != RB_STEADY || !(c->again.n > 0) ||
-        !rb_rolling_relaxes(&c->model.rc))
+    if (c->model.rc->formulation != RB_STEADY || !(c->again.n > 0) ||
+        !rb_rolling_relaxes(c->model.rc))
         return;
     const double waves = rb_certificate_hysteresis(c, &allowed);
     rb_certificate_expect(c, "hysteresis by waves", 0, printed, waves, allowed);

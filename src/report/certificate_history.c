@@ -148,7 +148,7 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
 {
     rb_certificate_scales scales = {.half_width = h->half_width,
                                     .number = 1.0,
-                                    .radius = rb_rolling_larger_radius(&c->model.rc)};
+                                    .radius = rb_rolling_larger_radius(c->model.rc)};
     json_t *again = rb_report_json_history(h), *want;
     const char *key;
 

@@ -119,7 +119,7 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
     const rb_rolling_model *model = &c->model;
     const double *x = c->again.x, *h = c->again.h, k = m / b->radius;
     const double mirror = is_b ? -1.0 : 1.0;
-    const int turns = (is_b ? model->rc.b : model->rc.a).support == RB_BEM_HUB;
+    const int turns = (is_b ? model->rc->b : model->rc->a).support == RB_BEM_HUB;
     cplx p = 0.0, q = 0.0;
 
     for (int i = 0; i < c->again.n; i++) {
@@ -128,7 +128,7 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
         const double P = model->state.p[i], Q = mirror * model->state.q[i];
         const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
         const double at = turns ? b->radius * asin(sine) : x[i];
-        const int given = model->rc.normals == RB_BEM_NORMALS_SURFACE;
+        const int given = model->rc->normals == RB_BEM_NORMALS_SURFACE;
         const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine),
                      turned = given ? 0.0 : sine;
         const cplx wave =
@@ -151,7 +151,7 @@ static double lost_in(const rb_certificate *c, const body *b, int is_b)
     const int n = c->again.n;
     const double width = c->again.x[n - 1] - c->again.x[0], widest = acos(-1.0) / width;
     const double last = 16.0 * acos(-1.0) * n / width;
-    const int is_wheel = (is_b ? c->model.rc.b : c->model.rc.a).support == RB_BEM_HUB;
+    const int is_wheel = (is_b ? c->model.rc->b : c->model.rc->a).support == RB_BEM_HUB;
     double sum = 0.0, from = 1e-7 / width;
 
     if (is_wheel) { /* long waves one by one, short ones as a whole */
@@ -182,8 +182,8 @@ static double discretization(const rb_certificate *c, double shortest)
     for (int i = 0; i < c->again.n; i++)
         if (c->model.state.p[i] > 0.0)
             longest = fmax(longest, c->again.h[i]);
-    if (!rb_rolling_can(&c->model.rc, RB_BODY_FLAT))
-        turned = width / c->model.rc.a.radius;
+    if (!rb_rolling_can(c->model.rc, RB_BODY_FLAT))
+        turned = width / c->model.rc->a.radius;
     const double share = longest / width;
     return share * share + turned * turned + 0.03 * share +
            0.5 * share * longest / (longest + shortest);
@@ -191,7 +191,7 @@ static double discretization(const rb_certificate *c, double shortest)
 
 double rb_certificate_hysteresis(const rb_certificate *c, double *allowed)
 {
-    const rb_rolling_case *rc = &c->model.rc;
+    const rb_rolling_case *rc = c->model.rc;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
     double sum = 0.0, shortest = INFINITY;
 

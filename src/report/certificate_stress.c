@@ -10,7 +10,7 @@
  * a flat maximum somewhere; a wheel's surface has corners. */
 static double search_slack(const rb_certificate *c)
 {
-    const int is_flat = rb_rolling_body_can(&c->model.rc.a, RB_BODY_FLAT);
+    const int is_flat = rb_rolling_body_can(&c->model.rc->a, RB_BODY_FLAT);
     return (is_flat ? 1e-6 : 1e-3) * c->again.max_pressure;
 }
 
@@ -21,10 +21,10 @@ static double slack_of_stress(const rb_certificate *c, const char *key, double w
     const double most = c->again.max_pressure;
     if (strcmp(key, "x_mm") == 0 || strcmp(key, "y_mm") == 0)
         return 1e-12 * c->again.half_width;
-    return 1e-9 * fabs(want) + most * (c->hierarchical ? 1e-5
-                                       : rb_rolling_body_can(&c->model.rc.a, RB_BODY_FLAT)
-                                           ? 1e-12
-                                           : 1e-7);
+    return 1e-9 * fabs(want) +
+           most * (c->hierarchical                                      ? 1e-5
+                   : rb_rolling_body_can(&c->model.rc->a, RB_BODY_FLAT) ? 1e-12
+                                                                        : 1e-7);
 }
 
 /* The grid's points follow from its size. */
@@ -78,7 +78,7 @@ static rb_rolling_extremum printed_extremum(const json_t *maxima, const char *na
 static void expect_largest(rb_certificate *c, const char *name, double depth,
                            rb_rolling_extremum printed, rb_rolling_extremum found)
 {
-    const double below = printed.y - rb_rolling_surface(&c->model.rc, printed.x);
+    const double below = printed.y - rb_rolling_surface(c->model.rc, printed.x);
     if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
         rb_certificate_violated(c, "maxima.%s: %g below the surface, looked at to %g",
                                 name, below, depth);

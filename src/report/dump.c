@@ -186,10 +186,10 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
     rb_status s = dump_contact(t, &model->mesh);
     if (s == RB_OK)
         s = dump_body(t, "", model->bodies.system_a,
-                      rb_rolling_material(&model->rc, &model->rc.a));
+                      rb_rolling_material(model->rc, &model->rc->a));
     if (s == RB_OK)
         s = dump_body(t, "_b", model->bodies.system_b,
-                      rb_rolling_material(&model->rc, &model->rc.b));
+                      rb_rolling_material(model->rc, &model->rc->b));
     if (s != RB_OK)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */

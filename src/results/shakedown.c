@@ -97,12 +97,12 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
     double from, to;
 
     *shakedown = none;
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
-    rb_status s = !r ? RB_ENOMEM : rb_rolling_stress_check(&model->rc, why);
-    if (s == RB_OK && !rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT))
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    rb_status s = !r ? RB_ENOMEM : rb_rolling_stress_check(model->rc, why);
+    if (s == RB_OK && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
         s = rb_fail(why, RB_EINVAL,
                     "shakedown: of a half-plane, whose every place sees the same");
-    if (s == RB_OK && model->rc.a.layer > 0.0)
+    if (s == RB_OK && model->rc->a.layer > 0.0)
         s = rb_fail(why, RB_EINVAL,
                     "shakedown: of one material; a layer and its base yield differently");
     if (s == RB_OK && !(from < to))

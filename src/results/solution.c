@@ -143,9 +143,9 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
     s->resistance_moment = rb_contact_moment(&model->problem, &model->state);
     s->resistance_ratio =
         s->normal_load > 0.0
-            ? s->resistance_moment / (s->normal_load * rb_rolling_radius(&model->rc))
+            ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))
             : NAN;
-    rb_rolling_torques(&model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
+    rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
                        &s->torque_b);
     return rb_rolling_hysteresis(model, &s->hysteresis);
 }
@@ -158,10 +158,10 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
     s->hertz_half_width = model->half_width;
-    s->datum = rb_rolling_datum(&model->rc, &model->rc.a);
+    s->datum = rb_rolling_datum(model->rc, &model->rc->a);
     s->approach = model->state.delta;
     if (s->formulation == RB_STATIC) {
-        const rb_rolling_case *rc = &model->rc;
+        const rb_rolling_case *rc = model->rc;
         s->tangential_shift = model->shift + model->state.xi;
         s->creepage = !isnan(rc->creep) ? rc->creep
                       : !isnan(rc->creep_ratio)
@@ -200,7 +200,7 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     memcpy(s->un, w, (size_t)n * sizeof(double));
     memcpy(s->ut, w + m, (size_t)n * sizeof(double));
     for (int i = 0; i < n && s->worn; i++)
-        s->worn[i] = rb_rolling_worn_depth(&model->rc, s->x[i]);
+        s->worn[i] = rb_rolling_worn_depth(model->rc, s->x[i]);
     if (s->mu)
         memcpy(s->mu, model->problem.bound, (size_t)n * sizeof(double));
     if (s->plastic)
@@ -226,7 +226,7 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
 
     s->status = state->status;
     s->solver = state->solver;
-    s->cone_solver = model->rc.contact.cone_solver;
+    s->cone_solver = model->rc->contact.cone_solver;
     s->large = !model->bodies.F;
     add_boundary(model->bodies.system_a, s);
     add_boundary(model->bodies.system_b, s);
@@ -248,7 +248,7 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
 static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
                                  rb_message *why)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const size_t size = (size_t)s->n * sizeof(double);
     rb_status status = RB_OK;
 
@@ -276,10 +276,10 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                     rb_message *why)
 {
-    rb_status status = solution_alloc(&model->rc, model->mesh.n, s);
+    rb_status status = solution_alloc(model->rc, model->mesh.n, s);
 
     if (status == RB_OK) {
-        s->formulation = model->rc.formulation;
+        s->formulation = model->rc->formulation;
         status = set_proof(model, s);
     }
     if (status == RB_OK) {
@@ -299,16 +299,16 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
-    s->max_strain = rb_rolling_strain(&model->rc, s->approach, s->max_pressure, NULL);
+    s->max_strain = rb_rolling_strain(model->rc, s->approach, s->max_pressure, NULL);
     if (isnan(s->max_strain))
-        s->max_strain = 0.5 * s->half_width / rb_rolling_radius(&model->rc);
+        s->max_strain = 0.5 * s->half_width / rb_rolling_radius(model->rc);
     s->equal_instead = model->equal_instead;
-    s->slip_operator = model->rc.slip_operator;
+    s->slip_operator = model->rc->slip_operator;
     s->kappa = NAN;
-    if (rb_rolling_law_depends_on_state(&model->rc))
+    if (rb_rolling_law_depends_on_state(model->rc))
         status = rb_rolling_law_kappa(model, &s->kappa);
     s->slip_violations = count_violations(model, s);
-    s->dissipation = rb_rolling_dissipated_power(&model->rc, s->n, s->shift, s->q, s->h,
+    s->dissipation = rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h,
                                                  model->problem.e_T);
     if (status == RB_OK)
         status = set_temperature(model, s, why);

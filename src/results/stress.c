@@ -86,12 +86,12 @@ static rb_status field_create(const rb_rolling_model *model, field *f, rb_messag
 {
     memset(f, 0, sizeof *f);
     f->model = model;
-    rb_status s = rb_rolling_stress_check(&model->rc, why);
-    if (s == RB_OK && rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT))
+    rb_status s = rb_rolling_stress_check(model->rc, why);
+    if (s == RB_OK && rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
         s = set_nodes(f);
-    if (s == RB_OK && model->rc.a.layer > 0.0) {
+    if (s == RB_OK && model->rc->a.layer > 0.0) {
         const rb_bem_surface surface =
-            rb_rolling_surface_of(&model->rc, &model->rc.a, f->length);
+            rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
         s = rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why);
     }
     if (s != RB_OK || !model->bodies.system_a)
@@ -198,7 +198,7 @@ static rb_rolling_stress derive(double x, double y, const double *sigma, double 
 static rb_status stress_of_field(const field *f, int n, const double *xy,
                                  rb_rolling_stress *stress, rb_message *why)
 {
-    const rb_rolling_case *rc = &f->model->rc;
+    const rb_rolling_case *rc = f->model->rc;
     double *sigma = rb_alloc((size_t)n, 3);
     if (!sigma)
         return RB_ENOMEM;
@@ -268,7 +268,7 @@ typedef struct {
 static rb_status stress_below(const search *s, double x, double depth,
                               rb_rolling_stress *at)
 {
-    const double xy[] = {x, rb_rolling_surface(&s->f->model->rc, x) + depth};
+    const double xy[] = {x, rb_rolling_surface(s->f->model->rc, x) + depth};
     return stress_of_field(s->f, 1, xy, at, NULL);
 }
 
@@ -315,7 +315,7 @@ static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m,
 
     gsl_vector_set(place, 0, best->x / s->scale);
     gsl_vector_set(place, 1,
-                   (best->y - rb_rolling_surface(&s->f->model->rc, best->x)) / s->scale);
+                   (best->y - rb_rolling_surface(s->f->model->rc, best->x)) / s->scale);
     gsl_vector_set(step, 0, best->x < 0.5 * (s->from + s->to) ? -size : size);
     gsl_vector_set(step, 1, size);
     gsl_multimin_fminimizer_set(m, &function, place, step);
@@ -405,11 +405,11 @@ static search box_under(const rb_rolling_model *model, double from, double to,
     search box = {.scale = a,
                   .from = from - a,
                   .to = to + a,
-                  .depth = depth > 0.0 ? depth : fmin(2.5 * a, deepest(&model->rc))};
+                  .depth = depth > 0.0 ? depth : fmin(2.5 * a, deepest(model->rc))};
 
-    if (!rb_rolling_body_can(&model->rc.a,
+    if (!rb_rolling_body_can(&model->rc->a,
                              RB_BODY_FLAT)) { /* stay below its own equator */
-        const double widest = 0.9 * model->rc.a.radius;
+        const double widest = 0.9 * model->rc->a.radius;
         box.from = fmax(box.from, -widest);
         box.to = fmin(box.to, widest);
     }
@@ -442,9 +442,9 @@ static int encloses(const rb_bem_mesh *mesh, double x, double y)
 rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
                             int *inside)
 {
-    if (rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT)) {
+    if (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
-            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest(&model->rc);
+            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest(model->rc);
         return RB_OK;
     }
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
@@ -496,7 +496,7 @@ static rb_status fill_grid(const field *f, const search *box, int power,
     for (int k = 0; k < n && s == RB_OK; k++) {
         xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
         xy[2 * k + 1] =
-            rb_rolling_surface(&f->model->rc, xy[2 * k]) +
+            rb_rolling_surface(f->model->rc, xy[2 * k]) +
             box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
     }
     if (s == RB_OK)
@@ -537,7 +537,7 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
         return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d",
                        nx, ny);
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     const search box = box_under(model, from, to, depth);
@@ -612,11 +612,11 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     int patches = 0;
 
     *maxima = (rb_rolling_stress_maxima){none, none, none, none};
-    while (s == RB_OK && rb_rolling_next_patch(&model->rc, &model->mesh, &model->state,
+    while (s == RB_OK && rb_rolling_next_patch(model->rc, &model->mesh, &model->state,
                                                run.last + 1, &run)) {
         search box = box_under(model, run.from, run.to, depth);
         box.f = &f;
-        box.depth = fmin(box.depth, deepest(&model->rc));
+        box.depth = fmin(box.depth, deepest(model->rc));
         s = add_maxima_under(&box, maxima, why);
         patches++;
     }

@@ -19,11 +19,11 @@ static rb_status find_edges(const rb_rolling_model *model, double *from, double 
 {
     rb_rolling_run run = {.last = -1}, other;
 
-    rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, 0, &run);
+    rb_rolling_next_patch(model->rc, &model->mesh, &model->state, 0, &run);
     *known = run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
-    if (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+    if (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
                               &other) &&
-        !rb_rolling_is_convex(&model->rc))
+        !rb_rolling_is_convex(model->rc))
         return rb_fail(
             why, RB_EINVAL,
             "mesh aligned: the contact has several patches, and equal elements "
@@ -38,21 +38,19 @@ static rb_status solve_on(rb_rolling_model *model, int across, double from, doub
                           rb_message *why)
 {
     const double h = (to - from) / across;
+    rb_rolling_plan plan = model->plan;
     rb_rolling_mesh mesh;
 
-    model->rc.contact_elements = across + 2 * BEYOND;
-    rb_status s = rb_rolling_mesh_uniform(&model->rc, from - BEYOND * h, to + BEYOND * h,
-                                          &mesh, why);
-    if (s == RB_OK)
-        s = rb_rolling_model_build(model, &mesh, why);
-    model->rc.contact_elements = across;
-    return s;
+    plan.elements = across + 2 * BEYOND;
+    const rb_status s = rb_rolling_mesh_uniform(model->rc, &plan, from - BEYOND * h,
+                                                to + BEYOND * h, &mesh, why);
+    return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
 }
 
 /* *rest: 0 where the edges did not come to rest, or no solution was found. */
 static rb_status align(rb_rolling_model *model, int *rest, rb_message *why)
 {
-    const int across = model->rc.contact_elements;
+    const int across = model->plan.elements;
     double from, to, moved = INFINITY;
     int known;
     rb_status s = find_edges(model, &from, &to, &known, why);
@@ -83,19 +81,19 @@ rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why)
  * and on the last level one round is left. */
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why)
 {
-    const int across = model->rc.contact_elements;
+    const int across = model->plan.elements;
     int digits = 0, rest = 1;
 
     while (across >> digits > COARSEST)
         digits += LEVEL;
-    if (model->rc.zone == 0.0)
-        model->rc.contact_elements = (int)fmax(FIRST, (across >> digits) / 2);
+    if (model->rc->zone == 0.0)
+        model->plan.elements = (int)fmax(FIRST, (across >> digits) / 2);
     rb_status s = rb_rolling_solve_zone(model, 1, why);
     for (; s == RB_OK && rest && digits > 0; digits -= LEVEL) {
-        model->rc.contact_elements = across >> digits;
+        model->plan.elements = across >> digits;
         s = align(model, &rest, why);
         model->iterations = 0; /* those of the last level count */
     }
-    model->rc.contact_elements = across;
+    model->plan.elements = across;
     return s == RB_OK ? rb_rolling_model_realign(model, why) : s;
 }

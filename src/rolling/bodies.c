@@ -45,28 +45,30 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
     return s;
 }
 
-static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
+static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  const rb_rolling_body *body,
                                   const rb_rolling_mesh *mesh, int transforms,
                                   rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return (transforms ? kind->transforms : kind->flexibility)(rc, body, mesh, one_body,
-                                                               why);
+    return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh,
+                                                               one_body, why);
 }
 
 /* f: that of both bodies together; one_body: what else they have made. */
-static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                             int transforms, rb_rolling_body_flexibility one_body[2],
+static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                             const rb_rolling_mesh *mesh, int transforms,
+                             rb_rolling_body_flexibility one_body[2],
                              rb_bem_flexibility *f, rb_message *why)
 {
     /* hysteresis is made of it, because what turns with a wheel costs nothing;
      * half-planes move straight on (theory.md V4) */
     one_body[0].keeps_memory = one_body[1].keeps_memory =
         rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT);
-    rb_status s = body_flexibility(rc, &rc->a, mesh, transforms, &one_body[0], why);
+    rb_status s = body_flexibility(rc, plan, &rc->a, mesh, transforms, &one_body[0], why);
 
     if (s == RB_OK && rc->elastic_b) {
-        s = body_flexibility(rc, &rc->b, mesh, transforms, &one_body[1], why);
+        s = body_flexibility(rc, plan, &rc->b, mesh, transforms, &one_body[1], why);
         if (s == RB_OK)
             s = rb_bem_flexibility_pair(&one_body[0].f, &one_body[1].f, f, why);
     } else if (s == RB_OK) {
@@ -88,13 +90,16 @@ static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh
 
     if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
         return RB_OK;
-    const rb_status s = join_bodies(rc, mesh, 1, one_body, &bodies->transforms, why);
+    const rb_status s =
+        join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
 }
 
-rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                   rb_rolling_bodies *bodies, rb_message *why)
+rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
+                                   rb_message *why)
 {
+    const rb_rolling_plan own = rb_rolling_plan_of(rc);
     memset(bodies, 0, sizeof *bodies);
     rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
     const int large = rb_rolling_is_large(rc, mesh);
@@ -106,7 +111,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
             "relaxation: bodies that relax and do not roll steadily need a history "
             "of steps in time");
     if (s == RB_OK)
-        s = join_bodies(rc, mesh, large, one_body, &bodies->f, why);
+        s = join_bodies(rc, plan ? plan : &own, mesh, large, one_body, &bodies->f, why);
     bodies->system_a = one_body[0].system;
     bodies->system_b = one_body[1].system;
     bodies->memory[0] = one_body[0].memory;

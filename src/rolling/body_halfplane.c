@@ -63,21 +63,21 @@ static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_bo
     return s;
 }
 
-static rb_status halfplane_flexibility(const rb_rolling_case *rc,
-                                       const rb_rolling_body *body,
-                                       const rb_rolling_mesh *mesh,
-                                       rb_rolling_body_flexibility *one_body,
-                                       rb_message *why)
+static rb_status
+halfplane_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                      rb_rolling_body_flexibility *one_body, rb_message *why)
 {
+    (void)plan; /* nothing lies outside the contact */
     return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
 }
 
-static rb_status halfplane_transforms(const rb_rolling_case *rc,
-                                      const rb_rolling_body *body,
-                                      const rb_rolling_mesh *mesh,
-                                      rb_rolling_body_flexibility *one_body,
-                                      rb_message *why)
+static rb_status
+halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                     const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                     rb_rolling_body_flexibility *one_body, rb_message *why)
 {
+    (void)plan; /* nothing lies outside the contact */
     return make(rb_bem_flexibility_toeplitz, rc, body, mesh, one_body, why);
 }
 

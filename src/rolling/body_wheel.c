@@ -10,11 +10,12 @@ int rb_rolling_has_elastic_core(const rb_rolling_body *body)
 }
 
 /* Of a cover as well: its stretch under the load is what one wants to know. */
-static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_body *body)
+static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                             const rb_rolling_body *body)
 {
-    return rc->near_field == RB_NEAR_FIELD_AUTO
+    return plan->near_field == RB_NEAR_FIELD_AUTO
                ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
-               : rc->near_field == RB_NEAR_FIELD_EXACT;
+               : plan->near_field == RB_NEAR_FIELD_EXACT;
 }
 
 /* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
@@ -71,7 +72,8 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
     return s;
 }
 
-static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
+static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   const rb_rolling_body *body,
                                    const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)
 {
@@ -80,16 +82,17 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
                                       .arc = body->arc * M_PI / 180.0,
                                       .hub_ratio = body->hub_ratio,
                                       .cover = body->cover,
-                                      .outer_elements = rc->outer_elements,
-                                      .refinement = rc->outer_refinement};
+                                      .outer_elements = plan->outer_elements,
+                                      .refinement = plan->outer_refinement};
     rb_status s = wheel_system(rc, body, &cylinder, mesh, &one_body->system, why);
 
     if (s == RB_OK) {
         rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
                               &one_body->seconds_factor);
         const double start = rb_seconds();
-        s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
-            one_body->system, rc->normals, &one_body->f, why);
+        s = (wants_exact_field(rc, plan, body)
+                 ? rb_bem_condense_subtracted
+                 : rb_bem_condense)(one_body->system, rc->normals, &one_body->f, why);
         if (s == RB_OK && body->memory.n > 0)
             s = add_memory(rc, body, mesh, one_body, why);
         one_body->seconds_condense = rb_seconds() - start;

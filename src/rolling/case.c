@@ -207,17 +207,23 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
 
-int rb_rolling_has_fine_boundary(const rb_rolling_case *rc)
+rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
+{
+    return (rb_rolling_plan){rc->contact_elements, rc->near_field, rc->outer_elements,
+                             rc->outer_refinement};
+}
+
+int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan)
 {
     enum { MANY = 600 };
 
-    return rc->outer_refinement > 1.0 || rc->outer_elements > MANY;
+    return plan->outer_refinement > 1.0 || plan->outer_elements > MANY;
 }
 
-void rb_rolling_coarsen_boundary(rb_rolling_case *rc)
+void rb_rolling_coarsen_boundary(rb_rolling_plan *plan)
 {
-    rc->outer_elements = 0;
-    rc->outer_refinement = 0.0;
+    plan->outer_elements = 0;
+    plan->outer_refinement = 0.0;
 }
 
 /* ---- Checks ------------------------------------------------------------------------ */

@@ -8,8 +8,11 @@
 static rb_status solve_on_its_mesh(const rb_rolling_case *rc, rb_rolling_model *model,
                                    rb_message *why)
 {
-    model->rc = *rc;
-    const rb_status s = rb_rolling_case_check(rc, why);
+    rb_status s = rb_rolling_model_set_case(model, rc, why);
+
+    model->plan = rb_rolling_plan_of(rc);
+    if (s == RB_OK)
+        s = rb_rolling_case_check(rc, why);
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         return rb_rolling_solve_fitted(model, why);
     if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
@@ -28,7 +31,8 @@ rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *mo
                                  rb_message *why)
 {
     rb_rolling_model kept = {.mesh = model->mesh, .bodies = model->bodies};
-    const int equal = rc->mesh == RB_MESH_UNIFORM && model->rc.mesh == RB_MESH_UNIFORM;
+    const int equal =
+        rc->mesh == RB_MESH_UNIFORM && model->rc && model->rc->mesh == RB_MESH_UNIFORM;
 
     if (!equal || !model->mesh.ends || !model->bodies.f.m) {
         rb_rolling_model_free(model);
@@ -53,7 +57,7 @@ static int rolls_freely_at_rest(const rb_contact_problem *problem)
 
 static rb_rolling_case without_force(const rb_rolling_model *model)
 {
-    rb_rolling_case rc = model->rc;
+    rb_rolling_case rc = *model->rc;
 
     rc.creep = rc.creep_ratio = rc.force = NAN;
     rc.free_axle = 0;
@@ -80,12 +84,15 @@ static rb_status roll_freely_large(const rb_rolling_model *model, double *creepa
                                    rb_message *why)
 {
     const double *ends = model->mesh.ends;
-    rb_rolling_model freely = {.rc = without_force(model)};
+    const rb_rolling_case rc = without_force(model);
+    rb_rolling_plan plan = model->plan;
+    rb_rolling_model freely;
     rb_rolling_mesh mesh;
 
-    freely.rc.contact_elements = model->mesh.n;
-    rb_status s =
-        rb_rolling_mesh_uniform(&freely.rc, ends[0], ends[model->mesh.n], &mesh, why);
+    plan.elements = model->mesh.n;
+    rb_status s = rb_rolling_model_begin(&rc, &plan, &freely, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(&rc, &plan, ends[0], ends[model->mesh.n], &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&freely, &mesh, why);
     if (s == RB_OK)
@@ -107,7 +114,7 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
     problem.force_given = 1;
     problem.force = problem.force_ratio = problem.axle = 0.0;
     memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));
-    s = rb_rolling_problem_solve(&problem, &model->rc, 1, &state, why);
+    s = rb_rolling_problem_solve(&problem, model->rc, 1, &state, why);
     if (s == RB_OK)
         s = rb_rolling_check_enclosed(model, &state, why);
     if (s == RB_OK)
@@ -122,12 +129,12 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
     *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
     if (*creepage == 0.0)
         return RB_OK;
-    if (model->rc.mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(&model->rc))
+    if (model->rc->mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(model->rc))
         return roll_freely_anew(model, creepage, why);
     const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
                                         : roll_freely_large(model, creepage, why);
-    return s == RB_ZONE && model->rc.zone == 0.0 ? roll_freely_anew(model, creepage, why)
-                                                 : s;
+    return s == RB_ZONE && model->rc->zone == 0.0 ? roll_freely_anew(model, creepage, why)
+                                                  : s;
 }
 
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,

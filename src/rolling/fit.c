@@ -81,7 +81,7 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     int complete = 1;
 
     found->count = 0;
-    while (complete && rb_rolling_next_merged_patch(&model->rc, mesh, &model->state,
+    while (complete && rb_rolling_next_merged_patch(model->rc, mesh, &model->state,
                                                     run.last + 1, &run)) {
         const rb_rolling_span span = {
             .from = run.from,
@@ -179,7 +179,8 @@ static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_messag
     rb_rolling_mesh mesh, old_mesh = model->mesh;
     rb_contact_state old = model->state;
     const int was_enclosed = old.status == RB_OK;
-    rb_status s = rb_rolling_mesh_spans(&model->rc, now->count, now->span, &mesh, why);
+    rb_status s = rb_rolling_mesh_spans(model->rc, model->plan.elements, now->count,
+                                        now->span, &mesh, why);
 
     if (s != RB_OK)
         return s;
@@ -187,7 +188,7 @@ static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_messag
     memset(&model->state, 0, sizeof model->state);
     s = rb_rolling_model_build(model, &mesh, why);
     if (s == RB_ZONE && was_enclosed) {
-        rb_rolling_start_from(&model->rc, &old_mesh, &old, &model->mesh, &model->state);
+        rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
         s = rb_rolling_model_resolve(model, 1, why);
     }
     rb_rolling_mesh_free(&old_mesh);
@@ -227,11 +228,11 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
 
 rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
 {
-    const int wanted = model->rc.contact_elements;
+    const int wanted = model->plan.elements;
 
-    model->rc.contact_elements = (int)ceil(1.3 * wanted);
+    model->plan.elements = (int)ceil(1.3 * wanted);
     const rb_status s = rb_rolling_solve_zone(model, 0, why);
-    model->rc.contact_elements = wanted;
+    model->plan.elements = wanted;
     return s;
 }
 
@@ -248,30 +249,29 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
  * them. */
 static rb_status solve_first(rb_rolling_model *model, rb_message *why)
 {
-    const rb_rolling_case rc = model->rc;
+    const rb_rolling_plan asked = model->plan;
 
-    if (rc.zone == 0.0) {
-        model->rc.contact_elements = (int)fmax(FIRST, rc.contact_elements / 2);
-        model->rc.near_field = RB_NEAR_FIELD_PLAIN;
+    if (model->rc->zone == 0.0) {
+        model->plan.elements = (int)fmax(FIRST, asked.elements / 2);
+        model->plan.near_field = RB_NEAR_FIELD_PLAIN;
     }
-    if (rb_rolling_has_fine_boundary(&rc))
-        rb_rolling_coarsen_boundary(&model->rc);
+    if (rb_rolling_has_fine_boundary(&asked))
+        rb_rolling_coarsen_boundary(&model->plan);
     const rb_status s = rb_rolling_solve_zone(model, 1, why);
-    model->rc.contact_elements = rc.contact_elements;
-    model->rc.near_field = rc.near_field;
+    model->plan.elements = asked.elements;
+    model->plan.near_field = asked.near_field;
     return s;
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
-    const rb_rolling_case rc = model->rc;
+    const rb_rolling_plan asked = model->plan;
     rb_status s = solve_first(model, why);
 
     if (s == RB_OK)
         s = rb_rolling_model_refit(model, why);
-    if (s == RB_OK && rb_rolling_has_fine_boundary(&rc)) {
-        model->rc.outer_elements = rc.outer_elements;
-        model->rc.outer_refinement = rc.outer_refinement;
+    if (s == RB_OK && rb_rolling_has_fine_boundary(&asked)) {
+        model->plan = asked;
         s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
                                  : rb_rolling_model_refit(model, why);
     }

@@ -415,7 +415,7 @@ double rb_rolling_model_force(const rb_rolling_model *model)
 
 double rb_rolling_force_ratio(const rb_rolling_model *model)
 {
-    const double most = rb_rolling_law_depends_on_state(&model->rc)
+    const double most = rb_rolling_law_depends_on_state(model->rc)
                             ? model->problem.mu * rb_rolling_model_load(model)
                             : rb_contact_capacity(&model->problem, &model->state);
     return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
@@ -423,14 +423,13 @@ double rb_rolling_force_ratio(const rb_rolling_model *model)
 
 double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio)
 {
-    return ratio * model->problem.mu * model->half_width / rb_rolling_radius(&model->rc);
+    return ratio * model->problem.mu * model->half_width / rb_rolling_radius(model->rc);
 }
 
 double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage)
 {
     const double mu = model->problem.mu, a = model->half_width;
-    return mu > 0.0 && a > 0.0 ? creepage * rb_rolling_radius(&model->rc) / (mu * a)
-                               : NAN;
+    return mu > 0.0 && a > 0.0 ? creepage * rb_rolling_radius(model->rc) / (mu * a) : NAN;
 }
 
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
@@ -472,6 +471,6 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
                                rb_message *why)
 {
-    const rb_contact_options options = options_of(&model->rc, &model->problem);
+    const rb_contact_options options = options_of(model->rc, &model->problem);
     return rb_contact_lcp_first(&model->problem, &options, &model->state, lcp, why);
 }

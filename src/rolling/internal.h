@@ -12,9 +12,9 @@ double rb_rolling_radius(const rb_rolling_case *rc); /* 1/R = 1/R_A + 1/R_B */
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
 /* Whether the boundary of wheels outside the contact is finer than is worth solving to
- * learn where the contact is, and the case with the usual one. */
-int rb_rolling_has_fine_boundary(const rb_rolling_case *rc);
-void rb_rolling_coarsen_boundary(rb_rolling_case *rc);
+ * learn where the contact is, and the plan with the usual one. */
+int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
+void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
 /* Q, a ratio of it or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
 /* Q over the most that friction carries, mu P; NAN without friction or load. */
@@ -57,13 +57,13 @@ struct rb_rolling_body_kind {
                        const char *which, rb_message *why);
 
     /* Of the support only: */
-    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                             const rb_rolling_mesh *mesh,
+    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                             const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                              rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
      * depends on more than the distance. */
-    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                            const rb_rolling_mesh *mesh,
+    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                            const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                             rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The half-plane or layer that answers like the body close to a load. */
     rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
@@ -277,6 +277,15 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
 
 /* ---- model.c ----------------------------------------------------------------------- */
 
+/* A model of a copy of the case, with nothing made yet.  plan NULL: that of the case.
+ * RB_ENOMEM; model: overwritten. */
+rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why);
+/* Another case on the same elements, as the next step of a history or the next point of a
+ * curve; mesh, bodies and problem stay as they are. */
+rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
+                                    rb_message *why);
+
 /* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
  * contact does not end within the mesh. */
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
@@ -360,8 +369,8 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
 /* The undeformed gap of the profile at x, with what is worn off. */
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
 /* The same at n places, with the irregularity that has come there.  RB_ENOMEM. */
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x,
-                               double *gap);
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
+                               const double *x, double *gap);
 /* 0: a gap that may touch in several places. */
 int rb_rolling_is_convex(const rb_rolling_case *rc);
 /* Where elements may stand: on the lower half of every round body, within the table. */
@@ -373,7 +382,7 @@ typedef struct {
     double h_left, h_right; /* lengths of the elements that told the edges; fit.c */
 } rb_rolling_span;
 
-rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
+rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why);
 

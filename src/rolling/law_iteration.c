@@ -10,7 +10,7 @@
 /* Of the surfaces of a solved state. */
 static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message *why)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const rb_contact_state *state = &model->state;
     const int n = state->n;
     rb_rolling_solution view = {.n = n,
@@ -45,7 +45,7 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
 static void set_coefficients(const rb_rolling_model *model, const double *temperature,
                              double *mu)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const rb_rolling_friction *f = &rc->friction;
     const rb_contact_state *state = &model->state;
     const double *x = model->bodies.f.x, *e_T = model->problem.e_T;
@@ -78,7 +78,7 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
 rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
                                       rb_message *why)
 {
-    const int n = model->state.n, is_warm = model->rc.friction.heat != 0.0;
+    const int n = model->state.n, is_warm = model->rc->friction.heat != 0.0;
     double *temperature = is_warm ? rb_alloc((size_t)n, 1) : NULL;
     rb_status s = is_warm && !temperature ? RB_ENOMEM : RB_OK;
 
@@ -94,7 +94,7 @@ rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
 
 static void set_force(rb_rolling_model *model)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     rb_contact_problem *p = &model->problem;
 
     if (!p->force_given || p->axle > 0.0)
@@ -112,7 +112,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
     double *mu = rb_alloc((size_t)p->n, 1);
     rb_status s = mu ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK && rb_rolling_law_depends_on_state(&model->rc)) {
+    if (s == RB_OK && rb_rolling_law_depends_on_state(model->rc)) {
         s = rb_rolling_law_coefficients(model, mu, why);
         set_force(model);
         if (s == RB_OK)
@@ -174,7 +174,7 @@ static void relax(relaxation *r, const rb_contact_problem *p, double change, dou
 
 static rb_status measure(rb_rolling_model *model, rb_message *why)
 {
-    const double allowed = fmax(model->rc.contact.tol, model->problem.rounding);
+    const double allowed = fmax(model->rc->contact.tol, model->problem.rounding);
     rb_contact_violation violation;
     const rb_status s = rb_contact_residual(&model->problem, &model->state, &violation);
 
@@ -192,7 +192,7 @@ static rb_status measure(rb_rolling_model *model, rb_message *why)
 /* Which change of the coefficients, as a natural residual, is none. */
 static double enough_of(const rb_rolling_model *model)
 {
-    return fmax(0.1 * model->rc.contact.tol, fmax(model->problem.rounding, 1e-14));
+    return fmax(0.1 * model->rc->contact.tol, fmax(model->problem.rounding, 1e-14));
 }
 
 /* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v.
@@ -209,7 +209,7 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 
     r.step = mu ? mu + p->n : NULL;
     for (int k = 0; k < ROUNDS && s == RB_OK && change > enough; k++) {
-        s = rb_rolling_problem_solve(p, &model->rc, warm || k > 0, state, why);
+        s = rb_rolling_problem_solve(p, model->rc, warm || k > 0, state, why);
         model->iterations += state->iterations;
         if (s == RB_OK)
             s = rb_rolling_law_coefficients(model, mu, why);
@@ -232,7 +232,7 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 /* Coefficients that are those of fast sliding up to x, and behind it those at rest. */
 rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const double fastest = 1e3 * rc->speed, *places = model->bodies.f.x;
     const double warmest = rc->friction.heat_from + 2.0 * rc->friction.heat_range;
     rb_contact_problem *p = &model->problem;
@@ -261,7 +261,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
     if (s != RB_MAXITER)
         return s == RB_OK ? measure(model, why) : s;
     s = rb_rolling_law_newton(model, enough, &left, why);
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     for (int k = 0; k <= STARTS && s > 0 && left > 0; k++) {
         s = rb_rolling_law_start(model, from + (to - from) * k / STARTS, why);
         s = s == RB_OK ? go_round(model, 1, why) : s;
@@ -415,12 +415,12 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
     double x[3] = {0.0}, f[3] = {0.0};
     rb_status s = by.start ? RB_OK : RB_ENOMEM;
 
-    by.unit = rb_rolling_sliding_creepage(&model->rc, p);
+    by.unit = rb_rolling_sliding_creepage(model->rc, p);
     if (s == RB_OK) {
         memcpy(by.start, p->bound, (size_t)p->n * sizeof *by.start);
         s = lack(&by, 0.0, &f[0]);
     }
-    const double small = 0.1 * fmax(model->rc.contact.tol, p->rounding) *
+    const double small = 0.1 * fmax(model->rc->contact.tol, p->rounding) *
                          rb_contact_capacity(p, &model->state);
     if (s == RB_OK && fabs(f[0]) > small) {
         by.side = f[0] > 0.0 ? 1.0 : -1.0;
@@ -443,8 +443,8 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
 {
     rb_status s;
 
-    if (!rb_rolling_law_depends_on_state(&model->rc)) {
-        s = rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state,
+    if (!rb_rolling_law_depends_on_state(model->rc)) {
+        s = rb_rolling_problem_solve(&model->problem, model->rc, warm, &model->state,
                                      why);
         model->iterations += model->state.iterations;
         return s;
@@ -487,19 +487,19 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
     const rb_contact_problem *p = &model->problem;
     const double *pressure = model->state.p;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const double slope = model->rc.speed * rb_rolling_law_steepest(&model->rc);
+    const double slope = model->rc->speed * rb_rolling_law_steepest(model->rc);
     const size_t n = (size_t)p->n;
     double largest = 0.0, *scratch = rb_alloc(n, 4);
 
     *kappa = NAN;
     if (!scratch)
         return RB_ENOMEM;
-    for (size_t i = 0; i < n && model->rc.formulation == RB_STEADY; i++) {
+    for (size_t i = 0; i < n && model->rc->formulation == RB_STEADY; i++) {
         const double own =
             K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
         largest = fmax(largest, pressure[i] * own / p->e_T[i]);
     }
-    if (model->rc.formulation == RB_TRANSIENT)
+    if (model->rc->formulation == RB_TRANSIENT)
         largest = largest_answer(p, pressure, scratch) / p->e_T[0];
     *kappa = slope * largest;
     free(scratch);

@@ -36,7 +36,7 @@ static rb_status residual_of(newton *w, int new_weights, double *r)
     for (int i = 0; i < w->n; i++)
         w->trial[i] = fmax(w->trial[i], 0.0);
     rb_contact_set_friction(p, p->mu, w->trial);
-    rb_status s = rb_rolling_problem_solve(p, &model->rc, 1, &model->state, w->why);
+    rb_status s = rb_rolling_problem_solve(p, model->rc, 1, &model->state, w->why);
     model->iterations += model->state.iterations;
     if (s == RB_OK)
         s = rb_rolling_law_coefficients(model, w->T, w->why);

@@ -71,8 +71,8 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
 }
 
 /* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
-static rb_status add_irregularity(const rb_rolling_case *rc, int n, const double *x,
-                                  double *gap)
+static rb_status add_irregularity(const rb_rolling_case *rc, double passed, int n,
+                                  const double *x, double *gap)
 {
     const size_t rows = (size_t)rc->irregularity.n;
     const double *row = rc->irregularity.x;
@@ -82,7 +82,7 @@ static rb_status add_irregularity(const rb_rolling_case *rc, int n, const double
         return RB_ENOMEM;
     gsl_spline_init(spline, row, rc->irregularity.y, rows);
     for (int i = 0; i < n; i++) {
-        const double place = x[i] + rc->passed;
+        const double place = x[i] + passed;
         if (place > row[0] && place < row[rows - 1])
             gap[i] += gsl_spline_eval(spline, place, NULL);
     }
@@ -90,12 +90,12 @@ static rb_status add_irregularity(const rb_rolling_case *rc, int n, const double
     return RB_OK;
 }
 
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x,
-                               double *gap)
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
+                               const double *x, double *gap)
 {
     for (int i = 0; i < n; i++)
         gap[i] = rb_rolling_initial_gap(rc, x[i]);
-    return rc->irregularity.n > 0 ? add_irregularity(rc, n, x, gap) : RB_OK;
+    return rc->irregularity.n > 0 ? add_irregularity(rc, passed, n, x, gap) : RB_OK;
 }
 
 int rb_rolling_is_convex(const rb_rolling_case *rc)
@@ -111,7 +111,7 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
     for (int i = 0; i < mesh->n && x; i++)
         x[i] = 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
     if (s == RB_OK)
-        s = rb_rolling_gap_along(rc, mesh->n, x, mesh->gap);
+        s = rb_rolling_gap_along(rc, mesh->passed, mesh->n, x, mesh->gap);
     free(x);
     return s;
 }
@@ -169,13 +169,14 @@ static void equal_ends(const rb_rolling_case *rc, double from, double to, int n,
     }
 }
 
-rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double to,
-                                  rb_rolling_mesh *mesh, rb_message *why)
+/* n equal elements. */
+static rb_status equal_elements(const rb_rolling_case *rc, int n, double from, double to,
+                                rb_rolling_mesh *mesh, rb_message *why)
 {
     rb_status s = check_extent(rc, from, to, why);
 
     if (s == RB_OK)
-        s = mesh_alloc(rc->contact_elements, mesh);
+        s = mesh_alloc(n, mesh);
     if (s != RB_OK)
         return s;
     equal_ends(rc, from, to, mesh->n, mesh->ends);
@@ -191,6 +192,14 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
         "potential contact from %g to %g mm: no room for the element before it "
         "within the radius, %g mm; take more elements",
         from, to, rc->a.radius);
+}
+
+rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  double from, double to, rb_rolling_mesh *mesh,
+                                  rb_message *why)
+{
+    return equal_elements(rc, plan ? plan->elements : rc->contact_elements, from, to,
+                          mesh, why);
 }
 
 /* ---- Fitted elements --------------------------------------------------------------- */
@@ -247,10 +256,8 @@ static double *put_between(double from, double to, double left, double right, do
     return end;
 }
 /* Elements of a patch: its share of those across the contact, and not too few of them. */
-static int elements_across(const rb_rolling_case *rc, int count,
-                           const rb_rolling_span *span, int k)
+static int elements_across(int all, int count, const rb_rolling_span *span, int k)
 {
-    const int all = rc->contact_elements;
     double width = 0.0;
 
     if (count == 1)
@@ -277,26 +284,26 @@ static void put_upstream(const rb_rolling_case *rc, int n, double *ends)
 
 /* All ends, the one behind the upstream element included, from end[0] on; returns the
  * number of contact elements. */
-static int put_ends(const rb_rolling_case *rc, int count, const rb_rolling_span *span,
-                    double *ends)
+static int put_ends(const rb_rolling_case *rc, int all, int count,
+                    const rb_rolling_span *span, double *ends)
 {
     const rb_rolling_span *last = span + count - 1;
     double from, to, distance[MOST_OUTSIDE], *end = ends;
 
     rb_rolling_extent(rc, &from, &to);
-    double step = edge_step(span, elements_across(rc, count, span, 0));
+    double step = edge_step(span, elements_across(all, count, span, 0));
     const int left = distances(step, span->room_left, span->from - from, distance);
     for (int k = left - 1; k >= 0; k--)
         *end++ = span->from - distance[k];
     *end = span->from;
     for (int k = 0; k < count; k++) {
-        const int across = elements_across(rc, count, span, k);
+        const int across = elements_across(all, count, span, k);
         step = edge_step(span + k, across);
         end = put_cosine(span[k].from, span[k].to, across, end);
         if (k + 1 < count)
             end = put_between(
                 span[k].to, span[k + 1].from, step,
-                edge_step(span + k + 1, elements_across(rc, count, span, k + 1)), end);
+                edge_step(span + k + 1, elements_across(all, count, span, k + 1)), end);
     }
     const int right = distances(step, last->room_right, to - last->to, distance);
     for (int k = 0; k < right; k++)
@@ -306,7 +313,7 @@ static int put_ends(const rb_rolling_case *rc, int count, const rb_rolling_span 
     return n;
 }
 
-rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
+rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why)
 {
@@ -314,24 +321,26 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
     rb_status s = check_extent(rc, span[0].from, span[count - 1].to, why);
 
     for (int k = 0; k < count; k++)
-        most += elements_across(rc, count, span, k);
+        most += elements_across(all, count, span, k);
     if (s == RB_OK)
         s = mesh_alloc(most, mesh);
     if (s != RB_OK)
         return s;
-    mesh->n = put_ends(rc, count, span, mesh->ends);
+    mesh->n = put_ends(rc, all, count, span, mesh->ends);
     s = rb_rolling_mesh_set_gap(rc, mesh);
     if (s != RB_OK)
         rb_rolling_mesh_free(mesh);
     return s;
 }
 
-rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
-                                 rb_rolling_mesh *mesh, rb_message *why)
+rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 double from, double to, rb_rolling_mesh *mesh,
+                                 rb_message *why)
 {
     const rb_rolling_span span = {.from = from, .to = to};
 
-    return rb_rolling_mesh_spans(rc, 1, &span, mesh, why);
+    return rb_rolling_mesh_spans(rc, plan ? plan->elements : rc->contact_elements, 1,
+                                 &span, mesh, why);
 }
 
 /* ---- The mesh of a result ---------------------------------------------------------- */
@@ -353,12 +362,10 @@ rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
     const double *x = elements->x, *h = elements->h;
     const double from = x[0] - half_extent(rc, x[0], h[0]);
     const double to = x[n - 1] + half_extent(rc, x[n - 1], h[n - 1]);
-    rb_rolling_case equal = *rc;
 
     memset(mesh, 0, sizeof *mesh);
-    equal.contact_elements = n;
     if (elements->are_equal)
-        return rb_rolling_mesh_uniform(&equal, from, to, mesh, why);
+        return equal_elements(rc, n, from, to, mesh, why);
     rb_status s = check_extent(rc, from, to, why);
     if (s == RB_OK)
         s = mesh_alloc(n, mesh);

@@ -147,13 +147,13 @@ static rb_status add_wheel(const rb_bem_system *system, double radius, const dou
 static rb_status add_body(const rb_rolling_model *model, const rb_contact_state *state,
                           int is_b, const strips *s, const targets *to)
 {
-    const rb_rolling_body *body = is_b ? &model->rc.b : &model->rc.a;
+    const rb_rolling_body *body = is_b ? &model->rc->b : &model->rc->a;
     const rb_bem_system *system = is_b ? model->bodies.system_b : model->bodies.system_a;
     const double coupling = is_b ? -1.0 : 1.0;
     const int n = model->mesh.n;
 
     if (!system)
-        return add_halfplane(&model->rc, body, coupling, s, to);
+        return add_halfplane(model->rc, body, coupling, s, to);
     double *t_c = rb_alloc(2 * (size_t)n, 1);
     if (!t_c)
         return RB_ENOMEM;
@@ -170,7 +170,7 @@ static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_stat
                             const strips *s, const targets *to)
 {
     rb_status status = RB_OK;
-    for (int b = 0; b < 1 + model->rc.elastic_b && status == RB_OK; b++)
+    for (int b = 0; b < 1 + model->rc->elastic_b && status == RB_OK; b++)
         status = add_body(model, state, b, s, to);
     return status;
 }
@@ -186,7 +186,7 @@ static rb_status least_displacement(const rb_rolling_model *model,
     double w[2] = {0.0, 0.0};
 
     *least = -INFINITY;
-    if (!rb_rolling_can(&model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS))
+    if (!rb_rolling_can(model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS))
         return RB_OK;
     const rb_status status = add_bodies(model, state, s, &(targets){2, x, w});
     *least = fmin(w[0], w[1]);
@@ -273,7 +273,7 @@ static int add_places(const rb_rolling_model *model, const rb_contact_state *sta
     const int all = BETWEEN * (t->n - 1), stride = 1 + all / MOST_PLACES;
     double from, to;
 
-    rb_rolling_extent(&model->rc, &from, &to);
+    rb_rolling_extent(model->rc, &from, &to);
     for (int k = 0; k <= all; k += stride) {
         const int r = k < all ? k / BETWEEN : t->n - 2;
         const double share = (double)(k - BETWEEN * r) / BETWEEN;
@@ -293,10 +293,12 @@ static int by_value(const void *a, const void *b)
 enum { TABLES = 3 };
 
 /* The profile, what is irregular and what is worn; n < 2: it says nothing. */
-static void find_tables(const rb_rolling_case *rc, table t[TABLES])
+static void find_tables(const rb_rolling_model *model, table t[TABLES])
 {
+    const rb_rolling_case *rc = model->rc;
+
     t[0] = (table){0, NULL, 0.0};
-    t[1] = (table){rc->irregularity.n, rc->irregularity.x, rc->passed};
+    t[1] = (table){rc->irregularity.n, rc->irregularity.x, model->mesh.passed};
     t[2] = (table){rc->worn.n, rc->worn.x, 0.0};
     if (rc->gap == RB_GAP_TABLE)
         t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
@@ -309,13 +311,13 @@ static rb_status unseen_places(const rb_rolling_model *model,
 {
     table t[TABLES];
 
-    find_tables(&model->rc, t);
+    find_tables(model, t);
     *places = 0;
     for (int k = 0; k < TABLES; k++)
         if (t[k].n > 1)
             *places = add_places(model, state, &t[k], x, *places);
     qsort(x, (size_t)*places, sizeof *x, by_value);
-    return rb_rolling_gap_along(&model->rc, *places, x, gap);
+    return rb_rolling_gap_along(model->rc, model->mesh.passed, *places, x, gap);
 }
 
 /* Leaves the places whose gap is less than `reach`. */
@@ -352,7 +354,7 @@ static double hertz_edge_gap(const rb_rolling_model *model, const rb_contact_sta
 {
     const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
 
-    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(&model->rc).modulus);
+    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(model->rc).modulus);
 }
 
 /* The same in the room for x, w and gap. */
@@ -381,7 +383,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
             add_place(x, places, i, shortest(mesh), o);
     for (int k = 0; k < o->count; k++) {
         double from, to;
-        rb_rolling_extent(&model->rc, &from, &to);
+        rb_rolling_extent(model->rc, &from, &to);
         o->from[k] = fmax(o->from[k], from);
         o->to[k] = fmin(o->to[k], to);
     }
@@ -391,7 +393,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
                                   const rb_contact_state *state, rb_rolling_overlap *o)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     strips s = {0};
 
     o->count = 0;
@@ -399,7 +401,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
         return RB_OK;
     table t[TABLES];
     size_t scratch = 2;
-    find_tables(rc, t);
+    find_tables(model, t);
     for (int k = 0; k < TABLES; k++)
         scratch += most_places(t[k].n);
     double *x = rb_alloc(scratch, 3);
@@ -422,10 +424,10 @@ static rb_status check_end(const rb_rolling_model *model, const rb_contact_state
 
     if (state->zone[right ? n - 1 : 0] == RB_ZONE_SEPARATED)
         return RB_OK;
-    rb_rolling_extent(&model->rc, &from, &to);
+    rb_rolling_extent(model->rc, &from, &to);
     const double rounding = 1e-9 * (to - from);
     const int no_room = right ? x >= to - rounding : x <= from + rounding;
-    if (no_room && model->rc.gap == RB_GAP_TABLE)
+    if (no_room && model->rc->gap == RB_GAP_TABLE)
         return rb_fail(
             why, RB_ZONE,
             "the contact reaches x = %g mm, and the gap table or the wheel has x "

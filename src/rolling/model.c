@@ -6,8 +6,29 @@
 
 enum { RATIO_ROUNDS = 40 };
 
+rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
+                                    rb_message *why)
+{
+    rb_rolling_case *copy = malloc(sizeof *copy);
+
+    if (!copy)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a case");
+    *copy = *rc;
+    free((void *)model->rc);
+    model->rc = copy;
+    return RB_OK;
+}
+
+rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why)
+{
+    *model = (rb_rolling_model){.plan = plan ? *plan : rb_rolling_plan_of(rc)};
+    return rb_rolling_model_set_case(model, rc, why);
+}
+
 void rb_rolling_model_free(rb_rolling_model *model)
 {
+    free((void *)model->rc);
     rb_contact_state_free(&model->state);
     rb_contact_problem_free(&model->problem);
     rb_rolling_bodies_free(&model->bodies);
@@ -25,7 +46,7 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
     model->seconds_lcp += rb_seconds() - start;
     if (s >= 0)
         model->half_width = rb_rolling_hertz_half_width(
-            &model->rc, fmax(0.0, rb_rolling_model_load(model)));
+            model->rc, fmax(0.0, rb_rolling_model_load(model)));
     if (s == RB_OK)
         s = model->state.status = rb_rolling_check_enclosed(model, &model->state, why);
     return s;
@@ -36,7 +57,7 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
  * them. */
 static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     double step = NAN, excess_before = NAN, missing = INFINITY;
     rb_status s = rb_rolling_model_resolve(model, warm, why);
 
@@ -66,7 +87,7 @@ static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
 
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
 {
-    rb_rolling_set_control(&model->rc, &model->problem);
+    rb_rolling_set_control(model->rc, &model->problem);
     return solve_ratio(model, 1, why);
 }
 
@@ -74,16 +95,19 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
 static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
 {
     const double *ends = model->mesh.ends;
-    rb_rolling_model coarse = {.rc = model->rc};
+    rb_rolling_plan fewer = model->plan;
+    rb_rolling_model coarse;
     rb_rolling_mesh mesh;
 
-    coarse.rc.contact_elements = rb_rolling_coarse_elements(model->mesh.n);
-    rb_status s =
-        rb_rolling_mesh_uniform(&coarse.rc, ends[0], ends[model->mesh.n], &mesh, why);
+    fewer.elements = rb_rolling_coarse_elements(model->mesh.n);
+    rb_status s = rb_rolling_model_begin(model->rc, &fewer, &coarse, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n],
+                                    &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&coarse, &mesh, why);
     if (s >= 0)
-        rb_rolling_start_from(&coarse.rc, &coarse.mesh, &coarse.state, &model->mesh,
+        rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh,
                               &model->state);
     model->iterations += coarse.iterations;
     rb_rolling_model_free(&coarse);
@@ -100,11 +124,11 @@ static int have_same_ends(const rb_rolling_mesh *x, const rb_rolling_mesh *y)
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
 {
-    rb_status s =
-        kept ? RB_OK
-             : rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
+    rb_status s = kept ? RB_OK
+                       : rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh,
+                                                  &model->bodies, why);
     if (s == RB_OK)
-        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
+        s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
     return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
 }
@@ -114,8 +138,8 @@ rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
     if (model->bodies.F || model->mesh.n >= RB_ROLLING_LARGE)
         return RB_OK;
     const rb_status s =
-        rb_rolling_bodies_add_matrix(&model->rc, &model->mesh, &model->bodies, why);
-    return s == RB_OK ? rb_rolling_problem_renew_operator(&model->rc, &model->bodies,
+        rb_rolling_bodies_add_matrix(model->rc, &model->mesh, &model->bodies, why);
+    return s == RB_OK ? rb_rolling_problem_renew_operator(model->rc, &model->bodies,
                                                           &model->problem, why)
                       : s;
 }
@@ -124,8 +148,11 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
                                      const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why)
 {
-    model->rc = *rc;
-    const rb_status s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
+    rb_status s = rb_rolling_model_set_case(model, rc, why);
+
+    model->plan = rb_rolling_plan_of(rc);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
     return s == RB_OK ? set_up(model, 0, why) : s;
 }
 
@@ -135,7 +162,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
     /* on a line that has moved a little the zones hardly change */
     const int near = model->state.p && model->state.status == RB_OK &&
-                     model->mesh.n == mesh->n && model->rc.mesh == RB_MESH_ALIGNED;
+                     model->mesh.n == mesh->n && model->rc->mesh == RB_MESH_ALIGNED;
     rb_rolling_mesh old_mesh = model->mesh;
     rb_contact_state old = model->state;
 
@@ -148,7 +175,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     rb_status s = set_up(model, kept, why);
     const int large = s == RB_OK && !model->bodies.F;
     if (large && near)
-        rb_rolling_start_from(&model->rc, &old_mesh, &old, &model->mesh, &model->state);
+        rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
     else if (large)
         s = start_from_coarse(model, why);
     rb_contact_state_free(&old);
@@ -156,7 +183,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     if (s == RB_OK)
         s = solve_ratio(model, large, why);
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
-    const int inaccurate = s == RB_OK && model->state.residual > model->rc.contact.tol;
+    const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) ||
         !large || model->mesh.n >= RB_ROLLING_LARGE)
         return s;

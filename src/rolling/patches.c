@@ -221,8 +221,8 @@ static int count_patches(const rb_rolling_model *model)
     rb_rolling_run run = {.last = -1};
     int count = 0;
 
-    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
-                                 &run))
+    while (
+        rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
         count++;
     return count;
 }
@@ -233,7 +233,7 @@ double rb_rolling_peak_pressure(const rb_rolling_model *model)
     rb_rolling_patch patch;
     double p0 = 0.0;
 
-    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
                                  &run)) {
         set_peak(&model->mesh, model->state.p, &run, &patch);
         p0 = fmax(p0, patch.max_pressure);
@@ -250,7 +250,7 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
     s->patch = calloc((size_t)count_patches(model) + 1, sizeof *s->patch);
     if (!s->patch)
         return RB_ENOMEM;
-    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
                                  &run)) {
         const rb_rolling_patch patch = patch_of(model, &run);
         s->contact_from = s->patches ? s->contact_from : patch.from;

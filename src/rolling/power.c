@@ -118,7 +118,7 @@ static double work_of_memories(const rb_rolling_model *model, double *r, double 
 {
     const rb_bem_flexibility *f = &model->bodies.f;
     const rb_contact_state *state = &model->state;
-    const rb_rolling_body *const body[] = {&model->rc.a, &model->rc.b};
+    const rb_rolling_body *const body[] = {&model->rc->a, &model->rc->b};
     const int n = f->n, rows = 2 * f->m;
     double power = 0.0;
 
@@ -126,7 +126,7 @@ static double work_of_memories(const rb_rolling_model *model, double *r, double 
         if (!model->bodies.memory[b])
             continue;
         const int turns = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT) &&
-                          model->rc.normals == RB_BEM_NORMALS_OBSTACLE;
+                          model->rc->normals == RB_BEM_NORMALS_OBSTACLE;
         for (int i = 0; i < n; i++) {
             r[i] = state->p[i];
             r[n + i] = b ? -state->q[i] : state->q[i]; /* B's own frame */
@@ -145,11 +145,11 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     const rb_contact_state *state = &model->state;
     const int n = p->n;
 
-    *power = model->rc.formulation == RB_STEADY ? 0.0 : NAN;
-    if (model->rc.formulation != RB_STEADY || !rb_rolling_relaxes(&model->rc))
+    *power = model->rc->formulation == RB_STEADY ? 0.0 : NAN;
+    if (model->rc->formulation != RB_STEADY || !rb_rolling_relaxes(model->rc))
         return RB_OK;
     double *w = rb_alloc(4 * (size_t)n + 2, 1), *strain = w + 2 * (n + 1);
-    if (w && !rb_rolling_can(&model->rc, RB_BODY_FLAT)) {
+    if (w && !rb_rolling_can(model->rc, RB_BODY_FLAT)) {
         *power = work_of_memories(model, strain, w);
         free(w);
         return RB_OK;
@@ -161,7 +161,7 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
         for (int i = 0; i < n; i++)
             strain[i] = state->lambda[i] - state->xi * p->e_T[i];
         *power = normal_work(n, model->bodies.f.x, w, state->p, model->bodies.f.h) -
-                 paired_power(&model->rc, n, strain, state->q, model->bodies.f.h, p->e_T);
+                 paired_power(model->rc, n, strain, state->q, model->bodies.f.h, p->e_T);
     }
     free(w);
     return s;

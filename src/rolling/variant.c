@@ -21,7 +21,7 @@ static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of,
 {
     if (!same_bodies && rc->mesh == RB_MESH_UNIFORM &&
         !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
-        return rb_rolling_mesh_uniform(rc, moved.shift + moved.scale * of->ends[0],
+        return rb_rolling_mesh_uniform(rc, NULL, moved.shift + moved.scale * of->ends[0],
                                        moved.shift + moved.scale * of->ends[of->n], mesh,
                                        why);
     mesh->n = of->n;
@@ -112,8 +112,8 @@ static rb_status changed_displacement(const rb_rolling_model *of,
     const rb_bem_flexibility *f = &of->bodies.f;
     const rb_contact_state *state = &of->state;
     const int n = f->n, m = f->m;
-    const factors at = factors_of(&of->rc), to = factors_of(rc);
-    const double layer[2] = {of->rc.interlayer_normal, of->rc.interlayer_tangential},
+    const factors at = factors_of(of->rc), to = factors_of(rc);
+    const double layer[2] = {of->rc->interlayer_normal, of->rc->interlayer_tangential},
                  changed[2] = {rc->interlayer_normal, rc->interlayer_tangential};
     double *w = rb_alloc((size_t)m, 4), *b = w + 2 * m;
 
@@ -147,8 +147,8 @@ static rb_status changed_displacement(const rb_rolling_model *of,
 /* 1: the formula knows how the flexibility changes. */
 static int has_formula(const rb_rolling_model *of, const rb_rolling_case *rc)
 {
-    return are_plain_halfplanes(&of->rc) && are_plain_halfplanes(rc) &&
-           rc->elastic_b == of->rc.elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
+    return are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
+           rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
            !rb_rolling_law_depends_on_state(rc);
 }
 
@@ -163,7 +163,7 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     const int moves = moved.scale != 1.0 || moved.shift != 0.0;
 
     v->bodies = of->bodies;
-    if (rb_rolling_same_bodies(rc, &of->rc) && !moves)
+    if (rb_rolling_same_bodies(rc, of->rc) && !moves)
         return RB_OK;
     double *w0 = v->bodies.f.w0 = rb_alloc(2 * (size_t)f->m, 1);
     if (moves) {
@@ -189,25 +189,25 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
                         int by_formula, motion moved, rb_rolling_model *v,
                         rb_message *why)
 {
-    const int borrows = (rb_rolling_same_bodies(rc, &of->rc) && moved.scale == 1.0 &&
+    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 &&
                          moved.shift == 0.0) ||
                         (by_formula && has_formula(of, rc));
 
-    memset(v, 0, sizeof *v);
-    v->rc = *rc;
+    rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
-    rb_status s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
+    if (s == RB_OK)
+        s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
     if (s == RB_OK && borrows)
         s = borrow_bodies(of, rc, moved, v);
     else if (s == RB_OK)
-        s = rb_rolling_bodies_create(rc, &v->mesh, &v->bodies, why);
+        s = rb_rolling_bodies_create(rc, NULL, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
                         have_same_boundary(of->bodies.system_b, v->bodies.system_b)))
         s = rb_fail(why, RB_INACCURATE,
                     "the elements outside the contact change with the input; give "
                     "--outer-elements");
     if (s == RB_OK)
-        s = borrows && of->rc.formulation == rc->formulation
+        s = borrows && of->rc->formulation == rc->formulation
                 ? rb_rolling_problem_share(rc, &v->mesh, &v->bodies, of->problem.op,
                                            &v->problem, why)
                 : rb_rolling_problem_create(rc, &v->mesh, &v->bodies, NULL, &v->problem,
@@ -222,7 +222,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *v, rb_message *why)
 {
-    return create(of, &of->rc, 1, (motion){shift, scale}, v, why);
+    return create(of, of->rc, 1, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
@@ -276,7 +276,7 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *v, rb_message *why)
 {
     rb_contact_state *state = &v->state;
     rb_contact_problem *p = &v->problem;
-    const rb_rolling_case *rc = &v->rc;
+    const rb_rolling_case *rc = v->rc;
     double *gap = rb_alloc((size_t)state->n, 1);
 
     if (!gap)

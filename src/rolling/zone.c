@@ -62,7 +62,7 @@ static int is_loaded(const rb_contact_state *state, int i)
 static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 {
     static const double nearly_incompressible = 0.49;
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const rb_rolling_body *const bodies[2] = {&rc->a, &rc->b};
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
@@ -88,7 +88,7 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why)
 {
     const char *what = "";
-    const double strain = rb_rolling_strain(&model->rc, model->state.delta,
+    const double strain = rb_rolling_strain(model->rc, model->state.delta,
                                             rb_rolling_peak_pressure(model), &what);
 
     return strain >= 1.0
@@ -142,7 +142,7 @@ static int covered(const rb_rolling_model *model, double *length)
     int count = 0;
 
     *length = 0.0;
-    for (; rb_rolling_next_merged_patch(&model->rc, &model->mesh, &model->state,
+    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state,
                                         run.last + 1, &run);
          count++)
         *length += run.to - run.from;
@@ -153,7 +153,7 @@ static int covered(const rb_rolling_model *model, double *length)
  * by side. */
 static int elements_for(const rb_rolling_model *model, interval zone)
 {
-    const int n = model->rc.contact_elements;
+    const int n = model->plan.elements;
     double length;
 
     if (covered(model, &length) < 2)
@@ -162,22 +162,23 @@ static int elements_for(const rb_rolling_model *model, interval zone)
 }
 
 /* 1: so many elements are too many for a dense matrix. */
-static int are_too_many(const rb_rolling_case *rc, int elements)
+static int are_too_many(const rb_rolling_model *model, int elements)
 {
     const rb_rolling_mesh mesh = {.n = elements};
 
-    return elements > rc->contact_elements && elements > MOST_EQUAL &&
-           !rb_rolling_is_large(rc, &mesh);
+    return elements > model->plan.elements && elements > MOST_EQUAL &&
+           !rb_rolling_is_large(model->rc, &mesh);
 }
 
 static rb_status solve_equal(rb_rolling_model *model, interval zone, int elements,
                              rb_message *why)
 {
-    rb_rolling_case rc = model->rc;
+    rb_rolling_plan plan = model->plan;
     rb_rolling_mesh mesh;
 
-    rc.contact_elements = elements;
-    const rb_status s = rb_rolling_mesh_uniform(&rc, zone.from, zone.to, &mesh, why);
+    plan.elements = elements;
+    const rb_status s =
+        rb_rolling_mesh_uniform(model->rc, &plan, zone.from, zone.to, &mesh, why);
     return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
 }
 
@@ -264,8 +265,8 @@ static interval grown_at_ends(const rb_rolling_model *model, interval zone)
 
     separated_at_ends(&model->state, &left, &right);
     const int at_left = left < wanted, at_right = right < wanted;
-    const int both = is_symmetric(&model->rc) && (at_left || at_right);
-    const interval wider = within(scaled(zone, 1.3), extent(&model->rc));
+    const int both = is_symmetric(model->rc) && (at_left || at_right);
+    const interval wider = within(scaled(zone, 1.3), extent(model->rc));
     if (at_left || both)
         zone.from = fmin(zone.from, wider.from);
     if (at_right || both)
@@ -288,7 +289,7 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
         wider->from = fmin(wider->from, there.from);
         wider->to = fmax(wider->to, there.to);
     }
-    *wider = within(*wider, extent(&model->rc));
+    *wider = within(*wider, extent(model->rc));
     return s;
 }
 
@@ -297,13 +298,13 @@ static interval tightened(const rb_rolling_model *model)
 {
     interval edge;
 
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge.from,
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from,
                              &edge.to);
-    if (is_symmetric(&model->rc)) {
+    if (is_symmetric(model->rc)) {
         edge.to = fmax(fabs(edge.from), fabs(edge.to));
         edge.from = -edge.to;
     }
-    return within(scaled(edge, 1.25), extent(&model->rc));
+    return within(scaled(edge, 1.25), extent(model->rc));
 }
 
 /* Grows the potential contact until enough separated elements stand at each end, or no
@@ -313,7 +314,7 @@ static interval tightened(const rb_rolling_model *model)
 static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coarse,
                                  rb_message *why)
 {
-    int elements = model->rc.contact_elements;
+    int elements = model->plan.elements;
     double too_narrow = 0.0;
     rb_status s = RB_OK;
 
@@ -340,7 +341,7 @@ static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coa
             return s;
         zone = keeps_zone ? zone : wanted;
         elements = coarse ? elements : elements_for(model, zone);
-        if (are_too_many(&model->rc, elements))
+        if (are_too_many(model, elements))
             return rb_fail(why, RB_ZONE,
                            "the contact has patches so far apart that equal elements "
                            "would be %d; fit them to the patches (mesh fitted), or take "
@@ -354,22 +355,23 @@ static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coa
 }
 
 /* Many elements need not be solved to learn how wide their line should be. */
-static interval known_zone(const rb_rolling_case *rc)
+static interval known_zone(const rb_rolling_model *model)
 {
-    rb_rolling_case few = *rc;
-    rb_rolling_model model = {0};
-    interval zone = first_zone(rc);
+    rb_rolling_case equal = *model->rc;
+    rb_rolling_plan few = model->plan;
+    rb_rolling_model first;
+    interval zone = first_zone(model->rc);
 
-    if (rc->contact_elements < RB_ROLLING_LARGE && !rb_rolling_has_fine_boundary(rc))
+    if (few.elements < RB_ROLLING_LARGE && !rb_rolling_has_fine_boundary(&few))
         return zone;
-    if (rc->contact_elements >= RB_ROLLING_LARGE)
-        few.contact_elements = FEW;
+    if (few.elements >= RB_ROLLING_LARGE)
+        few.elements = FEW;
     rb_rolling_coarsen_boundary(&few);
-    few.mesh = RB_MESH_UNIFORM;
-    model.rc = few;
-    if (rb_rolling_solve_zone(&model, 0, NULL) == RB_OK)
-        zone = (interval){model.mesh.ends[0], model.mesh.ends[model.mesh.n]};
-    rb_rolling_model_free(&model);
+    equal.mesh = RB_MESH_UNIFORM;
+    if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
+        rb_rolling_solve_zone(&first, 0, NULL) == RB_OK)
+        zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+    rb_rolling_model_free(&first);
     return zone;
 }
 
@@ -378,17 +380,19 @@ static interval known_zone(const rb_rolling_case *rc)
 /* A potential contact that does not hold the contact: says how wide it should be. */
 static rb_status solve_given(rb_rolling_model *model, rb_message *why)
 {
-    const double zone = model->rc.zone;
-    const interval limit = extent(&model->rc);
+    const double zone = model->rc->zone;
+    const interval limit = extent(model->rc);
     const rb_status s = solve_equal(model, within((interval){-zone, zone}, limit),
-                                    model->rc.contact_elements, why);
+                                    model->plan.elements, why);
 
     if (s != RB_ZONE)
         return s;
-    rb_rolling_model wider = {.rc = model->rc};
+    rb_rolling_case automatic = *model->rc;
+    rb_rolling_model wider;
     double wanted = 1.3 * zone;
-    wider.rc.zone = 0.0;
-    if (rb_rolling_solve_zone(&wider, 0, NULL) == RB_OK)
+    automatic.zone = 0.0;
+    if (rb_rolling_model_begin(&automatic, &model->plan, &wider, NULL) == RB_OK &&
+        rb_rolling_solve_zone(&wider, 0, NULL) == RB_OK)
         wanted = fmax(fabs(wider.mesh.ends[0]), wider.mesh.ends[wider.mesh.n]);
     rb_rolling_model_free(&wider);
     return rb_fail(why, RB_ZONE,
@@ -401,11 +405,11 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 {
     const interval before = {model->first_from, model->first_to};
     const rb_status s =
-        model->rc.zone > 0.0
+        model->rc->zone > 0.0
             ? solve_given(model, why)
-            : solve_automatic(
-                  model, !coarse && width(before) > 0.0 ? before : known_zone(&model->rc),
-                  coarse, why);
+            : solve_automatic(model,
+                              !coarse && width(before) > 0.0 ? before : known_zone(model),
+                              coarse, why);
 
     if (s == RB_OK && coarse) {
         model->first_from = model->mesh.ends[0];

@@ -71,8 +71,8 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status != RB_OK)
         return status;
     v->step =
-        (input->vary && rb_rolling_same_bodies(&rc, &s->model->rc) ? STEP
-                                                                   : STEP_OF_BODIES) *
+        (input->vary && rb_rolling_same_bodies(&rc, s->model->rc) ? STEP
+                                                                  : STEP_OF_BODIES) *
         input->scale;
     const int can_fall = x - 2.0 * v->step > input->from,
               can_grow = x + 2.0 * v->step < input->to;
@@ -127,7 +127,7 @@ static rb_status variants_create(const rb_rolling_model *base,
         s = input->vary(input->context, input->value + by, &rc, why);
         if (s != RB_OK)
             return s;
-        rc = on_the_same_elements(&rc, &base->rc, base->mesh.n);
+        rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
         if (freely)
             rc = rb_sensitivity_without_force(&rc);
         s = rb_rolling_variant_create(base, &rc, &v->model[k], why);
@@ -272,7 +272,7 @@ static int rolls_freely_at_rest(const rb_sensitivity *s)
 {
     const rb_rolling_model *model = s->model;
 
-    return model->rc.formulation == RB_STEADY &&
+    return model->rc->formulation == RB_STEADY &&
            !rb_contact_operator_response(model->problem.op).coupled;
 }
 
@@ -346,8 +346,7 @@ static void motions_of(const rb_sensitivity *s, int moves, const variants *v,
 
     by[0] = by[1] = 0.0;
     for (int k = 0; k < v->at.n && moves == RB_SENSITIVITY_HERTZ; k++)
-        by[0] +=
-            v->at.weight[k] / v->step * rb_rolling_derive(&v->model[k].rc).half_width;
+        by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
     if (moves != RB_SENSITIVITY_EDGES)
         return;
     edges_of(s->model, p_rate, found);
@@ -482,7 +481,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
 static int motion_of(const rb_sensitivity *s)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const int equal = rc->mesh == RB_MESH_UNIFORM || model->equal_instead;
 
     if (s->degenerate > 0 || s->solution.patches != 1 || s->solution.contact < 6 ||
@@ -521,7 +520,7 @@ static rb_status set_free_motion(rb_sensitivity *freely, int moves,
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
 {
     const int moves = motion_of(s);
-    motion m = {STRETCH, 0.0, rb_rolling_derive(&s->model->rc).half_width};
+    motion m = {STRETCH, 0.0, rb_rolling_derive(s->model->rc).half_width};
     double rate[2];
     rb_status status = RB_OK;
 

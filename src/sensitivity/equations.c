@@ -83,7 +83,7 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
                           rb_message *why)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_friction *f = &model->rc.friction;
+    const rb_rolling_friction *f = &model->rc->friction;
     const rb_contact_problem *p = &model->problem;
     const size_t n = (size_t)s->n;
     const double slip = 1e-3 * p->slip_length, stress = 1e-3 * p->mu * p->stress;
@@ -113,15 +113,15 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     rb_rolling_model v = {.mesh = {.n = 0}};
     rb_status status = RB_OK;
 
-    if (!rb_rolling_law_depends_on_state(&model->rc))
+    if (!rb_rolling_law_depends_on_state(model->rc))
         return RB_OK;
     s->law_slip = rb_alloc(n, n);
-    s->law_force = model->rc.friction.heat != 0.0 ? rb_alloc(n, n) : NULL;
+    s->law_force = model->rc->friction.heat != 0.0 ? rb_alloc(n, n) : NULL;
     double *room = rb_alloc(n, 1);
-    if (!s->law_slip || !room || (model->rc.friction.heat != 0.0 && !s->law_force))
+    if (!s->law_slip || !room || (model->rc->friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
-        status = rb_rolling_variant_create(model, &model->rc, &v, why);
+        status = rb_rolling_variant_create(model, model->rc, &v, why);
     if (status == RB_OK)
         status = fill_law(s, &v, room, why);
     rb_rolling_variant_free(model, &v);

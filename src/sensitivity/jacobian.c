@@ -146,7 +146,7 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
 static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const rb_contact_problem *p = &model->problem;
     const int m = f->contacts, law = rb_rolling_law_depends_on_state(rc);
     const size_t ld = (size_t)f->size;

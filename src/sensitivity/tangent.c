@@ -18,7 +18,7 @@ static const double SOLVED = 1e-8;
 
 static rb_status check(const rb_rolling_model *model, rb_message *why)
 {
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     const rb_contact_state *state = &model->state;
     const int dense = model->bodies.F != NULL;
     rb_contact_violation violation;
@@ -307,7 +307,7 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
 static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_case *rc = &model->rc, freely = rb_sensitivity_without_force(rc);
+    const rb_rolling_case *rc = model->rc, freely = rb_sensitivity_without_force(rc);
     rb_rolling_model *v;
     rb_status status;
 

@@ -74,7 +74,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
                                     rb_message *why)
 {
     enum { MOST = 200 };
-    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_case *rc = model->rc;
     double from, to;
     int places = 0;
 

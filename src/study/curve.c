@@ -61,11 +61,11 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);
-    c->dissipation[k] = rb_rolling_dissipated_power(&model->rc, p->n, state->lambda,
+    c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda,
                                                     state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
-    c->speed[k] = model->rc.speed;
+    c->speed[k] = model->rc->speed;
     if (c->branch) {
         c->branch[k] = k < c->rising ? 1 : 2;
         const rb_status s = rb_rolling_law_kappa(model, &c->kappa[k]);
@@ -73,11 +73,9 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
             return s;
     }
     c->resistance_moment[k] = rb_contact_moment(p, state);
-    c->resistance_ratio[k] =
-        c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
+    c->resistance_ratio[k] = c->resistance_moment[k] / (P * rb_rolling_radius(model->rc));
     double torque_b;
-    rb_rolling_torques(&model->rc, c->resistance_moment[k], Q, &c->torque_a[k],
-                       &torque_b);
+    rb_rolling_torques(model->rc, c->resistance_moment[k], Q, &c->torque_a[k], &torque_b);
     if (c->torque_b)
         c->torque_b[k] = torque_b;
     rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
@@ -91,7 +89,7 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
 /* The whole search for the contact again. */
 static rb_status start_anew(rb_rolling_model *model, rb_message *why)
 {
-    const rb_rolling_case rc = model->rc;
+    const rb_rolling_case rc = *model->rc;
     const int iterations = model->iterations;
 
     rb_rolling_model_free(model);
@@ -107,17 +105,17 @@ static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[
 {
     double from, to;
 
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     const double moved =
         fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-    if (!fills && !(model->rc.mesh != RB_MESH_UNIFORM && moved > REFIT))
+    if (!fills && !(model->rc->mesh != RB_MESH_UNIFORM && moved > REFIT))
         return RB_OK;
     const rb_status s = fills ? start_anew(model, why)
-                        : model->rc.mesh == RB_MESH_ALIGNED
+                        : model->rc->mesh == RB_MESH_ALIGNED
                             ? rb_rolling_model_realign(model, why)
                             : rb_rolling_model_refit(model, why);
     if (s == RB_OK)
-        rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0],
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
                                  &edge[1]);
     return s;
 }
@@ -141,7 +139,7 @@ typedef struct {
     double *scratch;
 } branch_start;
 
-static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
+static rb_status remember_branch(const rb_rolling_model *model, branch_start *start)
 {
     const size_t n = (size_t)model->mesh.n;
     double *scratch = rb_alloc(n, 2);
@@ -153,7 +151,6 @@ static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
     free(start->scratch);
     start->scratch = scratch;
     start->table = (rb_rolling_table){model->mesh.n, scratch, scratch + n};
-    model->rc.friction.start = &start->table;
     return RB_OK;
 }
 
@@ -170,15 +167,21 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
     rb_status s = rb_rolling_model_create(&steady, model, why);
     if (s != RB_OK)
         return s;
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
     const int moves = rb_rolling_law_depends_on_state(&steady), points = r->points;
     branch_start start = {.scratch = NULL};
     for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
-        set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k),
-                     &model->rc);
-        s = rb_rolling_model_control(model, why);
-        if (moves && s >= 0 && remember_branch(model, &start) != RB_OK)
-            s = RB_ENOMEM;
+        set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k), &steady);
+        s = rb_rolling_model_set_case(model, &steady, why);
+        if (s == RB_OK)
+            s = rb_rolling_model_control(model, why);
+        if (moves && s >= 0) {
+            rb_status t = remember_branch(model, &start);
+            steady.friction.start = &start.table;
+            if (t == RB_OK)
+                t = rb_rolling_model_set_case(model, &steady, why);
+            s = t == RB_OK ? s : t;
+        }
         if (s == RB_OK || s == RB_ZONE)
             s = follow_contact(model, s == RB_ZONE, edge, why);
         if (s >= 0) {
@@ -186,7 +189,9 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             s = t < 0 ? t : s;
         }
     }
-    model->rc.friction.start = rc->friction.start;
+    steady.friction.start = rc->friction.start;
+    const rb_status t = rb_rolling_model_set_case(model, &steady, why);
+    s = s == RB_OK ? t : s;
     free(start.scratch);
     if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
