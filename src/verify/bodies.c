@@ -132,6 +132,32 @@ static void below_hertz(rb_verify *v)
              "Hertz: orthogonal shear");
 }
 
+/* A thick layer has the stress of its own half-plane, below a thin one lies that of the
+ * base: a/d and d/a away from it, because a line load is felt like 1/distance. */
+static void below_layers(rb_verify *v)
+{
+    static const double thickness[] = {1e4, 0.01}, bound[] = {3e-3, 1e-2};
+    static const char *const name[] = {"layer of 10 000 a",
+                                       "base below a layer of a/100"};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = rb_verify_uncoupled();
+        const double a = rc.half_width, stiffer = 3.0,
+                     modulus = rc.a.young * (k == 0 ? 1.0 : stiffer) / (1.0 - 0.3 * 0.3);
+        rc.a.poisson = rc.a.base_poisson = 0.3;
+        rc.mu = 0.0;
+        rc.a.layer = thickness[k] * a;
+        rc.a.base_young = stiffer * rc.a.young;
+        rc.half_width = NAN;
+        rc.load = rb_closed_hertz_load(a, rc.a.radius, modulus);
+        const subsurface b = below(v, &rc);
+        const rb_rolling_extremum *e = &b.max.max_shear;
+        rb_verify_relative(v, e->value / rb_closed_hertz_max_pressure(rc.load, a),
+                           0.30028, bound[k], "%s: largest shear / p0 of Hertz", name[k]);
+        rb_verify_absolute(v, hypot(e->x, e->y - 0.78615 * a) / a, 0.0, 1e-2,
+                           "%s: distance from its place / a", name[k]);
+    }
+}
+
 /* A thin disc: szz = 0, and nowhere is von Mises' stress larger than the p0 of both
  * directions at the surface. */
 static void below_hertz_disc(rb_verify *v)
@@ -203,5 +229,6 @@ void rb_verify_bodies(rb_verify *v)
     ring(v, RB_PLANE_STRESS);
     below_hertz(v);
     below_hertz_disc(v);
+    below_layers(v);
     below_sliding(v);
 }
