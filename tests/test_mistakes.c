@@ -1,6 +1,7 @@
 /* Typical mistakes: one line each, with the words that help; and the first minute:
  * examples, notes, a terminal. */
 #include "cli_run.h"
+#include "rollbem/base.h"
 
 static const struct {
     const char *arguments, *wanted;
@@ -484,6 +485,31 @@ static void terminals_get_a_short_table(void **state)
     assert_non_null(strstr(out, "# rollbem"));
 }
 
+/* Who waits is told after two seconds what for; the line is taken away, and neither
+ * --quiet nor a pipe has one.  A processor may be too fast for it. */
+static void waiting_is_told_on_a_terminal(void **state)
+{
+    (void)state;
+    if (shell("command -v script") != 0)
+        skip();
+    for (int quiet = 0; quiet < 2; quiet++) {
+        char command[400];
+        const double start = rb_seconds();
+        snprintf(command, sizeof command,
+                 "script -qec \"'$R' stress --support hub --half-width 1 --grid 300x300 "
+                 "--output /dev/null%s\" typescript",
+                 quiet ? " --quiet" : "");
+        assert_int_equal(shell(command), 0);
+        const int long_enough = rb_seconds() - start > 4.0;
+        const char *told = strstr(out, " s: ");
+        assert_true(quiet ? !told : told || !long_enough);
+        if (told)
+            assert_non_null(strstr(told, "\r\033[K"));
+    }
+    assert_int_equal(shell("\"$R\" --half-width 0.1"), 0);
+    assert_null(strstr(err, "processor"));
+}
+
 /* Characters, not bytes, and none of the sequences that set a colour. */
 static int characters(const char *line, size_t n)
 {
@@ -574,6 +600,7 @@ int main(void)
         cmocka_unit_test(found_creepage_is_not_doubted),
         cmocka_unit_test(examples_are_at_hand),
         cmocka_unit_test(terminals_get_a_short_table),
+        cmocka_unit_test(waiting_is_told_on_a_terminal),
         cmocka_unit_test(no_command_is_wider_than_a_terminal),
         cmocka_unit_test(closed_pipes_end_in_silence),
     };

@@ -114,6 +114,11 @@ __attribute__((format(printf, 3, 4)))
 int
 rb_format(char *text, size_t size, const char *format, ...);
 
+/* What takes long, for people who wait: static text, the last that a thread of this
+ * process has said; NULL: nothing yet. */
+void rb_phase(const char *what);
+const char *rb_phase_now(void);
+
 /* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
  * product overflows.  Released with free(). */
 double *rb_alloc(size_t rows, size_t cols);

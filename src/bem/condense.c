@@ -487,6 +487,7 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
     *f = (rb_bem_flexibility){0};
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
+    rb_phase("flexibility of the contact");
     rb_status s = contact_displacements(system, subtract, &X);
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);

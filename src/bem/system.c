@@ -309,10 +309,12 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
     } else {
         rb_bond_free(bond);
     }
+    rb_phase("integrals over boundary elements");
     status = s ? assemble(s) : RB_ENOMEM;
     if (status == RB_OK) {
         const double assembled = rb_seconds();
         s->seconds_assembly = assembled - start;
+        rb_phase("elimination of the boundary outside the contact");
         status = factor(s, why);
         s->seconds_factor = rb_seconds() - assembled;
     }

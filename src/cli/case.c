@@ -1,4 +1,5 @@
 #include "cli/case.h"
+#include "cli/wait.h"
 
 #include "rollbem/friction.h"
 
@@ -156,7 +157,11 @@ static cli_exit print(const cli_spec *spec, const cli_case_run *run)
 static cli_exit solve(const cli_spec *spec, cli_case_run *run)
 {
     rb_message why = {""};
+    if (!run->o.quiet)
+        cli_wait_begin();
     const rb_status s = run->command->solve(run, &why);
+    if (!run->o.quiet)
+        cli_wait_end();
     const cli_exit code = run->printable ? print(spec, run) : CLI_OK;
     return code == CLI_OK && s != RB_OK ? cli_case_refused(run->words, s, &why) : code;
 }

@@ -2,6 +2,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/output.h"
+#include "cli/wait.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
@@ -34,6 +35,7 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
             (now - w->start) / (step + 1) * (steps - step - 1),
             w->steps->terminal && !last ? "\033[K" : "\n");
     w->shown = now;
+    cli_wait_rest();
 }
 
 typedef struct {

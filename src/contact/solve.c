@@ -234,6 +234,7 @@ static rb_status solve_lemke(rb_contact_problem *problem,
     int unfinished[ATTEMPTS] = {0};
     rb_status s = RB_RAY;
 
+    rb_phase("contact by Lemke's method");
     for (int round = 0; round < ROUNDS; round++)
         for (int k = 0; k < ATTEMPTS; k++) {
             if (!is_due(k, round, first, unfinished))
@@ -292,6 +293,7 @@ static rb_status solve_newton(rb_contact_problem *problem,
                               const rb_contact_options *options, int warm,
                               rb_contact_state *state)
 {
+    rb_phase("contact by Newton's method");
     rb_status s = rb_contact_newton(problem, warm, state);
 
     s = complete_newton(problem, s, state);

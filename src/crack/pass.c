@@ -308,6 +308,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
                        "none");
     if (p->fluid != RB_CRACK_DRY && p->wheel)
         return rb_fail(why, RB_EINVAL, "crack: coupled, it is without fluid");
+    rb_phase("passes over the crack");
     const double scale = largest_stress(p);
     double *T = rb_alloc(2, (size_t)c->n);
     rb_crack_state state = {0};

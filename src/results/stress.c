@@ -202,6 +202,7 @@ static rb_status stress_of_field(const field *f, int n, const double *xy,
     double *sigma = rb_alloc((size_t)n, 3);
     if (!sigma)
         return RB_ENOMEM;
+    rb_phase("stress inside the body");
     const rb_status s = evaluate(f, n, xy, sigma, why);
     for (int k = 0; k < n && s == RB_OK; k++) {
         const int below = rc->a.layer > 0.0 && xy[2 * k + 1] > rc->a.layer;
