@@ -15,11 +15,18 @@ PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
 LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads $(SUITESPARSE) -lm $(OPENMP)
-# Debian's shared HDF5 loads thirty libraries for files on the web (curl, Kerberos, LDAP), which take
-# two thirds of the program's start. Its archive does not; make HDF5_ARCHIVE= does without it.
+# The program takes archives where there are any: a shared library that a case never uses costs its
+# start as well, and thirty of them (HDF5's for files on the web: curl, Kerberos, LDAP) cost more than
+# a small case. OpenBLAS stays shared.  make ARCHIVES= takes none; where they want more than is named
+# here the shared ones are linked.
+LIBRARY_FOLDER := $(dir $(filter /%,$(shell $(CC) -print-file-name=libgsl.a)))
+ARCHIVED := lapacke gsl fftw3_threads fftw3 inih jansson sz aec z umfpack spqr cholmod amd colamd ccolamd camd suitesparseconfig
 HDF5_ARCHIVE := $(if $(filter hdf5-serial,$(HDF5)),$(wildcard $(patsubst -L%,%/libhdf5.a,$(shell pkg-config --libs-only-L $(HDF5)))))
-# Where it wants more than is named here the shared one is linked.
-PROGRAM_LIBS = $(patsubst -lhdf5,$(HDF5_ARCHIVE) -lsz -lz,$(LDLIBS))
+ARCHIVES := $(HDF5_ARCHIVE) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
+# SuiteSparse 5 has METIS in a library of its own
+METIS := $(if $(ARCHIVES),$(if $(LIBRARY_FOLDER),$(firstword $(wildcard $(LIBRARY_FOLDER)libmetis.so.5))))
+WITHOUT_ARCHIVES = $(filter-out $(if $(HDF5_ARCHIVE),-lhdf5) $(patsubst $(LIBRARY_FOLDER)lib%.a,-l%,$(ARCHIVES)),$(LDLIBS))
+PROGRAM_LIBS = -Wl,--start-group $(ARCHIVES) -Wl,--end-group -Wl,--as-needed $(METIS) $(WITHOUT_ARCHIVES)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without
 MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
@@ -166,7 +173,7 @@ $(B)/librollbem.so: $(LIB_OBJ)
 
 # of these objects and libraries
 link_with = $(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(1) $(B)/librollbem.a $(LDFLAGS) $(3) $(2)
-link_program = $(if $(HDF5_ARCHIVE),$(call link_with,$(1),$(2),$(PROGRAM_LIBS)) 2>/dev/null ||) $(call link_with,$(1),$(2),$(LDLIBS))
+link_program = $(if $(ARCHIVES),$(call link_with,$(1),$(2),$(PROGRAM_LIBS)) 2>/dev/null ||) $(call link_with,$(1),$(2),$(LDLIBS))
 
 $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
