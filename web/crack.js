@@ -95,7 +95,7 @@ export function crack_view(words, page) {
     });
     const knobs = [
         crack_knob("crack-angle", w.angle, ...ANGLES, "°"),
-        crack_knob("crack-length", w.length, ...LENGTHS, "a"),
+        crack_knob("crack-length", w.length, ...LENGTHS, ""),
         crack_knob("crack-friction", w.friction, 0, 1, ""),
     ];
     const frames = player(words, {

@@ -195,7 +195,11 @@ async function main() {
     }
     function draw_now() {
         drawing = false;
-        for (const view of near) view.render();
+        for (const view of near) {
+            view.render();
+            /* What was never seen has no picture, and is not printed. */
+            if (view.uses.every((name) => store.answers[name])) view.section.classList.add("drawn");
+        }
         for (const button of document.querySelectorAll("[data-history]")) {
             const can = { undo: store.can_undo, redo: store.can_redo, reset: true }[button.dataset.history];
             button.setAttribute("aria-disabled", String(!can));

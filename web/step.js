@@ -278,7 +278,7 @@ export function step_view(words, page) {
         html("p", { class: "question" }, words.step.question),
         html(
             "section",
-            { class: "card" },
+            { class: "card guess" },
             title,
             html("p", {}, words.guess_note),
             html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count),

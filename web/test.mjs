@@ -976,6 +976,30 @@ async function views(page) {
         );
         check(orange.length >= 2 && orange.every((n) => n === 0), `${orange}`);
     });
+    await test("printed: a page for each chapter that was seen, its figure as wide as the page", async () => {
+        for (const view of VIEWS) {
+            await page.run(`rollbem.open('${view}')`);
+            await settled();
+        }
+        await page.run("document.querySelectorAll('main details').forEach((d) => { d.open = false; })");
+        const { data } = await page.tab("Page.printToPDF", {
+                printBackground: true,
+                paperWidth: 8.27,
+                paperHeight: 11.69,
+            }),
+            pages = Buffer.from(data, "base64")
+                .toString("latin1")
+                .match(/\/Type\s*\/Page\b/g).length;
+        check(pages === VIEWS.length, `${pages} pages of ${VIEWS.length} chapters`);
+        await page.tab("Emulation.setEmulatedMedia", { media: "print" });
+        await page.size(718, 1046);
+        const wide = await page.run(
+            "[...document.querySelectorAll('.two figure svg')].filter((e) => e.clientWidth).map((e) => e.getBoundingClientRect().width)",
+        );
+        await page.tab("Emulation.setEmulatedMedia", { media: "" });
+        await page.size(1280, 900);
+        check(wide.length > 4 && Math.min(...wide) > 400, `${wide}`);
+    });
     await test("the three sentences of docs/page.md are what the first screen shows", async () => {
         const text = readFileSync("docs/page.md", "utf8").replace(/\s+/g, " ");
         for (const sentence of [
