@@ -343,11 +343,16 @@ export function draw_lens(pen, box, scene) {
                     { fill: kind, size: small + 4, weight: 650, anchor: "middle", halo: "body-b" },
                 );
         if (box.w > 560) {
-            pen.text(Math.min(right, X(n.contact_to) + 14), middle + depth + 4, words.enters, {
-                fill: "soft",
-                size: small,
-                halo: "body-b",
-            });
+            pen.text(
+                Math.min(right, X(n.contact_to) + 14),
+                Math.min(middle + depth + 4, foot - small - 10),
+                words.enters,
+                {
+                    fill: "soft",
+                    size: small,
+                    halo: "body-b",
+                },
+            );
         }
     }
     const border = n.stick > 0 ? n.stick_from : n.contact_to;
