@@ -447,7 +447,7 @@ export function contact_view(words, page) {
         return all.concat(matters.wants());
     }
     function take(answer, request) {
-        if (answer.kind === "derivatives") return matters.take(answer);
+        if (answer.kind === "derivatives") return matters.take(answer, request);
         if (answer.kind === "closed") closed = answer.refused ? null : { ...answer, given: request.given };
         else if (answer.kind === "curve") [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
         drawn_for = null;

@@ -4,6 +4,7 @@ import { say } from "./words.js";
 
 const RESULTS = ["max_pressure", "approach", "tangential_load", "creepage"],
     MOST_ROWS = 8,
+    LIVE = 150 /* ms: what takes longer waits until the hand lets go */,
     SMALL = 1e-6; /* of the result: rounding, not an effect */
 
 /* [{ name, less, more }], the largest first: the change of a result, as a part of it, for one percent less and more of
@@ -30,8 +31,14 @@ export function matters_card(words, page) {
     let chosen = "max_pressure",
         data = null,
         drawn_for = null,
-        scale = 0;
+        scale = 0,
+        cost = 0,
+        seen = false;
     const node = card(w.title, html("p", { class: "note" }, w.note), choice, rows, told);
+    new IntersectionObserver(([entry]) => {
+        seen = entry.isIntersecting;
+        if (seen) page.ask_view("bench");
+    }).observe(node);
     const has = (name) => Math.abs(data.numbers[name]) > 1e-12 && data[`derivative.${name}`];
     choice.append(
         segments(
@@ -56,6 +63,8 @@ export function matters_card(words, page) {
     function draw() {
         const key = [data, chosen, store.trouble("main")];
         node.classList.toggle("stale-inside", Boolean(store.trouble("main")));
+        /* Of another case than the one that is shown: faint until the answer is there. */
+        rows.classList.toggle("old", Boolean(data) && data.given !== page.given);
         if (!data || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
         if (data.refused || !has(chosen)) {
@@ -115,9 +124,12 @@ export function matters_card(words, page) {
         node,
         draw,
         wants: () =>
-            store.trouble("main") ? [] : [{ kind: "derivatives", slot: "derivatives bench", given: page.given }],
-        take(answer) {
-            data = answer;
+            !seen || store.trouble("main") || (store.holding && cost > LIVE) || data?.given === page.given
+                ? []
+                : [{ kind: "derivatives", slot: "derivatives bench", given: page.given }],
+        take(answer, request) {
+            data = { ...answer, given: request.given };
+            cost = answer.milliseconds ?? cost;
             draw();
         },
         data: () => data,

@@ -1,5 +1,6 @@
-/* Two workers with the library: one solves the cases, which never wait for the curves, steps and stresses that the
- * other one is at.  Of requests that wait the newest of each slot is answered. */
+/* Three workers with the library: one solves the cases, which never wait for the curves, steps and stresses that the
+ * second one is at; the third one is at derivatives, which take long for some bodies.  Of requests that wait the newest
+ * of each slot is answered. */
 
 async function start_worker(wasm, script) {
     return new Promise((resolve, reject) => {
@@ -10,8 +11,10 @@ async function start_worker(wasm, script) {
     });
 }
 
+const LONG = 300; /* ms after which an older question is given up for a newer one */
+
 /* One request at work at a time.  take(answer, request, newer): newer, another one of its slot waits. */
-function line_up(wasm, script, take) {
+function line_up(wasm, script, take, impatient = false) {
     const waiting = new Map();
     let worker = null,
         busy = null,
@@ -37,12 +40,19 @@ function line_up(wasm, script, take) {
         since = performance.now();
         worker.postMessage(request);
     }
+    function end_worker() {
+        worker.terminate();
+        worker = busy = null;
+        return begin();
+    }
     return {
         begin,
         ask(request) {
             waiting.delete(request.slot);
             waiting.set(request.slot, { ...request, id: ++last });
-            next();
+            /* Nobody waits for the answer to an older question. */
+            if (impatient && busy?.slot === request.slot && performance.now() - since > LONG) end_worker().then(next);
+            else next();
         },
         idle: () => !busy && !waiting.size,
         waits: (slot) => busy?.slot === slot || waiting.has(slot),
@@ -51,11 +61,10 @@ function line_up(wasm, script, take) {
         async cancel(why) {
             if (!busy) return;
             const request = busy;
-            worker.terminate();
-            worker = busy = null;
             waiting.clear();
+            const begun = end_worker();
             take({ id: request.id, kind: request.kind, refused: why }, request, false);
-            await begin();
+            await begun;
         },
     };
 }
@@ -67,14 +76,14 @@ export async function start_solver(packed, worker_source, take) {
         new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
     ).arrayBuffer();
     const script = URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" }));
-    const lines = [line_up(wasm, script, take), line_up(wasm, script, take)];
+    const lines = [line_up(wasm, script, take), line_up(wasm, script, take), line_up(wasm, script, take, true)];
     const { options, results } = await lines[0].begin();
-    const second = lines[1].begin();
-    const line_of = (request) => lines[request.kind === "solve" ? 0 : 1];
+    const others = lines.slice(1).map((line) => line.begin());
+    const line_of = ({ kind }) => lines[kind === "solve" ? 0 : kind === "derivatives" ? 2 : 1];
     return {
         options,
         results,
-        second,
+        others,
         ask: (request) => line_of(request).ask(request),
         idle: () => lines.every((line) => line.idle()),
         waits: (slot) => lines.some((line) => line.waits(slot)),

@@ -925,6 +925,8 @@ async function views(page) {
     await test("which input matters: bars that follow the sliders", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('bench')");
         await settled();
+        await page.run("document.querySelector('.bars').scrollIntoView({ block: 'center', behavior: 'instant' })");
+        await page.until("document.querySelector('.bars').childElementCount > 0");
         const bars = () =>
             page.run(
                 "[...document.querySelectorAll('#at-bench .bar')].map((b) => [b.dataset.input, b.querySelector('.value').textContent, Math.round(b.querySelector('.more').getBoundingClientRect().width)])",

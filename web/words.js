@@ -357,7 +357,7 @@ export const words = {
         },
         then: "Drag the wheel over the crack, drag its tip. Lines drawn across the crack tear where the faces slide. Then pour water in.",
         water: "In the crack",
-        fluids: { none: "dry", trapped: "water, shut in when the mouth closes" },
+        fluids: { none: "dry", trapped: "water, shut in by the wheel" },
         wet_why:
             "The wheel shuts the mouth before it stands above the tip. The water behind cannot leave, and it pushes the tip open although everything is under pressure.",
         angle: "angle to the surface",
