@@ -58,7 +58,7 @@ all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
 	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
-	@echo "make run        install missing packages, build, solve and print the main example"
+	@echo "make run        install missing packages, build, solve and print a wheel on a rail"
 	@echo "make test       install missing packages, build, run all tests"
 	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/reliability.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
@@ -89,7 +89,9 @@ check-packages: ; @scripts/packages
 
 run: packages
 	@$(MAKE) --no-print-directory B=$(B) all >&2
-	$(B)/rollbem --mu 0.3 --creep 0.1
+	@echo "A braked steel wheel on a steel rail: rollbem --example rail --creep-ratio 0.4"
+	@$(B)/rollbem --example rail --creep-ratio 0.4 --format brief
+	@echo "Next: $(B)/rollbem help, $(B)/rollbem examples, --plot rail.png for a picture, make test"
 
 test: packages
 	@$(MAKE) --no-print-directory B=$(B) check-tests

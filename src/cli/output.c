@@ -13,8 +13,11 @@
 /* --json is a flag in the place of the format: it sets 1. */
 _Static_assert(RB_REPORT_JSON == 1, "--json");
 
-const rb_choice cli_formats[] = {
-    {"tsv", RB_REPORT_TSV}, {"csv", RB_REPORT_CSV}, {"json", RB_REPORT_JSON}, {NULL, 0}};
+const rb_choice cli_formats[] = {{"tsv", RB_REPORT_TSV},
+                                 {"csv", RB_REPORT_CSV},
+                                 {"json", RB_REPORT_JSON},
+                                 {"brief", RB_REPORT_TSV},
+                                 {NULL, 0}};
 const rb_choice cli_headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
 
 const rb_choice cli_picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
@@ -50,6 +53,8 @@ rb_option_set cli_output_set(cli_output *o)
 int cli_reader_is_person(void)
 {
     const char *line = cli_command_line();
+    if (strstr(line, " --format=brief") || strstr(line, " --format brief"))
+        return 1;
     return isatty(STDOUT_FILENO) && !strstr(line, " --header") &&
            !strstr(line, " --format");
 }

@@ -17,8 +17,10 @@ extern const rb_choice cli_formats[], cli_headers[];
                    "of a table with tabs: # lines below the names, or the names alone")
 #define CLI_STYLE_LINES(style)                                                           \
     CLI_JSON_LINE(style),                                                                \
-        RB_CHOICE_LINE("format", style + offsetof(rb_report_style, format), cli_formats, \
-                       "of the results: a table with tabs, with commas, or JSON"),       \
+        RB_CHOICE_LINE(                                                                  \
+            "format", style + offsetof(rb_report_style, format), cli_formats,            \
+            "of the results: a table with tabs, with commas, JSON, or what a "           \
+            "terminal shows"),                                                           \
         CLI_HEADER_LINE(style)
 
 #define CLI_OUTPUT_LINE(output)                                                          \
@@ -58,8 +60,8 @@ typedef struct {
 /* Section [output]: form of the results, --output, --plot and how, --quiet, --cite. */
 rb_option_set cli_output_set(cli_output *o);
 
-/* 1: standard output is a terminal, and nobody has asked for a form of the results: they
- * are abbreviated there. */
+/* 1: the results are abbreviated: standard output is a terminal, and nobody has asked for
+ * a form of the results, or --format is brief. */
 int cli_reader_is_person(void);
 /* A table with tabs on a terminal that has to hold so many other lines too; text:
  * changed. */

@@ -27,8 +27,9 @@ void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_
         const double value = rb_rolling_number(r, s);
         const double error = rb_rolling_number(r, &e->scalar);
         if (r->error_bar && !isnan(value) && !isnan(error))
-            fprintf(out, "    %-16s %.8g +- %.1g %s\n", r->name, value + 0.0, error,
-                    r->unit ? rb_unit_name(s->units, r->unit) : ""); /* + 0.0: no -0 */
+            fprintf(out, "    %-17s %.8g +- %.1g%s%s\n", r->name, value + 0.0, error,
+                    r->unit ? " " : "", /* + 0.0: no -0 */
+                    r->unit ? rb_unit_name(s->units, r->unit) : "");
     }
     rb_locale_end(before);
 }

@@ -132,6 +132,12 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
     return s;
 }
 
+/* What is smaller is rounding, or what the solver leaves: zero, as by symmetry. */
+static double unless_tiny(double x, double tiny)
+{
+    return fabs(x) <= tiny ? 0.0 : x;
+}
+
 /* M, its coefficient and where the power goes that neither Q nor M/R leave to friction.
  */
 static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
@@ -140,7 +146,8 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
     s->torque_a = s->torque_b = NAN;
     if (s->formulation == RB_STATIC)
         return RB_OK;
-    s->resistance_moment = rb_contact_moment(&model->problem, &model->state);
+    s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
+                                       1e-14 * s->normal_load * model->half_width);
     s->resistance_ratio =
         s->normal_load > 0.0
             ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))
@@ -310,6 +317,10 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     s->slip_violations = count_violations(model, s);
     s->dissipation = rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h,
                                                  model->problem.e_T);
+    if (s->formulation != RB_STATIC)
+        s->dissipation = unless_tiny(
+            s->dissipation, 1e-11 * rb_rolling_largest_mu(&model->rc) * s->normal_load *
+                                s->half_width / rb_rolling_radius(&model->rc));
     if (status == RB_OK)
         status = set_temperature(model, s, why);
     if (status != RB_OK)
