@@ -319,8 +319,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                                                  model->problem.e_T);
     if (s->formulation != RB_STATIC)
         s->dissipation = unless_tiny(
-            s->dissipation, 1e-11 * rb_rolling_largest_mu(&model->rc) * s->normal_load *
-                                s->half_width / rb_rolling_radius(&model->rc));
+            s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
+                                s->half_width / rb_rolling_radius(model->rc));
     if (status == RB_OK)
         status = set_temperature(model, s, why);
     if (status != RB_OK)
