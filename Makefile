@@ -325,7 +325,7 @@ uninstall:
 	rm -f "$(PREFIXED)/bin/rollbem" "$(PREFIXED)/bin/rollbem-mpi" "$(LIBRARIES)"/librollbem.a "$(LIBRARIES)"/librollbem.so*
 	rm -f "$(LIBRARIES)/pkgconfig/rollbem.pc" "$(LIBRARIES)"/cmake/rollbem/rollbemConfig*.cmake "$(PREFIXED)"/include/rollbem/*.h
 	@scripts/install-shared --remove "$(PREFIXED)/share"
-	rm -f "$(PREFIXED)/share/rollbem/rollbem.html" "$(PACKAGES_OF_PYTHON)"/*.py "$(PACKAGES_OF_PYTHON)/py.typed" "$(PACKAGES_OF_PYTHON)"/__pycache__/*.pyc
+	rm -f "$(PREFIXED)/share/rollbem/rollbem.html" "$(PACKAGES_OF_PYTHON)"/*.py "$(PACKAGES_OF_PYTHON)"/*.pyi "$(PACKAGES_OF_PYTHON)/py.typed" "$(PACKAGES_OF_PYTHON)"/__pycache__/*.pyc
 	@for i in "$(LIBRARIES)/cmake/rollbem" "$(PREFIXED)/include/rollbem" "$(PREFIXED)/share/rollbem/octave" "$(PREFIXED)/share/rollbem" \
 	    "$(PACKAGES_OF_PYTHON)/__pycache__" "$(PACKAGES_OF_PYTHON)"; do [ ! -d "$$i" ] || rmdir "$$i" 2>/dev/null || true; done
 
@@ -336,6 +336,9 @@ install-python:
 	install -d "$(PACKAGES_OF_PYTHON)"
 	install -m 644 python/rollbem/*.py python/rollbem/py.typed "$(PACKAGES_OF_PYTHON)"
 	echo 'VERSION = "$(VERSION)"' > "$(PACKAGES_OF_PYTHON)/_version.py"
+	@# types for editors, by the package itself, which needs NumPy for it
+	ROLLBEM_LIBRARY="$(CURDIR)/$(B)/librollbem.so" PYTHONPATH=python PYTHONDONTWRITEBYTECODE=1 python3 -m rollbem._stubs > "$(PACKAGES_OF_PYTHON)/__init__.pyi" 2>/dev/null || \
+	    rm -f "$(PACKAGES_OF_PYTHON)/__init__.pyi"
 
 # what a release is made of, from the last commit; the same bytes whenever and wherever
 DIST = $(B)/rollbem-$(VERSION).tar.gz

@@ -92,10 +92,20 @@ def _pack_wheel(folder, files, pure=False):
     return wheel
 
 
+def _stubs():
+    """Types for editors, made by the package itself: empty where NumPy is absent, which it needs."""
+    made = subprocess.run([sys.executable, "-m", "rollbem._stubs"], capture_output=True, cwd=HERE,
+                          env={**os.environ, "PYTHONPATH": str(HERE), "PYTHONDONTWRITEBYTECODE": "1"})
+    return made.stdout if made.returncode == 0 else b""
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files = {name: path.read_bytes() for name, path in _files(HERE, ["rollbem"])}
     files["rollbem/_version.py"] = f'VERSION = "{VERSION}"\n'.encode()
     files["rollbem/librollbem.so"] = _library()
+    stubs = _stubs()
+    if stubs:
+        files["rollbem/__init__.pyi"] = stubs
     return _pack_wheel(wheel_directory, files)
 
 

@@ -77,9 +77,9 @@ static void what_was_refused_is_not_solved(void **state)
     for (int k = 0; k < 4; k++)
         assert_true(rb_api_set(a, wrong[k][0], wrong[k][1]) < 0);
     assert_true(rb_api_solve(a) < 0);
-    assert_string_equal(rb_api_message(a), "--load: expected a number > 0, got '2,5'");
+    assert_string_equal(rb_api_message(a), "--load: expected a number with a decimal point, 2.5; got '2,5'");
     assert_true(rb_api_curve(a, 0.0, 1.0, 3) < 0);
-    assert_string_equal(rb_api_message(a), "--load: expected a number > 0, got '2,5'");
+    assert_string_equal(rb_api_message(a), "--load: expected a number with a decimal point, 2.5; got '2,5'");
     assert_true(isnan(rb_api_number(a, "normal_load")));
     assert_int_equal(rb_api_set(a, "load", "100"), RB_OK);
     assert_true(rb_api_solve(a) < 0);
@@ -958,6 +958,35 @@ static void short_memory_is_reported(void **state)
     }
 }
 
+/* Archard: K P per slid length, whatever the shape; the pressure flattens. */
+static void wear(void **state)
+{
+    int rows = 0, columns = 0, n = 0;
+    (void)state;
+    rb_api *a = rb_api_create_for("wear");
+    rb_api_set(a, "support", "halfplane");
+    rb_api_set(a, "similar", "yes");
+    rb_api_set(a, "gap", "parabola");
+    rb_api_set(a, "load", "200");
+    assert_int_equal(rb_api_wear(a, "archard", 1e-10, 0.0, 1e6, NAN, 5, 8), RB_OK);
+    const double *worn = rb_api_array(a, "wear.worn", &rows, &columns);
+    assert_int_equal(rows, 6);
+    CHECK_REL(worn[5], 1e-10 * 200.0 * 1e6, 1e-9, "K P s");
+    assert_non_null(rb_api_array(a, "wear.profile.x", &n, &columns));
+    assert_non_null(rb_api_array(a, "wear.profile.depth", &rows, &columns));
+    assert_int_equal(rows, n);
+    assert_null(rb_api_array(a, "wear.worn_b", &rows, &columns));
+    assert_true(rb_api_wear(a, "abrasion", 1e-10, 0.0, 1e6, NAN, 5, 8) < 0);
+    assert_non_null(strstr(rb_api_message(a), "archard or dissipation"));
+    assert_true(rb_api_wear(a, "archard", 1e-10, 0.0, 1e6, 10.0, 5, 8) < 0);
+    assert_non_null(strstr(rb_api_message(a), "exclude each other"));
+    assert_true(rb_api_wear(a, "archard", 1e-10, 0.0, NAN, NAN, 5, 8) < 0);
+    assert_null(rb_api_array(a, "wear.worn", &rows, &columns)); /* refused: nothing old */
+    rb_api_set(a, "load", "1,5");
+    assert_true(rb_api_wear(a, "archard", 1e-10, 0.0, 1e6, NAN, 5, 8) < 0);
+    rb_api_free(a);
+}
+
 /* A crack by names gives what the program does; units are the handle's. */
 static void cracks(void **state)
 {
@@ -1069,6 +1098,7 @@ int main(void)
         cmocka_unit_test(arrays_of_every_name_fit),
         cmocka_unit_test(matrices_are_at_hand_or_refused),
         cmocka_unit_test(a_stopped_run_is_interrupted),
+        cmocka_unit_test(wear),
         cmocka_unit_test(cracks),
         cmocka_unit_test(short_memory_is_reported),
     };

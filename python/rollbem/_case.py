@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import inspect
+import io
 import itertools
 import keyword
 import os
@@ -152,6 +154,29 @@ class _Named:
     def columns(self) -> dict:
         """All arrays by name, as ``pandas.DataFrame(...)`` takes them."""
         return dict(self._arrays)
+
+    def to_pandas(self) -> Any:
+        """The columns as a ``pandas.DataFrame``; ``attrs["units"]`` has their units."""
+        import pandas
+
+        columns = self.columns()
+        frame = pandas.DataFrame({name: np.ravel(values) for name, values in columns.items()})
+        known = {name: row.unit for table in RESULTS.values() for name, row in table.items()}
+        frame.attrs["units"] = {name: known[name] for name in columns if known.get(name) not in (None, "", "1")}
+        return frame
+
+    def _repr_html_(self) -> str:
+        """In notebooks: the picture under what it is."""
+        text = f"<pre>{html.escape(repr(self))}</pre>"
+        try:
+            figure = self.plot()
+        except (ImportError, ValueError, AttributeError):  # no matplotlib, or nothing to draw
+            return text
+        drawn = io.StringIO()
+        figure.savefig(drawn, format="svg", bbox_inches="tight")
+        picture = drawn.getvalue()
+        pictures.close(figure)
+        return text + picture[picture.index("<svg"):]
 
 
 class Solution(_Named):
@@ -304,6 +329,14 @@ class History(_Named):
     ``solution`` is the last step's.
     """
 
+    solution: Solution
+    errors: dict
+    half_width: float
+    x: Array
+    p: Array
+    q: Array
+    zone: NDArray[np.int_]
+
     def __init__(self, solution: Solution) -> None:
         handle = solution._handle
         self.solution = solution
@@ -324,6 +357,14 @@ class History(_Named):
 
 class Curve(_Named):
     """A creep curve: arrays with an entry per creepage; ``free_creepage``, ``half_width``."""
+
+    case: Case
+    over: str
+    errors: dict
+    mu: Value
+    carter_holds: bool
+    free_creepage: float
+    half_width: float
 
     def __init__(self, case: Case, handle: Handle, over: str) -> None:
         self.case, self.over = case, over
@@ -355,6 +396,9 @@ class Stress(_Named):
     ``orthogonal_shear`` and ``tension``.
     """
 
+    solution: Solution
+    maxima: "dict[str, Extremum]"
+
     def __init__(self, solution: Solution, maxima: dict) -> None:
         # copied: the next stress of the same solution is made in the same memory
         found = solution._live().arrays("stress", "stress.", copied=True)
@@ -372,11 +416,38 @@ class Stress(_Named):
                 f"{largest.value:.6g} MPa at ({largest.x:.4g}, {largest.y:.4g}) mm>")
 
 
+class Wear(_Named):
+    """Steps of wear as arrays with an entry per step, the first before anything is worn.
+
+    ``x`` and ``depth`` are what is worn off A at the end.
+    """
+
+    case: Case
+    x: Optional[Array]
+    depth: Optional[Array]
+
+    def __init__(self, case: Case, handle: Handle) -> None:
+        self.case = case
+        self._arrays = handle.arrays("wear", "wear.")
+        self._numbers = {}
+        self.x, self.depth = (handle.array(f"wear.profile.{name}") for name in ("x", "depth"))
+
+    def plot(self, figure: Any = None) -> Any:
+        """Worn volume over the way, and the profile at the end.  Returns the figure."""
+        return pictures.wear(self, figure)
+
+    def __repr__(self) -> str:
+        return f"<Wear: {len(self.way) - 1} steps; worn {self.worn[-1]:.6g} mm2, deepest {self.max_depth[-1]:.4g} mm>"
+
+
 class Sweep(_Named):
     """A study: an array per result, with an axis per varied option, in the order given.
 
     ``axes`` holds the values of each; ``status`` is 0 where a case was solved.
     """
+
+    axes: "dict[str, Array]"
+    status: Array
 
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
@@ -486,6 +557,28 @@ def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tu
     return Stress(solution, maxima)
 
 
+def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float, slide: Optional[float] = None,
+         cycles: Optional[float] = None, law: str = "archard", share: float = 0.0, steps: int = 20,
+         quarter: int = 8, **options: Any) -> Wear:
+    """Wears A, and B by its ``share``, as ``rollbem wear`` does.
+
+    ``coefficient`` [1/MPa] is the worn volume per load and way (or per work: law="dissipation"). A
+    slides over B by ``slide`` [mm], or it frets (static) or rolls (steady) for so many ``cycles``.
+    """
+    if (slide is None) == (cycles is None):
+        raise InvalidInput("wear: expected slide= or cycles=, one of them")
+    whole = _case(case, options)
+    handle = whole.handle("wear")
+    way = [float("nan") if value is None else _values.number(name, value)
+           for name, value in (("slide", slide), ("cycles", cycles))]
+    status = handle.run("rb_api_wear", _values.word("law", law, "archard or dissipation"),
+                        _values.number("coefficient", coefficient), _values.number("share", share), *way,
+                        _values.whole("steps", steps, 1), _values.whole("quarter", quarter, 1))
+    if status < SOLVED:
+        raise handle.error(status)
+    return _kept(Wear(whole, handle), handle, status)
+
+
 def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
@@ -512,6 +605,11 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **
 
 class Answer:
     """What a solver of :func:`lcp` or :func:`friction` gave."""
+
+    status: str
+    solver: str
+    iterations: int
+    residual: float
 
     def __init__(self, handle: Handle, **arrays: Array) -> None:
         self.status = handle.word("status")
@@ -615,7 +713,7 @@ def _document() -> None:
     keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None,
                                   annotation=Optional[named.get(option.kind, str)])
                 for name, option in OPTIONS.items()]
-    for function in (solve, curve, history, stress, sweep, Case):
+    for function in (solve, curve, history, stress, sweep, wear, Case):
         target = function.__init__ if function is Case else function
         own = [p for p in inspect.signature(target).parameters.values()
                if p.kind is not inspect.Parameter.VAR_KEYWORD and p.name != "self"]
@@ -624,7 +722,7 @@ def _document() -> None:
             target).return_annotation)
         function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions of a case\n{options}\n"
     for kind, tables in ((Solution, ("number", "column")), (History, ("step",)), (Curve, ("point",)),
-                         (Stress, ("stress",)), (Sweep, ("number",))):
+                         (Stress, ("stress",)), (Sweep, ("number",)), (Wear, ("wear",))):
         text = "\n".join(line for table in tables for line in _results_text(table))
         kind.__doc__ = f"{inspect.getdoc(kind)}\n\n{text}\n"
 

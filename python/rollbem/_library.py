@@ -56,6 +56,7 @@ FUNCTIONS = {
     "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
     "rb_api_friction": (_Int, _Handle, _Int, _Int, _Doubles, _Doubles, _Doubles, _Text, _Double, _Int),
     "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
+    "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
     "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
 }
 
@@ -92,6 +93,7 @@ def _load() -> ctypes.CDLL:
 
 
 lib = _load()
+LIBRARY = os.path.abspath(_find())
 VERSION = lib.rb_version().decode()
 
 # ---- Errors -------------------------------------------------------------------------------
@@ -178,7 +180,7 @@ _all_options = _rows(Option, lib.rb_api_option)
 GROUPS = {option.name: option.help for option in _all_options if option.kind == "group"}
 OPTIONS = {_keyword(option.name): option for option in _all_options if option.kind != "group"}
 RESULTS = {table: {result.name: result for result in _rows(Result, lib.rb_api_result, table.encode())}
-           for table in ("number", "column", "step", "point", "patch", "stress")}
+           for table in ("number", "column", "step", "point", "patch", "wear", "stress")}
 
 # ---- Messages -----------------------------------------------------------------------------
 

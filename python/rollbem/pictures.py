@@ -10,7 +10,7 @@ import numpy as np
 from ._library import OPTIONS, RESULTS, InvalidInput
 
 if TYPE_CHECKING:
-    from ._case import Curve, History, Solution, Stress, Sweep
+    from ._case import Curve, History, Solution, Stress, Sweep, Wear
 
 PRESSURE, FRICTION, BOUND, SLIP, CARTER = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483", "#1e8449"
 CURVES = ["#1f4e79", "#c0392b", "#b9770e", "#6c3483", "#117864", "#5d6d7e", "#7b241c", "#2e86c1"]
@@ -134,6 +134,27 @@ def history(of: "History", figure: Any = None) -> Any:
     lower.set_xlabel("rolled distance / a" if rolls else "increment")
     lower.legend()
     return figure
+
+
+def wear(of: "Wear", figure: Any = None) -> Any:
+    """What is worn off over the way (the cycles), and the profile at the end."""
+    figure, (upper, lower) = _figure(figure, 2)
+    upper.plot(of.way, of.worn, color=PRESSURE)
+    upper.set_ylabel("worn / mm²")
+    upper.set_xlabel("way / mm, or cycles")
+    if of.x is not None:
+        lower.plot(of.x, np.asarray(of.depth) * 1e3, color=FRICTION)
+        lower.invert_yaxis()
+    lower.set_ylabel("depth / µm")
+    lower.set_xlabel("x / mm")
+    return figure
+
+
+def close(figure: Any) -> None:
+    """Frees a figure that nobody shows."""
+    from matplotlib import pyplot
+
+    pyplot.close(figure)
 
 
 def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:

@@ -155,6 +155,7 @@ static void forget(rb_api *a, int same_bodies)
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
     rb_case_derivatives_free(&a->derivatives);
+    rb_rolling_wear_history_free(&a->wear);
     rb_case_result_free(&a->result);
     memset(&a->lcp, 0, sizeof a->lcp);
     memset(&a->result, 0, sizeof a->result);
@@ -166,11 +167,9 @@ rb_api *rb_api_create_for(const char *purpose)
     static const struct {
         const char *name;
         rb_case_purpose purpose;
-    } known[] = {{"solve", RB_CASE_SINGLE},
-                 {"curve", RB_CASE_CURVE},
-                 {"stress", RB_CASE_STRESS},
-                 {"crack", RB_CASE_CRACK},
-                 {"sweep", RB_CASE_STUDY}};
+    } known[] = {{"solve", RB_CASE_SINGLE},  {"curve", RB_CASE_CURVE},
+                 {"stress", RB_CASE_STRESS}, {"crack", RB_CASE_CRACK},
+                 {"wear", RB_CASE_WEAR},     {"sweep", RB_CASE_STUDY}};
     rb_api *a = calloc(1, sizeof *a);
 
     gsl_set_error_handler_off(); /* GSL's own one ends the program */
@@ -599,6 +598,7 @@ static api_array *series_array(rb_api *a, const char *name)
         {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
         {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
         {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
+        {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n},
         {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
     size_t n, k = 0;
     while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
@@ -1118,6 +1118,53 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
     if (s == RB_OK)
         s = keep_faces(a, &result);
     rb_case_crack_free(&result);
+    return rb_api_ended(a, s);
+}
+
+static int stop_wear(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
+                     int steps, void *context)
+{
+    (void)s;
+    (void)h;
+    (void)step;
+    (void)steps;
+    return ((const rb_api *)context)->stopped;
+}
+
+int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
+                double slide, double cycles, int steps, int quarter)
+{
+    const rb_rolling_wear how = {.law = strcmp(law, "archard") == 0 ? RB_WEAR_ARCHARD
+                                                                    : RB_WEAR_DISSIPATION,
+                                 .coefficient = coefficient,
+                                 .share = share,
+                                 .slides = !isnan(slide),
+                                 .way = isnan(slide) ? cycles : slide,
+                                 .steps = steps,
+                                 .increments = quarter};
+    rb_rolling_solution last = {0};
+    begin(a);
+    rb_api_forget_arrays(a, "wear.");
+    rb_rolling_wear_history_free(&a->wear);
+    rb_status s = check_refusals(a, &a->why);
+    if (s == RB_OK && how.law == RB_WEAR_DISSIPATION && strcmp(law, "dissipation") != 0)
+        s = rb_fail(&a->why, RB_EINVAL,
+                    "wear law: expected archard or dissipation, got '%.100s'", law);
+    if (s == RB_OK && !isnan(slide) && !isnan(cycles))
+        s = rb_fail(&a->why, RB_EINVAL, "slide and cycles exclude each other");
+    if (s == RB_OK)
+        s = rb_case_resolve(a->words, &a->why);
+    rb_api_call_begins();
+    if (s == RB_OK)
+        s = rb_rolling_wear_run(&rb_case_resolved(a->words)->rc, &how,
+                                &(rb_rolling_wear_observer){stop_wear, a}, &a->wear,
+                                &last, &a->why);
+    rb_api_call_ends();
+    if (s >= 0 && last.worn &&
+        (!rb_api_copy_array(a, "wear.profile.x", last.n, 1, last.x) ||
+         !rb_api_copy_array(a, "wear.profile.depth", last.n, 1, last.worn)))
+        s = RB_ENOMEM;
+    rb_rolling_solution_free(&last);
     return rb_api_ended(a, s);
 }
 

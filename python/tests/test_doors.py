@@ -1,0 +1,162 @@
+"""Doors besides solve: wear, the program's own commands, tables, notebooks, types for editors."""
+
+import ast
+import importlib
+import json
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import PROGRAM, ROOT, words
+
+import rollbem
+
+ROLLED = dict(support="halfplane", similar=True, formulation="steady", load=500.0, creep_ratio=0.5)
+PRESSED = dict(support="halfplane", similar=True, gap="parabola", load=200.0, contact_elements=40)
+
+
+def module(name):
+    return pytest.importorskip(name)
+
+
+@pytest.fixture(autouse=True)
+def program(monkeypatch):
+    monkeypatch.setenv("ROLLBEM_PROGRAM", PROGRAM)
+
+
+# ---- Wear ---------------------------------------------------------------------------------
+
+
+def test_wear_is_that_of_the_program():
+    found = rollbem.wear(coefficient=1e-10, slide=1e6, steps=5, share=0.25, **PRESSED)
+    command = [PROGRAM, "wear", *words(PRESSED), "--wear-coefficient", "1e-10", "--slide", "1e6", "--wear-steps", "5",
+               "--wear-share", "0.25", "--json", "--quiet"]
+    printed = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)["wear"]
+    for name, column in found.columns().items():
+        key = next(k for k in printed if k == name or k.startswith(f"{name}_mm") or k.startswith(f"{name}_N")
+                   or k.startswith(f"{name}_MPa") or k.startswith(f"{name}_cycles"))
+        assert np.allclose(column, printed[key], rtol=1e-12, atol=0.0), name
+    # Archard: K P per slid length, of which A loses three quarters
+    assert found.worn[-1] == pytest.approx(0.75 * 1e-10 * 200.0 * 1e6, rel=1e-9)
+    assert len(found.x) == len(found.depth) and max(found.depth) == pytest.approx(found.max_depth[-1])
+    assert "5 steps" in repr(found)
+
+
+def test_wear_refuses_in_keywords():
+    for wrong, said in ((dict(), "slide= or cycles="), (dict(slide=1.0, cycles=2.0), "slide= or cycles="),
+                        (dict(slide=1.0, law="abrasion"), "archard or dissipation"),
+                        (dict(slide="long"), "slide=: expected a number"),
+                        (dict(slide=1.0, steps=0), "steps=: expected a whole number")):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            rollbem.wear(coefficient=1e-10, **wrong, **PRESSED)
+
+
+# ---- The program's commands ---------------------------------------------------------------
+
+
+def test_check_finds_a_changed_number(tmp_path):
+    file = tmp_path / "result.json"
+    subprocess.run([PROGRAM, *words(ROLLED), "--json", "--quiet", "--output", str(file)], check=True)
+    found = rollbem.check(file)
+    assert found and found.valid and "numbers computed again" in found.findings[0]
+    result = json.loads(file.read_text())
+    result["summary"]["tangential_load"] *= 1.0001
+    file.write_text(json.dumps(result))
+    found = rollbem.check(file)
+    assert not found and "tangential_load" in " ".join(found.findings) and "violated" in repr(found)
+    with pytest.raises(rollbem.MissingFile):
+        rollbem.check(tmp_path / "nowhere.json")
+    with pytest.raises(rollbem.InvalidInput):
+        rollbem.check(ROOT / "LICENSE")
+    with pytest.raises(rollbem.InvalidInput, match="file=: expected the name of a file"):
+        rollbem.check(3)
+
+
+def test_contact_runs_the_cases_of_a_file(tmp_path):
+    file = tmp_path / "carter.inp"
+    shutil.copy(ROOT / "tests/fuzz/contact/steady", file)
+    cases = rollbem.contact(file, tractions=True)
+    assert cases[0]["status"] == "solved" and "1 of 1 solved" in repr(cases)
+    assert len(cases[0]["table"]["x_mm"]) == cases[0]["NPOT"]
+
+
+def test_verify_gives_every_reference():
+    found = rollbem.verify()
+    printed = subprocess.run([PROGRAM, "verify"], capture_output=True, text=True, check=True).stdout
+    assert len(found) == sum("wanted" in line for line in printed.splitlines()) > 100
+    assert found and all(row.error <= row.bound for row in found)
+    assert "<table>" in found._repr_html_()
+
+
+def test_examples_have_names_and_whole_sentences():
+    found = rollbem.examples()
+    assert {"carter", "rail", "hertz"} <= set(found)
+    assert all(text.rstrip().endswith((".", ")")) or len(text) > 60 for text in found.values())
+
+
+def test_without_the_program_the_line_says_so(monkeypatch, tmp_path):
+    monkeypatch.delenv("ROLLBEM_PROGRAM")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(importlib.import_module("rollbem._program"), "LIBRARY", str(tmp_path / "librollbem.so"))
+    with pytest.raises(rollbem.MissingFile, match="ROLLBEM_PROGRAM"):
+        rollbem.verify()
+
+
+# ---- Tables, notebooks, types -------------------------------------------------------------
+
+
+def test_tables_for_pandas():
+    module("pandas")
+    frame = rollbem.solve(**ROLLED).to_pandas()
+    assert {"x", "p", "q", "zone"} <= set(frame.columns) and frame.attrs["units"]["p"] == "MPa"
+    study = rollbem.sweep(mu=[0.1, 0.3], creep_ratio=[0.2, 0.4, 0.6],
+                          **{k: v for k, v in ROLLED.items() if k != "creep_ratio"}).to_pandas()
+    assert len(study) == 6 and list(study["mu"]) == [0.1] * 3 + [0.3] * 3
+    stress = rollbem.stress(grid=(5, 3), **ROLLED).to_pandas()
+    assert len(stress) == 15 and {"x", "y", "von_mises"} <= set(stress.columns)
+    wear = rollbem.wear(coefficient=1e-10, slide=1e6, steps=3, **PRESSED).to_pandas()
+    assert len(wear) == 4 and wear["worn"].is_monotonic_increasing
+
+
+def test_notebooks_show_pictures():
+    module("matplotlib")
+    from matplotlib import pyplot
+
+    results = [rollbem.solve(**ROLLED), rollbem.curve(points=5, **{k: v for k, v in ROLLED.items() if k != "creep_ratio"}),
+               rollbem.stress(grid=(9, 7), **ROLLED), rollbem.wear(coefficient=1e-10, slide=1e6, steps=3, **PRESSED),
+               rollbem.sweep(mu=[0.1, 0.3], **ROLLED), rollbem.history({"distance": [0, 1], "creep_ratio": [0, 0.4]},
+                                                                     support="halfplane", load=500.0, steps=4)]
+    for result in results:
+        shown = result._repr_html_()
+        assert "<svg" in shown and type(result).__name__ in shown
+    assert pyplot.get_fignums() == []  # nothing is left open
+    assert "<pre>" in rollbem.stress(points=[[0.0, 0.5]], **ROLLED)._repr_html_()  # no picture of points
+
+
+def test_a_notebook_runs_through():
+    nbformat, nbclient = module("nbformat"), module("nbclient")
+    module("ipykernel"), module("matplotlib"), module("pandas")
+    cells = ["import sys; sys.path.insert(0, %r)\nimport rollbem" % str(ROOT / "python"),
+             "s = rollbem.solve(support='halfplane', similar=True, formulation='steady', load=500, creep_ratio=.4)\ns",
+             "s.to_pandas().head()", "rollbem.curve(points=5, support='halfplane', similar=True, load=500)"]
+    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    nbclient.NotebookClient(book, timeout=120, kernel_name="python3",
+                            resources={"metadata": {"path": str(ROOT)}}).execute()
+    shown = [output["data"] for cell in book.cells for output in cell.outputs if "data" in output]
+    assert "<svg" in shown[0]["text/html"] and "-0.64" not in shown[1]["text/plain"] and "<svg" in shown[2]["text/html"]
+
+
+def test_types_for_editors():
+    stub = subprocess.run([sys.executable, "-m", "rollbem._stubs"], cwd=ROOT / "python", capture_output=True,
+                          text=True, check=True).stdout
+    tree = ast.parse(stub)
+    names = {node.name for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
+    assert {name for name in rollbem.__all__ if name[0].islower() and name != "pictures"} <= names
+    solve = next(node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "solve")
+    assert {argument.arg for argument in solve.args.kwonlyargs} >= set(rollbem.OPTIONS)
+    solution = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == "Solution")
+    fields = {node.target.id for node in solution.body if isinstance(node, ast.AnnAssign)}
+    assert {"p", "q", "normal_load", "yield_"} <= fields
+    assert "Literal['arc', 'hub', 'halfplane']" in stub
