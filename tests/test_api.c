@@ -77,9 +77,11 @@ static void what_was_refused_is_not_solved(void **state)
     for (int k = 0; k < 4; k++)
         assert_true(rb_api_set(a, wrong[k][0], wrong[k][1]) < 0);
     assert_true(rb_api_solve(a) < 0);
-    assert_string_equal(rb_api_message(a), "--load: expected a number with a decimal point, 2.5; got '2,5'");
+    assert_string_equal(rb_api_message(a),
+                        "--load: expected a number with a decimal point, 2.5; got '2,5'");
     assert_true(rb_api_curve(a, 0.0, 1.0, 3) < 0);
-    assert_string_equal(rb_api_message(a), "--load: expected a number with a decimal point, 2.5; got '2,5'");
+    assert_string_equal(rb_api_message(a),
+                        "--load: expected a number with a decimal point, 2.5; got '2,5'");
     assert_true(isnan(rb_api_number(a, "normal_load")));
     assert_int_equal(rb_api_set(a, "load", "100"), RB_OK);
     assert_true(rb_api_solve(a) < 0);

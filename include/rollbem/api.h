@@ -25,7 +25,8 @@ typedef struct rb_api rb_api;
 /* A case with the default options, to be solved.  NULL: no memory. */
 rb_api *rb_api_create(void);
 /* For the purpose of a command: "solve", "curve", "stress", "crack", "wear" or "sweep",
- * which differ in what they refuse and in some defaults.  NULL: another word, or no memory. */
+ * which differ in what they refuse and in some defaults.  NULL: another word, or no
+ * memory. */
 rb_api *rb_api_create_for(const char *purpose);
 void rb_api_free(rb_api *a);
 
@@ -153,9 +154,10 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth);
 /* Passes the contact of a handle for "crack" over a crack in body B, with n options of
  * `rollbem crack` by their names and texts ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
-/* Wears the case of a handle for "wear" as `rollbem wear` does: law "archard" or "dissipation", coefficient K [1/MPa], share of B; A slides by `slide` [mm]
- * or, where that is NAN, frets or rolls for so many `cycles`; in so many steps, fretting
- * with `quarter` increments in a quarter of a cycle (rollbem/rolling.h). */
+/* Wears the case of a handle for "wear" as `rollbem wear` does: law "archard" or
+ * "dissipation", coefficient K [1/MPa], share of B; A slides by `slide` [mm] or, where
+ * that is NAN, frets or rolls for so many `cycles`; in so many steps, fretting with
+ * `quarter` increments in a quarter of a cycle (rollbem/rolling.h). */
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
                 double slide, double cycles, int steps, int quarter);
 /* Derivatives of every number and column of the solution with respect to every number of
