@@ -2,8 +2,10 @@
  * with memory, cone solvers. The page's ranges stay below the sizes that would need
  * them; asked for all the same, they refuse. */
 #include "api/internal.h"
+#include "bem/given.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
+#include "bem/skeleton.h"
 #include "study/internal.h"
 #include "rollbem/blas.h"
 
@@ -63,6 +65,64 @@ rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X
 void rb_hierarchical_free(rb_hierarchical *h)
 {
     (void)h;
+}
+
+/* Long boundaries alone, which have a hierarchical matrix. */
+rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                          const double *unit, double tolerance, rb_given **given)
+{
+    (void)mesh;
+    (void)material;
+    (void)unit;
+    (void)tolerance;
+    *given = NULL;
+    return RB_EINVAL;
+}
+
+rb_status rb_given_multiply(const rb_given *given, int count, const int *element,
+                            int columns, const double *value, double *X)
+{
+    (void)given;
+    (void)count;
+    (void)element;
+    (void)columns;
+    (void)value;
+    (void)X;
+    return RB_EINVAL;
+}
+
+void rb_given_free(rb_given *given)
+{
+    (void)given;
+}
+
+rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
+{
+    (void)rows;
+    (void)columns;
+    *s = (rb_skeleton){0};
+    return RB_EINVAL;
+}
+
+rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
+{
+    (void)s;
+    (void)tolerance;
+    return RB_EINVAL;
+}
+
+rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T)
+{
+    (void)s;
+    (void)kept;
+    (void)order;
+    (void)T;
+    return RB_EINVAL;
+}
+
+void rb_skeleton_free(rb_skeleton *s)
+{
+    (void)s;
 }
 
 rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
