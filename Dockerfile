@@ -10,7 +10,7 @@ RUN scripts/packages --install && make MPI= -j"$(nproc)" && \
 FROM debian:12-slim
 RUN apt-get update && apt-get install -y --no-install-recommends libopenblas0-pthread liblapacke libgsl27 \
     libinih1 libjansson4 libhdf5-103-1 libfftw3-double3 libsuitesparseconfig5 libumfpack5 libcholmod3 \
-    libspqr2 libgomp1 gnuplot-nox python3-numpy python3-matplotlib && rm -rf /var/lib/apt/lists/*
+    libspqr2 libnlopt0 libgomp1 gnuplot-nox python3-numpy python3-matplotlib && rm -rf /var/lib/apt/lists/*
 COPY --from=build /installed /
 ENV PYTHONPATH=/usr/local/lib/python3/dist-packages
 RUN ldconfig && useradd --create-home user

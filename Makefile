@@ -10,7 +10,9 @@ STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
 OPENMP := $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o /dev/null - 2>/dev/null && echo -fopenmp || echo -Wno-unknown-pragmas)
 # Debian's name for HDF5, or everybody else's
 HDF5 := $(shell pkg-config --exists hdf5-serial 2>/dev/null && echo hdf5-serial || echo hdf5)
-PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3
+# rollbem design: where NLopt is; make NLOPT= goes without
+NLOPT := $(shell pkg-config --exists nlopt 2>/dev/null && echo nlopt)
+PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3 $(NLOPT)
 # SuiteSparse 5 has no pkg-config file
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
@@ -20,14 +22,14 @@ LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)
 # a small case. OpenBLAS stays shared.  make ARCHIVES= takes none; where they want more than is named
 # here the shared ones are linked.
 LIBRARY_FOLDER := $(dir $(filter /%,$(shell $(CC) -print-file-name=libgsl.a)))
-ARCHIVED := lapacke gsl fftw3_threads fftw3 inih jansson sz aec z umfpack spqr cholmod amd colamd ccolamd camd suitesparseconfig
+ARCHIVED := lapacke gsl fftw3_threads fftw3 nlopt inih jansson sz aec z umfpack spqr cholmod amd colamd ccolamd camd suitesparseconfig
 HDF5_ARCHIVE := $(if $(filter hdf5-serial,$(HDF5)),$(wildcard $(patsubst -L%,%/libhdf5.a,$(shell pkg-config --libs-only-L $(HDF5)))))
 ARCHIVES := $(HDF5_ARCHIVE) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
 # SuiteSparse 5 has METIS in a library of its own
 METIS := $(if $(ARCHIVES),$(if $(LIBRARY_FOLDER),$(firstword $(wildcard $(LIBRARY_FOLDER)libmetis.so.5))))
 WITHOUT_ARCHIVES = $(filter-out $(if $(HDF5_ARCHIVE),-lhdf5) $(patsubst $(LIBRARY_FOLDER)lib%.a,-l%,$(ARCHIVES)),$(LDLIBS))
 PROGRAM_LIBS = -Wl,--start-group $(ARCHIVES) -Wl,--end-group -Wl,--as-needed $(METIS) $(WITHOUT_ARCHIVES)
-CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
+CPPFLAGS += $(OPENMP) -DRB_NLOPT=$(words $(NLOPT)) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without
 MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
 # Hardening: fortified calls of the C library, stack protectors, addresses that change with every

@@ -26,11 +26,12 @@ static const struct {
     {"study", " base blas bem lcp contact rolling closed_forms "},
     {"sensitivity", " base blas contact rolling sensitivity "},
     {"case", " base io contact crack rolling sensitivity case "},
+    {"design", " base rolling sensitivity case design "},
     {"api", " base blas sparse io lcp contact crack friction rolling closed_forms "
-            "sensitivity case api "},
+            "sensitivity case design api "},
     {"verify", " base bem crack rolling closed_forms verify "},
     {"report", " base blas sparse units bem lcp contact crack io friction fem rolling "
-               "closed_forms sensitivity case report "
+               "closed_forms sensitivity case design report "
                "report_fem "},
 };
 

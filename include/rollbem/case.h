@@ -301,6 +301,9 @@ rb_units rb_case_units(const rb_case *c, int by);
 /* Plain numbers of the set that were given, beside the case or in its file, become mm, N,
  * MPa in target, a struct like the set's. */
 void rb_case_store(const rb_case *c, const rb_option_set *set, void *target);
+/* Rows of the table of the gap, 0: it comes from none; x, gap: borrowed until c changes.
+ */
+int rb_case_gap_rows(const rb_case *c, const double **x, const double **gap);
 /* 1: a column of the history stands in the place of the option. */
 int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */

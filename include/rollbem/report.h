@@ -5,6 +5,7 @@
 #define ROLLBEM_REPORT_H
 
 #include "rollbem/case.h"
+#include "rollbem/design.h"
 #include "rollbem/rolling.h"
 
 #include <stdio.h>
@@ -458,6 +459,13 @@ typedef struct {
     const rb_case_data *data;
     rb_units units; /* that are shown */
 } rb_report_fit;
+
+/* ---- Designs ----------------------------------------------------------------------- */
+
+/* A row per variable, below comments with the result and the constraints. */
+rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units,
+                                 const char *command, const rb_report_style *style);
+void rb_report_json_design(struct json_t **root, const rb_design *d, rb_units units);
 
 /* parameters, residuals, fit (the curve and its band) and what belongs to them. */
 void rb_report_json_fit(struct json_t **root, const rb_report_fit *f);

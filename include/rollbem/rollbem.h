@@ -10,6 +10,7 @@
 #include "rollbem/closed_forms.h"
 #include "rollbem/contact.h"
 #include "rollbem/crack.h"
+#include "rollbem/design.h"
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"
 #include "rollbem/io.h"

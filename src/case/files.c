@@ -87,6 +87,17 @@ static rb_status read_over_x(const rb_case *c, case_table *t, const char *path,
     return RB_OK;
 }
 
+int rb_case_gap_rows(const rb_case *c, const double **x, const double **gap)
+{
+    const rb_io_table *t = &c->table[CASE_GAP].table;
+
+    if (c->resolved.rc.gap != RB_GAP_TABLE || !t->x)
+        return 0;
+    *x = t->x;
+    *gap = t->x + t->rows;
+    return t->rows;
+}
+
 static rb_status read_profile(rb_case *c, rb_message *why)
 {
     rb_resolved_case *resolved = &c->resolved;

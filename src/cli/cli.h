@@ -18,6 +18,7 @@
 
 int cli_solve(int argc, char **argv); /* the default command */
 int cli_curve(int argc, char **argv);
+int cli_design(int argc, char **argv);
 int cli_fit(int argc, char **argv);
 int cli_wear(int argc, char **argv);
 int cli_crack(int argc, char **argv);

@@ -16,6 +16,7 @@ static const cli_command commands[] = {
     {"sweep", cli_sweep,
      "parameter studies over all processors and, under mpirun, machines"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
+    {"design", cli_design, "least or largest of a result over numbers of a case"},
     {"fit", cli_fit, "numbers of a case fitted to a measured creep curve"},
     {"wear", cli_wear, "what sliding, fretting or rolling takes off"},
     {"crack", cli_crack, "stress intensities of a crack below the passing contact"},

@@ -1,0 +1,72 @@
+/* The least or the largest of a result over numbers of a case within bounds, under
+ * constraints on other results: sequential quadratic programming (NLopt's SLSQP) with the
+ * exact gradients of sensitivity.h.  Not part of the core: it needs NLopt. */
+#ifndef ROLLBEM_DESIGN_H
+#define ROLLBEM_DESIGN_H
+
+#include "rollbem/case.h"
+
+RB_PUBLIC_BEGIN
+
+enum { RB_DESIGN_CONSTRAINTS = 16 };
+
+/* 1: this library was built with NLopt. */
+int rb_design_available(void);
+
+typedef struct {
+    char name[40];
+    const char *unit;
+    double low, high; /* mm, N, MPa, as all here */
+    double start, value;
+} rb_design_variable;
+
+/* A result of a solution; NULL: the ripple of the pressure, which is the root mean square
+ * of what it has more or less than its mean over the span, of that mean. */
+typedef struct {
+    const rb_rolling_result *result;
+    int at_least; /* 1: >= bound, 0: <= bound */
+    double bound, value;
+} rb_design_constraint;
+
+typedef struct {
+    const rb_rolling_result *result; /* NULL: the ripple */
+    int largest;                     /* 1: largest, 0: least */
+    int n;
+    rb_design_variable *variable; /* n; owned */
+    int gap_from, gap_n;          /* those that are values of the table of the gap */
+    const double *gap_x;          /* where; borrowed from the case */
+    int constraints;
+    rb_design_constraint constraint[RB_DESIGN_CONSTRAINTS];
+    double span;         /* of the ripple: its half-width [length]; 0: all elements */
+    int most;            /* evaluations at most; 0: 200 */
+    double start, value; /* of the result */
+    int evaluations;
+    rb_status status;
+} rb_design;
+
+/* "radius=10:100,gap=-0.05:0.05": variables with their bounds in the units of the case;
+ * gap: every value of its table by as much.  d->variable: made.  RB_EINVAL: no number of
+ * the case that can be varied, or no bounds around it. */
+rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
+                              rb_message *why);
+/* "max_pressure<=400,tangential_load>=-50". */
+rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d,
+                                rb_message *why);
+/* A result that has derivatives, or "pressure_ripple". */
+rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why);
+
+/* Sees each evaluation; a value other than 0 ends the search. */
+typedef struct {
+    int (*step)(int evaluation, double value, const double *x, void *context);
+    void *context;
+} rb_design_observer;
+
+/* From the values of the case on.  RB_EINVAL: steps, error bars, no NLopt; RB_MAXITER,
+ * RB_INTERRUPTED: the best so far; RB_INACCURATE: constraints that cannot be met. */
+rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
+                          rb_design *d, rb_message *why);
+void rb_design_free(rb_design *d);
+
+RB_PUBLIC_END
+
+#endif

@@ -1,0 +1,565 @@
+/* Designs: a case as a function of some of its numbers, with its gradient, for NLopt. */
+#include "rollbem/design.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if RB_NLOPT
+#include <nlopt.h>
+#endif
+
+enum { EVALUATIONS = 200, PROFILES = 12 };
+/* Constraints may be missed by this part of their bounds. */
+static const double MISSED = 1e-6;
+
+int rb_design_available(void)
+{
+    return RB_NLOPT;
+}
+
+void rb_design_free(rb_design *d)
+{
+    free(d->variable);
+    d->variable = NULL;
+}
+
+/* ---- What is asked for ------------------------------------------------------------- */
+
+static const char ripple_[] = "pressure_ripple";
+
+static rb_status find_result(const char *name, const rb_rolling_result **result,
+                             rb_message *why)
+{
+    int is_column = 0;
+
+    *result = NULL;
+    if (strcmp(name, ripple_) == 0)
+        return RB_OK;
+    *result = rb_case_derivative_result(name, &is_column);
+    if (*result && !is_column)
+        return RB_OK;
+    rb_guess guess = {.word = name};
+    rb_guess_try(&guess, ripple_);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
+        if (rb_sensitivity_has(&rb_rolling_solution_scalars.row[k]))
+            rb_guess_try(&guess, rb_rolling_solution_scalars.row[k].name);
+    return rb_fail(why, RB_EINVAL, "design: '%.40s' is no result with derivatives%s",
+                   name, rb_guess_text(&guess, ""));
+}
+
+rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
+{
+    return find_result(name, &d->result, why);
+}
+
+rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d,
+                                rb_message *why)
+{
+    for (size_t n; text && *text; text += n + (text[n] == ',')) {
+        char word[120];
+        n = strcspn(text, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
+        char *sign = strpbrk(word, "<>");
+        if (!sign || d->constraints == RB_DESIGN_CONSTRAINTS)
+            return rb_fail(
+                why, RB_EINVAL,
+                "design: expected RESULT<=X or RESULT>=X, at most %d, got '%s'",
+                RB_DESIGN_CONSTRAINTS, word);
+        rb_design_constraint *k = &d->constraint[d->constraints++];
+        *k = (rb_design_constraint){.at_least = *sign == '>'};
+        const char *number = sign + 1 + (sign[1] == '=');
+        double x;
+        int plain;
+        *sign = '\0';
+        if (find_result(word, &k->result, why) != RB_OK)
+            return RB_EINVAL;
+        const char *unit = k->result && k->result->unit ? k->result->unit : "-";
+        if (rb_unit_read(number, unit, &x, &plain, why) != RB_OK)
+            return rb_fail(why, RB_EINVAL, "design: %s: expected a number, got '%.40s'",
+                           word, number);
+        k->bound =
+            plain ? rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, x) : x;
+    }
+    return RB_OK;
+}
+
+static rb_status read_bounds(const rb_case *c, const char *name, const char *unit,
+                             char *text, double bound[2], rb_message *why)
+{
+    char *colon = text ? strchr(text, ':') : NULL;
+    int plain;
+
+    if (colon)
+        *colon = '\0';
+    for (int k = 0; k < 2; k++) {
+        if (!colon ||
+            rb_unit_read(k ? colon + 1 : text, unit, &bound[k], &plain, why) != RB_OK)
+            return rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
+        if (plain)
+            bound[k] =
+                rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, bound[k]);
+    }
+    return bound[0] < bound[1]
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
+}
+
+static rb_status add_gap(const rb_case *c, const double bound[2], rb_design *d,
+                         rb_message *why)
+{
+    const double *gap;
+
+    d->gap_from = d->n;
+    d->gap_n = rb_case_gap_rows(c, &d->gap_x, &gap);
+    if (d->gap_n == 0)
+        return rb_fail(why, RB_EINVAL,
+                       "--over gap: needs a gap from a table (--gap FILE)");
+    rb_design_variable *all =
+        realloc(d->variable, (size_t)(d->n + d->gap_n + 1) * sizeof *all);
+    if (!all)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    d->variable = all;
+    for (int k = 0; k < d->gap_n; k++) {
+        rb_design_variable *v = &all[d->n++];
+        *v = (rb_design_variable){.unit = "mm",
+                                  .low = gap[k] + bound[0],
+                                  .high = gap[k] + bound[1],
+                                  .start = gap[k],
+                                  .value = gap[k]};
+        snprintf(v->name, sizeof v->name, "gap-%d", k + 1);
+    }
+    return RB_OK;
+}
+
+static rb_status add_number(const rb_case *c, const char *name, char *range, rb_design *d,
+                            rb_case_number *number, rb_message *why)
+{
+    rb_guess guess = {.word = name};
+    double bound[2];
+    int n, k = 0;
+    rb_status s = rb_case_numbers(c, number, &n, why);
+
+    for (; k < n && strcmp(number[k].name, name) != 0; k++)
+        rb_guess_try(&guess, number[k].name);
+    if (s == RB_OK && (k == n || number[k].entry > 0))
+        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s",
+                       name, rb_guess_text(&guess, ""));
+    if (s == RB_OK)
+        s = read_bounds(c, name, number[k].option->unit, range, bound, why);
+    if (s != RB_OK)
+        return s;
+    const double value = number[k].input.value;
+    if (!(bound[0] <= value && value <= bound[1]))
+        return rb_fail(why, RB_EINVAL,
+                       "--over: %s begins at %g, which is not within its bounds", name,
+                       value);
+    rb_design_variable *all = realloc(d->variable, (size_t)(d->n + 1) * sizeof *all);
+    if (!all)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    d->variable = all;
+    rb_design_variable *v = &all[d->n++];
+    *v = (rb_design_variable){.unit = number[k].option->unit,
+                              .low = bound[0],
+                              .high = bound[1],
+                              .start = value,
+                              .value = value};
+    snprintf(v->name, sizeof v->name, "%.39s", name);
+    return RB_OK;
+}
+
+rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
+                              rb_message *why)
+{
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    rb_status s = number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+
+    for (size_t n; text && *text && s == RB_OK; text += n + (text[n] == ',')) {
+        char word[120];
+        double bound[2];
+        n = strcspn(text, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
+        char *range = strchr(word, '=');
+        if (range)
+            *range++ = '\0';
+        for (int k = 0; k < d->n && s == RB_OK; k++)
+            if (strcmp(d->variable[k].name, word) == 0)
+                s = rb_fail(why, RB_EINVAL, "--over: %s stands there twice", word);
+        if (s == RB_OK && strcmp(word, "gap") == 0) {
+            s = read_bounds(c, word, "mm", range, bound, why);
+            if (s == RB_OK)
+                s = add_gap(c, bound, d, why);
+        } else if (s == RB_OK) {
+            s = add_number(c, word, range, d, number, why);
+        }
+    }
+    free(number);
+    return s == RB_OK && d->n == 0
+               ? rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B")
+               : s;
+}
+
+/* ---- The case as a function -------------------------------------------------------- */
+
+/* One evaluation: all functions (the result, then the constraints) and their gradients.
+ */
+typedef struct {
+    const rb_case *c;
+    rb_design *d;
+    const rb_design_observer *observer;
+    double *x;        /* n: where; owned, as all here */
+    double *value;    /* 1 + constraints */
+    double *gradient; /* (1 + constraints) x n, row by row */
+    double *best;     /* n: of the evaluation with the least value that meets all */
+    double best_value;
+    int known; /* 1: of x */
+    rb_rolling_profile *profile[PROFILES];
+    int profiles;
+    rb_status status;
+    rb_message *why;
+} problem;
+
+static void forget_profiles(problem *p, int but)
+{
+    while (p->profiles > but)
+        rb_rolling_profile_free(p->profile[--p->profiles]);
+}
+
+/* The gap with these values; entry `varied` (-1: none) has another one. */
+static rb_status set_profile(problem *p, const double *x, int varied, double value,
+                             rb_rolling_case *rc, rb_message *why)
+{
+    const rb_design *d = p->d;
+    double *gap = rb_alloc((size_t)d->gap_n, 1);
+    rb_status s = gap && p->profiles < PROFILES
+                      ? RB_OK
+                      : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+
+    for (int k = 0; k < d->gap_n && s == RB_OK; k++)
+        gap[k] = k == varied ? value : x[d->gap_from + k];
+    if (s == RB_OK)
+        s = rb_rolling_profile_create(d->gap_n, d->gap_x, gap, 0.0,
+                                      &p->profile[p->profiles], why);
+    if (s == RB_OK)
+        rc->profile = p->profile[p->profiles++];
+    free(gap);
+    return s;
+}
+
+typedef struct {
+    problem *p;
+    const rb_rolling_case *rc;         /* at x */
+    const rb_sensitivity_input *input; /* of a number; NULL: entry of the gap */
+    int entry;
+} variation;
+
+static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_message *why)
+{
+    const variation *v = context;
+
+    if (!v->input) {
+        *rc = *v->rc;
+        return set_profile(v->p, v->p->x, v->entry, value, rc, why);
+    }
+    const rb_status s = v->input->vary(v->input->context, value, rc, why);
+    if (s == RB_OK && v->p->d->gap_n > 0)
+        rc->profile = v->rc->profile;
+    return s;
+}
+
+/* Length of element i within the span. */
+static double weight_of(const rb_rolling_solution *s, double span, int i)
+{
+    return span == 0.0 || fabs(s->x[i]) < span ? s->h[i] : 0.0;
+}
+
+/* The ripple, and its derivative along p_rate (NULL: 0). */
+static double ripple(const rb_rolling_solution *s, double span, const double *p_rate,
+                     double *rate)
+{
+    double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double h = weight_of(s, span, i);
+        length += h;
+        mean += h * s->p[i];
+        mean_rate += p_rate ? h * p_rate[i] : 0.0;
+    }
+    mean /= length;
+    mean_rate /= length;
+    for (int i = 0; i < s->n; i++) {
+        const double off = s->p[i] / mean - 1.0, h = weight_of(s, span, i);
+        sum += h / length * off * off;
+        sum_rate += p_rate ? 2.0 * h / length * off *
+                                 (p_rate[i] - s->p[i] * mean_rate / mean) / mean
+                           : 0.0;
+    }
+    const double r = sqrt(sum);
+    *rate = r > 0.0 ? 0.5 * sum_rate / r : 0.0;
+    return r;
+}
+
+static const rb_rolling_result *function_of(const rb_design *d, int k)
+{
+    return k == 0 ? d->result : d->constraint[k - 1].result;
+}
+
+/* Values of all functions; along a derivative: their rates. */
+static void read_functions(const rb_design *d, const rb_rolling_solution *s,
+                           const rb_rolling_solution *along, double *f, int stride)
+{
+    for (int k = 0; k <= d->constraints; k++) {
+        const rb_rolling_result *r = function_of(d, k);
+        double rate, *to = &f[(size_t)k * (size_t)stride];
+        if (r)
+            *to = rb_rolling_number(r, along ? along : s);
+        else {
+            *to = ripple(s, d->span, along ? along->p : NULL, &rate);
+            if (along)
+                *to = rate;
+        }
+    }
+}
+
+static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_case *rc,
+                               const rb_rolling_model *model,
+                               const rb_rolling_solution *solution)
+{
+    const rb_design *d = p->d;
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    rb_sensitivity *s = NULL;
+    int numbers = 0;
+    rb_status status = number ? rb_case_numbers(at, number, &numbers, p->why) : RB_ENOMEM;
+
+    if (status == RB_OK)
+        status = rb_sensitivity_create(model, 1, &s, p->why);
+    for (int j = 0; j < d->n && status == RB_OK; j++) {
+        const rb_design_variable *v = &d->variable[j];
+        const int is_gap = j >= d->gap_from && j < d->gap_from + d->gap_n;
+        rb_sensitivity_derivative by;
+        variation varied = {.p = p, .rc = rc, .entry = j - d->gap_from};
+        rb_sensitivity_input input = {p->x[j], v->high - v->low, -INFINITY, INFINITY,
+                                      vary,    &varied};
+        for (int k = 0; k < numbers && !is_gap; k++)
+            if (strcmp(number[k].name, v->name) == 0) {
+                varied.input = &number[k].input;
+                input = number[k].input;
+                input.vary = vary;
+                input.context = &varied;
+            }
+        status = rb_sensitivity_differentiate(s, &input, &by, p->why);
+        if (status == RB_OK)
+            read_functions(d, solution, &by.value[by.has[0] ? 0 : 1], &p->gradient[j],
+                           d->n);
+        rb_sensitivity_derivative_free(&by);
+        forget_profiles(p, d->gap_n > 0 ? 1 : 0); /* the first one is that of x */
+    }
+    rb_sensitivity_free(s);
+    free(number);
+    return status;
+}
+
+/* 1: better than the best that meets all constraints. */
+static void keep_best(problem *p)
+{
+    rb_design *d = p->d;
+    const double f = d->largest ? -p->value[0] : p->value[0];
+    int meets = 1;
+
+    for (int k = 0; k < d->constraints; k++) {
+        const rb_design_constraint *c = &d->constraint[k];
+        const double over = (c->at_least ? -1.0 : 1.0) * (p->value[1 + k] - c->bound);
+        meets &= over <= MISSED * fmax(fabs(c->bound), 1e-300);
+    }
+    if (!meets || !(f < p->best_value))
+        return;
+    p->best_value = f;
+    memcpy(p->best, p->x, (size_t)d->n * sizeof *p->best);
+    d->value = p->value[0];
+    for (int k = 0; k < d->constraints; k++)
+        d->constraint[k].value = p->value[1 + k];
+}
+
+static rb_status evaluate(problem *p, const double *x)
+{
+    rb_design *d = p->d;
+    rb_case *at = rb_case_copy(p->c);
+    rb_rolling_model model = {.mesh = {.n = 0}};
+    rb_rolling_solution solution = {.n = 0};
+    rb_rolling_case rc;
+    rb_status s = at ? RB_OK : rb_fail(p->why, RB_ENOMEM, "out of memory for a case");
+
+    memcpy(p->x, x, (size_t)d->n * sizeof *x);
+    for (int j = 0; j < d->n && s == RB_OK; j++)
+        if (j < d->gap_from || j >= d->gap_from + d->gap_n)
+            s = rb_case_set_number(at, d->variable[j].name, x[j], p->why);
+    if (s == RB_OK)
+        s = rb_case_resolve(at, p->why);
+    if (s == RB_OK)
+        rc = rb_case_resolved(at)->rc;
+    if (s == RB_OK && d->gap_n > 0)
+        s = set_profile(p, x, -1, 0.0, &rc, p->why);
+    if (s == RB_OK)
+        s = rb_rolling_solve_model(&rc, &model, &solution, p->why);
+    if (s == RB_OK) {
+        read_functions(d, &solution, NULL, p->value, 1);
+        s = differentiate(p, at, &rc, &model, &solution);
+    }
+    if (s == RB_OK) {
+        if (d->evaluations++ == 0)
+            d->start = p->value[0];
+        keep_best(p);
+        if (p->observer && p->observer->step &&
+            p->observer->step(d->evaluations, p->value[0], x, p->observer->context))
+            s = rb_fail(p->why, RB_INTERRUPTED,
+                        "design: interrupted after %d evaluations", d->evaluations);
+    }
+    rb_rolling_solution_free(&solution);
+    rb_rolling_model_free(&model);
+    forget_profiles(p, 0);
+    rb_case_free(at);
+    return s;
+}
+
+/* ---- NLopt ------------------------------------------------------------------------- */
+
+#if RB_NLOPT
+
+/* Function k of the problem, as NLopt wants it; u: 0 ... 1 between the bounds. */
+typedef struct {
+    problem *p;
+    nlopt_opt opt;
+    int k;
+    double scale; /* f = scale (value - bound) */
+    double bound;
+} function;
+
+static double call(unsigned n, const double *u, double *gradient, void *context)
+{
+    function *f = context;
+    problem *p = f->p;
+    rb_design_variable *v = p->d->variable;
+    double *x = rb_alloc(n, 1);
+    int same = p->known;
+
+    if (!x)
+        p->status = RB_ENOMEM;
+    for (unsigned j = 0; j < n && x; j++) {
+        x[j] = v[j].low + u[j] * (v[j].high - v[j].low);
+        same = same && x[j] == p->x[j];
+    }
+    if (!same && p->status == RB_OK)
+        p->status = evaluate(p, x);
+    free(x);
+    p->known = p->status == RB_OK;
+    if (p->status != RB_OK) {
+        nlopt_force_stop(f->opt);
+        return HUGE_VAL;
+    }
+    for (unsigned j = 0; j < n && gradient; j++)
+        gradient[j] =
+            f->scale * p->gradient[(size_t)f->k * n + j] * (v[j].high - v[j].low);
+    return f->scale * (p->value[f->k] - f->bound);
+}
+
+static rb_status search(problem *p)
+{
+    rb_design *d = p->d;
+    function f[1 + RB_DESIGN_CONSTRAINTS];
+    double *u = rb_alloc((size_t)d->n, 1), least;
+    nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)d->n);
+
+    if (!u || !opt) {
+        free(u);
+        nlopt_destroy(opt);
+        return rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
+    }
+    for (int j = 0; j < d->n; j++)
+        u[j] = (d->variable[j].start - d->variable[j].low) /
+               (d->variable[j].high - d->variable[j].low);
+    for (int k = 0; k <= d->constraints; k++) {
+        const rb_design_constraint *c = k ? &d->constraint[k - 1] : NULL;
+        f[k] = (function){p, opt, k, d->largest ? -1.0 : 1.0, 0.0};
+        if (c) {
+            f[k].scale = (c->at_least ? -1.0 : 1.0) / fmax(fabs(c->bound), 1e-12);
+            f[k].bound = c->bound;
+            nlopt_add_inequality_constraint(opt, call, &f[k], 0.1 * MISSED);
+        }
+    }
+    nlopt_set_lower_bounds1(opt, 0.0);
+    nlopt_set_upper_bounds1(opt, 1.0);
+    nlopt_set_min_objective(opt, call, &f[0]);
+    nlopt_set_ftol_rel(opt, 1e-9);
+    nlopt_set_ftol_abs(opt, 1e-9);
+    nlopt_set_xtol_rel(opt, 1e-9);
+    nlopt_set_maxeval(opt, d->most > 0 ? d->most : EVALUATIONS);
+    p->status = evaluate(p, p->best); /* the start, for its size */
+    if (p->status == RB_OK) {
+        p->known = 1;
+        f[0].scale /=
+            fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
+        const nlopt_result r = nlopt_optimize(opt, u, &least);
+        if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
+            p->status =
+                rb_fail(p->why, RB_MAXITER, "design: not at rest after %d evaluations",
+                        d->evaluations);
+        else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
+            p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",
+                                nlopt_result_to_string(r));
+    }
+    nlopt_destroy(opt);
+    free(u);
+    return p->status;
+}
+
+#else
+
+static rb_status search(problem *p)
+{
+    return rb_fail(p->why, RB_EINVAL,
+                   "design: this rollbem was built without NLopt (libnlopt-dev)");
+}
+
+#endif
+
+rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
+                          rb_design *d, rb_message *why)
+{
+    const size_t n = (size_t)d->n, functions = 1 + (size_t)d->constraints;
+    problem p = {.c = c,
+                 .d = d,
+                 .observer = observer,
+                 .x = rb_alloc(n, 1),
+                 .value = rb_alloc(functions, 1),
+                 .gradient = rb_alloc(functions, n),
+                 .best = rb_alloc(n, 1),
+                 .best_value = INFINITY,
+                 .why = why};
+    rb_status s = RB_OK;
+
+    if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
+        s = rb_fail(
+            why, RB_EINVAL,
+            "design: of one step without error bars; this case is not such a one");
+    else if (!p.x || !p.value || !p.gradient || !p.best)
+        s = rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    d->evaluations = 0;
+    d->start = d->value = NAN;
+    for (int j = 0; j < d->n && p.best; j++)
+        p.best[j] = d->variable[j].start;
+    if (s == RB_OK)
+        s = search(&p);
+    for (int j = 0; j < d->n && p.best; j++)
+        d->variable[j].value = p.best[j];
+    if (s == RB_OK && !(p.best_value < INFINITY))
+        s = rb_fail(why, RB_INACCURATE,
+                    "design: no values within the bounds were found that meet all "
+                    "constraints");
+    d->status = s;
+    free(p.x);
+    free(p.value);
+    free(p.gradient);
+    free(p.best);
+    return s;
+}

@@ -1,0 +1,146 @@
+/* Designs: against Hertz's formulas, a punch whose pressure is uniform, active and loose
+ * constraints, what is refused. */
+#include "check.h"
+
+#include "rollbem/rollbem.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static rb_case *case_of(const char *const *word)
+{
+    rb_message why = {""};
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    assert_non_null(c);
+    for (int k = 0; word[k]; k += 2)
+        if (rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
+            fail_msg("%s", why.text);
+    if (rb_case_resolve(c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+static const char *const hertz[] = {"support", "halfplane", "similar", "yes", "load",
+                                    "500",     "mu",        "0",       "gap", "parabola",
+                                    "mesh",    "uniform",   NULL};
+
+static rb_status design(const rb_case *c, const char *result, const char *over,
+                        const char *subject, rb_design *d, rb_message *why)
+{
+    why->text[0] = '\0';
+    rb_status s = rb_design_objective(result, d, why);
+    if (s == RB_OK)
+        s = rb_design_variables(c, over, d, why);
+    if (s == RB_OK)
+        s = rb_design_constraints(c, subject, d, why);
+    return s == RB_OK ? rb_design_solve(c, NULL, d, why) : s;
+}
+
+/* p0 = sqrt(P E-star/(pi R)): the least one has the largest radius that a bound or a
+ * constraint leaves; the load is proportional to p0^2 R. */
+static void contacts_of_hertz(void **state)
+{
+    rb_message why;
+    rb_case_result r;
+    (void)state;
+    rb_case *c = case_of(hertz);
+    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
+    const double p0 = r.solution.max_pressure, a = r.solution.half_width;
+
+    rb_design bound = {.n = 0};
+    CHECK_STATUS(design(c, "max_pressure", "radius=20:200", NULL, &bound, &why), RB_OK);
+    CHECK_REL(bound.variable[0].value, 200.0, 1e-6, "the bound holds it");
+    CHECK_REL(bound.value, p0 * sqrt(50.0 / 200.0), 1e-6, "p0 by R");
+    rb_design_free(&bound);
+
+    rb_design wide = {.n = 0};
+    CHECK_STATUS(
+        design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &why),
+        RB_OK);
+    CHECK_REL(wide.variable[0].value, 50.0 * (1.2 / a) * (1.2 / a), 1e-5, "a by R");
+    CHECK_REL(wide.constraint[0].value, 1.2, 2e-6, "active");
+    rb_design_free(&wide);
+
+    rb_design heavy = {.n = 0, .largest = 1};
+    CHECK_STATUS(design(c, "normal_load", "radius=20:80,load=100:9000",
+                        "max_pressure<=600,half_width>=0.1", &heavy, &why),
+                 RB_OK);
+    CHECK_REL(heavy.value, 500.0 * 600.0 * 600.0 / (p0 * p0) * 80.0 / 50.0, 1e-5, "P");
+    assert_true(heavy.constraint[1].value > 0.1);
+    rb_design_free(&heavy);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
+/* The values of a table of the gap: pressure that is the same all over the span. */
+static void uniform_pressure(void **state)
+{
+    char path[] = "/tmp/rollbem-gap-XXXXXX";
+    rb_message why;
+    rb_design d = {.n = 0, .span = 5.0, .most = 900};
+    FILE *f = fdopen(mkstemp(path), "w");
+    (void)state;
+    fputs("x gap\n", f);
+    for (int i = 0; i < 65; i++) {
+        const double x = -8.0 + 0.25 * i;
+        fprintf(f, "%.6f %.8f\n", x, 1e-4 * x * x + 0.1 * fmax(fabs(x) - 5.0, 0.0));
+    }
+    fclose(f);
+    rb_case *c = case_of((const char *const[]){
+        "support", "halfplane", "similar", "yes", "load", "5000", "mu", "0", "gap", path,
+        "mesh", "uniform", "zone", "6", "contact-elements", "48", NULL});
+    CHECK_STATUS(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &why), RB_OK);
+    print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start,
+                  d.evaluations);
+    assert_int_equal(d.n, 65);
+    assert_true(d.start > 0.5);
+    CHECK_MAX(d.value, 1e-3, "ripple");
+    rb_design_free(&d);
+    rb_case_free(c);
+    unlink(path);
+}
+
+static void what_is_refused(void **state)
+{
+    static const struct {
+        const char *result, *over, *subject, *says;
+    } bad[] = {{"max_presure", "radius=1:2", NULL, "max_pressure"},
+               {"iterations", "radius=1:2", NULL, "no result"},
+               {"max_pressure", "", NULL, "--over"},
+               {"max_pressure", "radius", NULL, "radius=A:B"},
+               {"max_pressure", "radius=2:1", NULL, "A < B"},
+               {"max_pressure", "radius=100:200", NULL, "within"},
+               {"max_pressure", "radius=1:200,radius=1:200", NULL, "twice"},
+               {"max_pressure", "contact-elements=1:200", NULL, "no number"},
+               {"max_pressure", "gap=-1:1", NULL, "table"},
+               {"max_pressure", "radius=1:200", "half_width=3", "<="},
+               {"max_pressure", "radius=1:200", "half_width<=x", "x"},
+               {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
+    rb_message why;
+    (void)state;
+    rb_case *c = case_of(hertz);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_design d = {.n = 0};
+        const rb_status s =
+            design(c, bad[k].result, bad[k].over, bad[k].subject, &d, &why);
+        if (s == RB_OK || !strstr(why.text, bad[k].says))
+            fail_msg("%s, %s: %s", bad[k].result, bad[k].over, why.text);
+        rb_design_free(&d);
+    }
+    rb_case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contacts_of_hertz),
+        cmocka_unit_test(uniform_pressure),
+        cmocka_unit_test(what_is_refused),
+    };
+    if (!rb_design_available()) {
+        puts("[  SKIPPED ] designs: built without NLopt");
+        return 0;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
