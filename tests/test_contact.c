@@ -195,6 +195,25 @@ static void what_is_left_out_is_named(void **state)
     }
 }
 
+/* Each reason once; one line in the end; most cases skipped is not success. */
+static void skipped_cases_are_counted(void **state)
+{
+    (void)state;
+    static const char step[] =
+        " 3 MODULE\n 002100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n";
+    char two[400], three[800];
+    snprintf(two, sizeof two, "%s", step);
+    snprintf(three, sizeof three, "%s%s%s", step, step, step);
+    two_cases(two);
+    assert_int_equal(rollbem("contact two.inp"), 0);
+    assert_non_null(strstr(err, "two.inp: 1 of 2 cases run, 1 skipped\n"));
+    two_cases(three);
+    assert_int_equal(rollbem("contact two.inp"), 1);
+    assert_non_null(strstr(err, "case 2, and 2 more cases skipped: "));
+    assert_null(strstr(err, "case 3"));
+    assert_non_null(strstr(err, "two.inp: 1 of 4 cases run, 3 skipped\n"));
+}
+
 /* A case of our frame, changed by a line of sed: what is left out of it, and whether it
  * is run all the same. */
 static void what_is_left_out_is_said(void **state)
@@ -543,6 +562,7 @@ int main(void)
         cmocka_unit_test(cases_go_on_from_the_one_before),
         cmocka_unit_test(what_is_left_out_is_named),
         cmocka_unit_test(what_is_left_out_is_said),
+        cmocka_unit_test(skipped_cases_are_counted),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(every_number_has_its_name),
         cmocka_unit_test(short_lines_are_named),

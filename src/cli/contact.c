@@ -32,7 +32,7 @@ static const char about[] =
     "one row of elements, MY = 1, a parabola or a circle as gap, Coulomb friction,\n"
     "elastic or viscoelastic half-spaces, with a third body that may yield; pressed,\n"
     "shifted or rolling steadily. The elements are those of the file. A line for each\n"
-    "case says what is left out.\n"
+    "reason says what is left out, and of which cases.\n"
     "docs/contact.md has the names and signs of both programs.";
 
 static const char notes[] =
@@ -41,8 +41,9 @@ static const char notes[] =
     "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < "
     "0.\n"
     "NPLAST elements yield, NSLIP others slip; UPL is what the third body has yielded.\n"
-    "Exit codes: 0 all cases that could be run are solved; 1 none could, or one was not\n"
-    "solved; 65 malformed file; 66 no such file.\n";
+    "Exit codes: 0 all cases that could be run are solved; 1 less than half of the "
+    "cases\n"
+    "could be run, or one was not solved; 65 malformed file; 66 no such file.\n";
 
 typedef struct {
     const rb_io_contact_case *in;
@@ -179,15 +180,33 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
+/* What is left out of a case, each reason at its first case only. */
+static void say_left_out(const contact_runs *all, int k)
+{
+    const contact_run *r = &all->run[k];
+    int as_before = 0;
+    for (int j = 0; j < k && !as_before; j++)
+        as_before = all->run[j].c.runs == r->c.runs &&
+                    strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+    if (!r->c.left_out[0] || all->o->quiet || as_before)
+        return;
+    int alike = 0;
+    for (int j = k + 1; j < all->n; j++)
+        alike += all->run[j].c.runs == r->c.runs &&
+                 strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+    char more[40] = "";
+    if (alike > 0)
+        snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
+    cli_fail(CLI_OK,
+             r->c.runs ? "%s:%d: case %d%s solved without %s"
+                       : "%s:%d: case %d%s skipped: %s is not supported",
+             all->path, r->in->line, k + 1, more, r->c.left_out);
+}
+
 static cli_exit run_case(const contact_runs *all, int k)
 {
     contact_run *r = &all->run[k];
-    rb_case_from_contact(r->in, &r->c);
-    if (r->c.left_out[0] && !all->o->quiet)
-        cli_fail(CLI_OK,
-                 r->c.runs ? "%s:%d: case %d is solved without %s"
-                           : "%s:%d: case %d skipped: %s is not supported",
-                 all->path, r->in->line, k + 1, r->c.left_out);
+    say_left_out(all, k);
     if (!r->c.runs)
         return CLI_OK;
     r->status = rb_rolling_solve_between(&r->c.rc, r->c.from, r->c.to, &r->s, &r->why);
@@ -207,6 +226,9 @@ static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int k = 0; k < all->n; k++) {
         all->run[k].in = &cases[k];
+        rb_case_from_contact(&cases[k], &all->run[k].c);
+    }
+    for (int k = 0; k < all->n; k++) {
         const cli_exit code = run_case(all, k);
         worst = code > worst ? code : worst;
         ran += all->run[k].c.runs;
@@ -216,6 +238,12 @@ static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
         worst = code;
     else if (ran == 0)
         worst = cli_fail(CLI_UNSOLVED, "%s: no case that could be run", all->path);
+    else if (ran < all->n) { /* with most of them missing, the file has not been run */
+        const cli_exit missing = 2 * ran < all->n ? CLI_UNSOLVED : CLI_OK;
+        cli_fail(missing, "%s: %d of %d cases run, %d skipped", all->path, ran, all->n,
+                 all->n - ran);
+        worst = missing > worst ? missing : worst;
+    }
     for (int k = 0; k < all->n; k++)
         rb_rolling_solution_free(&all->run[k].s);
     free(all->run);
