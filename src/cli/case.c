@@ -154,18 +154,6 @@ static cli_exit print(const cli_spec *spec, const cli_case_run *run)
     return code == CLI_OK ? write_files(spec, run, 1) : code;
 }
 
-static cli_exit solve(const cli_spec *spec, cli_case_run *run)
-{
-    rb_message why = {""};
-    if (!run->o.quiet)
-        cli_wait_begin();
-    const rb_status s = run->command->solve(run, &why);
-    if (!run->o.quiet)
-        cli_wait_end();
-    const cli_exit code = run->printable ? print(spec, run) : CLI_OK;
-    return code == CLI_OK && s != RB_OK ? cli_case_refused(run->words, s, &why) : code;
-}
-
 /* The sets of options of a command: the case's, the command's and those of its output. */
 static cli_spec spec_of(cli_case_run *run)
 {
@@ -230,8 +218,17 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         rb_case_store(run.words, &run.set, own);
         code = command->check(&run);
     }
-    if (code == CLI_CONTINUE)
-        code = solve(&spec, &run);
+    if (code == CLI_CONTINUE) {
+        rb_message why = {""};
+        if (!run.o.quiet)
+            cli_wait_begin();
+        const rb_status s = command->solve(&run, &why);
+        if (!run.o.quiet)
+            cli_wait_end();
+        code = run.printable ? print(&spec, &run) : CLI_OK;
+        if (code == CLI_OK && s != RB_OK)
+            code = cli_case_refused(run.words, s, &why);
+    }
     cli_args_free(&run.args);
     rb_case_free(run.words);
     return code;

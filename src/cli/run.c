@@ -149,7 +149,7 @@ rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
                .why = &failure};
     memset(r, 0, sizeof *r);
     if (!rb_case_has_steps(c))
-        return rb_case_solve(c, NULL, NULL, r, why);
+        return rb_case_solve_again(c, NULL, NULL, r, why);
     rb_status s = w.steps->snapshots ? rb_io_make_folder(w.steps->snapshots, why) : RB_OK;
     if (s == RB_OK)
         s = run_steps(c, &w, r, why);

@@ -153,47 +153,6 @@ rb_contact_options rb_contact_defaults(void)
         .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
 }
 
-static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options *options,
-                           const attempt *at, covering kind, int round,
-                           rb_contact_state *state, rb_message *why)
-{
-    rb_lcp_options pivoting = rb_lcp_defaults();
-    rb_contact_lcp lcp = {0};
-    rb_lcp_info info = {0};
-    double *cover = NULL;
-    rb_status s =
-        rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
-    double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
-
-    if (s == RB_OK)
-        s = z ? cover_rows(&lcp, kind, &cover) : RB_ENOMEM;
-    if (s == RB_OK) {
-        pivoting.cover = cover;
-        pivoting.max_iters = most_pivots(round, lcp.size);
-        pivoting.trace = options->trace;
-        pivoting.trace_context = options->trace_context;
-        pivoting.trace_tableau = options->trace_tableau;
-        pivoting.attempt = at->number;
-        const rb_lcp_problem p = {lcp.size, lcp.M, lcp.size, lcp.b};
-        s = rb_lcp_lemke(&p, &pivoting, z, &info);
-        state->iterations += info.iters;
-        if (s < 0)
-            rb_fail(why, s, "%s", info.msg.text);
-    }
-    if (z && s >= 0) { /* Kwak's matrix may have no inverse */
-        rb_contact_lcp_recover(problem, &lcp, z, state);
-        state->solver = RB_SOLVER_LEMKE;
-        state->mirrored = at->mirrored;
-        state->xi0 = at->xi0;
-        const rb_status t = complete(problem, 0, state);
-        s = t < 0 ? t : s;
-    }
-    free(cover);
-    free(z);
-    rb_contact_lcp_free(&lcp);
-    return s;
-}
-
 /* Direction in which A's surface slides, of the given creepage or against the force. */
 static int slides_backwards(const rb_contact_problem *problem)
 {
@@ -225,26 +184,59 @@ static int is_due(int k, int round, int first_form, const int *unfinished)
            (round + 1 < ROUNDS || order_of_attempts[k].cover == EVEN);
 }
 
+/* Attempt by attempt until one has a solution: its LCP, the path, and the state that the
+ * unknowns mean.  Kwak's matrix may have no inverse. */
 static rb_status solve_lemke(rb_contact_problem *problem,
                              const rb_contact_options *options, rb_contact_state *state,
                              rb_message *why)
 {
-    attempt at[FORMS];
-    const int first = plan_forms(problem, options, at);
+    attempt all[FORMS];
+    const int first = plan_forms(problem, options, all);
     int unfinished[ATTEMPTS] = {0};
     rb_status s = RB_RAY;
 
     rb_phase("contact by Lemke's method");
-    for (int round = 0; round < ROUNDS; round++)
-        for (int k = 0; k < ATTEMPTS; k++) {
-            if (!is_due(k, round, first, unfinished))
-                continue;
-            s = try_lemke(problem, options, &at[order_of_attempts[k].form],
-                          order_of_attempts[k].cover, round, state, why);
-            if (s < 0 || (s == RB_OK && state->residual <= options->tol))
-                return s;
-            unfinished[k] = s == RB_MAXITER;
+    for (int turn = 0; turn < ROUNDS * ATTEMPTS; turn++) {
+        const int round = turn / ATTEMPTS, k = turn % ATTEMPTS;
+        const attempt *at = &all[order_of_attempts[k].form];
+        rb_lcp_options pivoting = rb_lcp_defaults();
+        rb_contact_lcp lcp = {0};
+        rb_lcp_info info = {0};
+        double *cover = NULL;
+        if (!is_due(k, round, first, unfinished))
+            continue;
+        s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
+        double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
+        if (s == RB_OK)
+            s = z ? cover_rows(&lcp, order_of_attempts[k].cover, &cover) : RB_ENOMEM;
+        if (s == RB_OK) {
+            pivoting.cover = cover;
+            pivoting.max_iters = most_pivots(round, lcp.size);
+            pivoting.trace = options->trace;
+            pivoting.trace_context = options->trace_context;
+            pivoting.trace_tableau = options->trace_tableau;
+            pivoting.attempt = at->number;
+            const rb_lcp_problem p = {lcp.size, lcp.M, lcp.size, lcp.b};
+            s = rb_lcp_lemke(&p, &pivoting, z, &info);
+            state->iterations += info.iters;
+            if (s < 0)
+                rb_fail(why, s, "%s", info.msg.text);
         }
+        if (z && s >= 0) {
+            rb_contact_lcp_recover(problem, &lcp, z, state);
+            state->solver = RB_SOLVER_LEMKE;
+            state->mirrored = at->mirrored;
+            state->xi0 = at->xi0;
+            const rb_status t = complete(problem, 0, state);
+            s = t < 0 ? t : s;
+        }
+        free(cover);
+        free(z);
+        rb_contact_lcp_free(&lcp);
+        if (s < 0 || (s == RB_OK && state->residual <= options->tol))
+            return s;
+        unfinished[k] = s == RB_MAXITER;
+    }
     return s;
 }
 
@@ -430,11 +422,19 @@ static int fallback_order(const rb_contact_problem *problem,
     return count;
 }
 
-static rb_status solve_coulomb(rb_contact_problem *problem,
-                               const rb_contact_options *options, int warm,
-                               rb_contact_state *state, rb_message *why)
+static rb_status solve_yielding(rb_contact_problem *problem,
+                                const rb_contact_options *options, int warm,
+                                rb_contact_state *state, rb_message *why);
+
+/* The method of a problem whose tangential drive friction can follow. */
+static rb_status solve_given(rb_contact_problem *problem,
+                             const rb_contact_options *options, int warm,
+                             rb_contact_state *state, rb_message *why)
 {
     method order[METHODS];
+
+    if (problem->yield)
+        return solve_yielding(problem, options, warm, state, why);
     const int count = fallback_order(problem, options, warm, order);
     rb_status s = RB_RAY;
 
@@ -472,7 +472,7 @@ static rb_status solve_from_coulomb(rb_contact_problem *problem,
 
     memset(state->plastic, 0, (size_t)problem->n * sizeof *state->plastic);
     problem->yield = NULL;
-    const rb_status s = solve_coulomb(problem, options, 0, state, why);
+    const rb_status s = solve_given(problem, options, 0, state, why);
     problem->yield = yield;
     if (s < 0 || (s == RB_OK && !rb_contact_yields(problem, state)))
         return s;
@@ -511,14 +511,6 @@ static rb_status solve_yielding(rb_contact_problem *problem,
     if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO)
         s = solve_lemke(problem, options, state, why);
     return proven(s, problem, options, state);
-}
-
-static rb_status solve_given(rb_contact_problem *problem,
-                             const rb_contact_options *options, int warm,
-                             rb_contact_state *state, rb_message *why)
-{
-    return problem->yield ? solve_yielding(problem, options, warm, state, why)
-                          : solve_coulomb(problem, options, warm, state, why);
 }
 
 /* ---- Full sliding ------------------------------------------------------------------ */
@@ -575,12 +567,10 @@ static rb_status solve_sliding(rb_contact_problem *problem,
 
 /* Where elements are tilted P has a part of the friction and Q one of the pressure: full
  * sliding is not the force that was given then. */
-static rb_status solve_driven(rb_contact_problem *problem,
-                              const rb_contact_options *options, int warm,
-                              rb_contact_state *state, rb_message *why)
+static rb_status solve_full_sliding(rb_contact_problem *problem,
+                                    const rb_contact_options *options,
+                                    rb_contact_state *state, rb_message *why)
 {
-    if (!slides_fully(problem))
-        return solve_given(problem, options, warm, state, why);
     rb_status s = solve_sliding(problem, options, problem->force_ratio > 0.0, state, why);
     if (s == RB_OK)
         s = measure(problem, state);
@@ -671,8 +661,10 @@ static rb_status solve_cone(rb_contact_problem *problem,
 
     state->delta = problem->delta;
     state->xi = problem->xi;
-    if (problem->load_given || problem->force_given)
-        s = solve_driven(problem, options, 0, state, why);
+    if (slides_fully(problem))
+        s = solve_full_sliding(problem, options, state, why);
+    else if (problem->load_given || problem->force_given)
+        s = solve_given(problem, options, 0, state, why);
     if (s == RB_OK)
         s = rb_contact_cone_solve(problem, options, state, why);
     if (s < 0)
@@ -690,9 +682,10 @@ rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options
                            int warm, rb_contact_state *state, rb_message *why)
 {
     state->iterations = 0;
-    rb_status s = options->solver == RB_SOLVER_CONE
-                      ? solve_cone(problem, options, state, why)
-                      : solve_driven(problem, options, warm, state, why);
+    rb_status s =
+        options->solver == RB_SOLVER_CONE ? solve_cone(problem, options, state, why)
+        : slides_fully(problem) ? solve_full_sliding(problem, options, state, why)
+                                : solve_given(problem, options, warm, state, why);
 
     if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
         const rb_status t = check_capacity(problem, options, why);

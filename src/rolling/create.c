@@ -5,45 +5,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-static rb_status solve_on_its_mesh(const rb_rolling_case *rc, rb_rolling_model *model,
-                                   rb_message *why)
-{
-    rb_status s = rb_rolling_model_set_case(model, rc, why);
-
-    model->plan = rb_rolling_plan_of(rc);
-    if (s == RB_OK)
-        s = rb_rolling_case_check(rc, why);
-    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
-        return rb_rolling_solve_fitted(model, why);
-    if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
-        return rb_rolling_solve_aligned(model, why);
-    return s == RB_OK ? rb_rolling_solve_zone(model, 0, why) : s;
-}
-
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why)
 {
     memset(model, 0, sizeof *model);
-    return solve_on_its_mesh(rc, model, why);
+    return rb_rolling_model_reuse(rc, model, why);
 }
 
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why)
 {
-    rb_rolling_model kept = {.mesh = model->mesh, .bodies = model->bodies};
-    const int equal =
-        rc->mesh == RB_MESH_UNIFORM && model->rc && model->rc->mesh == RB_MESH_UNIFORM;
+    rb_rolling_model kept = {.plan = rb_rolling_plan_of(rc)};
+    const int equal = model->rc && model->rc->mesh == RB_MESH_UNIFORM;
 
-    if (!equal || !model->mesh.ends || !model->bodies.f.m) {
-        rb_rolling_model_free(model);
-        return rb_rolling_model_create(rc, model, why);
+    if (equal && rc->mesh == RB_MESH_UNIFORM && model->mesh.ends && model->bodies.f.m) {
+        kept.mesh = model->mesh;
+        kept.bodies = model->bodies;
+        kept.same_bodies = 1;
+        model->mesh = (rb_rolling_mesh){.ends = NULL};
+        model->bodies = (rb_rolling_bodies){.F = NULL};
     }
-    model->mesh = (rb_rolling_mesh){.ends = NULL};
-    model->bodies = (rb_rolling_bodies){.F = NULL};
     rb_rolling_model_free(model);
     *model = kept;
-    model->same_bodies = 1;
-    const rb_status s = solve_on_its_mesh(rc, model, why);
+    rb_status s = rb_rolling_model_set_case(model, rc, why);
+    if (s == RB_OK)
+        s = rb_rolling_case_check(rc, why);
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
+        s = rb_rolling_solve_fitted(model, why);
+    else if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
+        s = rb_rolling_solve_aligned(model, why);
+    else if (s == RB_OK)
+        s = rb_rolling_solve_zone(model, 0, why);
     model->same_bodies = 0;
     return s;
 }

@@ -223,8 +223,8 @@ rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *wh
  * down.  RB_MAXITER: none are left, or the residual does not become less. */
 rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left,
                                 rb_message *why);
-/* Solves the model's problem: in one go where the law does not depend on the state, and
- * by iteration where it does.  iterations: added to. */
+/* Solves the model's problem by iteration, where the law depends on the state.
+ * iterations: added to. */
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
 
 /* A creepage that makes everything slide, to start a search for a given force from. */

@@ -441,15 +441,9 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
 
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
 {
-    rb_status s;
+    const rb_status s =
+        model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
 
-    if (!rb_rolling_law_depends_on_state(model->rc)) {
-        s = rb_rolling_problem_solve(&model->problem, model->rc, warm, &model->state,
-                                     why);
-        model->iterations += model->state.iterations;
-        return s;
-    }
-    s = model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
     return model->state.status = s;
 }
 

@@ -41,8 +41,13 @@ void rb_rolling_model_free(rb_rolling_model *model)
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
-    rb_status s = rb_rolling_law_solve(model, warm, why);
+    const int iterates = rb_rolling_law_depends_on_state(model->rc);
+    rb_status s = iterates ? rb_rolling_law_solve(model, warm, why)
+                           : rb_rolling_problem_solve(&model->problem, model->rc, warm,
+                                                      &model->state, why);
 
+    if (!iterates)
+        model->iterations += model->state.iterations;
     model->seconds_lcp += rb_seconds() - start;
     if (s >= 0)
         model->half_width = rb_rolling_hertz_half_width(
@@ -52,14 +57,13 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
     return s;
 }
 
-/* A given creepage ratio refers to the load, which approach control only finds: secants
- * to the creepage that is the one of the load found with it, as nearly as rounding lets
- * them. */
-static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
+/* The end of a solve with status s.  A given creepage ratio refers to the load, which
+ * approach control only finds: secants to the creepage that is the one of the load found
+ * with it, as nearly as rounding lets them. */
+static rb_status meet_ratio(rb_rolling_model *model, rb_status s, rb_message *why)
 {
     const rb_rolling_case *rc = model->rc;
     double step = NAN, excess_before = NAN, missing = INFINITY;
-    rb_status s = rb_rolling_model_resolve(model, warm, why);
 
     if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
         model->problem.load_given)
@@ -88,7 +92,7 @@ static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
 {
     rb_rolling_set_control(model->rc, &model->problem);
-    return solve_ratio(model, 1, why);
+    return meet_ratio(model, rb_rolling_model_resolve(model, 1, why), why);
 }
 
 /* Zones and tractions of a large contact, from fewer elements over the same line. */
@@ -181,12 +185,14 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     rb_contact_state_free(&old);
     rb_rolling_mesh_free(&old_mesh);
     if (s == RB_OK)
-        s = solve_ratio(model, large, why);
+        s = meet_ratio(model, rb_rolling_model_resolve(model, large, why), why);
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) ||
         !large || model->mesh.n >= RB_ROLLING_LARGE)
         return s;
     s = rb_rolling_model_add_matrix(model, why);
-    return s == RB_OK ? solve_ratio(model, inaccurate, why) : s;
+    if (s == RB_OK)
+        s = rb_rolling_model_resolve(model, inaccurate, why);
+    return meet_ratio(model, s, why);
 }

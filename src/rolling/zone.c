@@ -170,16 +170,13 @@ static int are_too_many(const rb_rolling_model *model, int elements)
            !rb_rolling_is_large(model->rc, &mesh);
 }
 
-static rb_status solve_equal(rb_rolling_model *model, interval zone, int elements,
-                             rb_message *why)
+static rb_status equal_elements(const rb_rolling_model *model, interval zone,
+                                int elements, rb_rolling_mesh *mesh, rb_message *why)
 {
     rb_rolling_plan plan = model->plan;
-    rb_rolling_mesh mesh;
 
     plan.elements = elements;
-    const rb_status s =
-        rb_rolling_mesh_uniform(model->rc, &plan, zone.from, zone.to, &mesh, why);
-    return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
+    return rb_rolling_mesh_uniform(model->rc, &plan, zone.from, zone.to, mesh, why);
 }
 
 /* ---- The first potential contact --------------------------------------------------- */
@@ -307,53 +304,6 @@ static interval tightened(const rb_rolling_model *model)
     return within(scaled(edge, 1.25), extent(model->rc));
 }
 
-/* Grows the potential contact until enough separated elements stand at each end, or no
- * material is left; tightens it when the contact turns out to fill less than two thirds
- * of it; and takes more elements where they are too long for separate patches, unless a
- * coarse solution will do. */
-static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coarse,
-                                 rb_message *why)
-{
-    int elements = model->plan.elements;
-    double too_narrow = 0.0;
-    rb_status s = RB_OK;
-
-    for (int round = 0; round < ROUNDS; round++) {
-        s = solve_equal(model, zone, elements, why);
-        if (s < 0 || !model->state.p)
-            return s;
-        interval wider;
-        const rb_status t = grown(model, zone, &wider);
-        if (t != RB_OK)
-            return t;
-        if (wider.from < zone.from || wider.to > zone.to) {
-            too_narrow = fmax(too_narrow, width(zone));
-            zone = wider;
-            continue;
-        }
-        if (is_open(model))
-            return s;
-        const interval wanted = tightened(model);
-        const int more = coarse ? elements : elements_for(model, zone);
-        const int keeps_zone =
-            width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
-        if (keeps_zone && more <= 1.25 * elements)
-            return s;
-        zone = keeps_zone ? zone : wanted;
-        elements = coarse ? elements : elements_for(model, zone);
-        if (are_too_many(model, elements))
-            return rb_fail(why, RB_ZONE,
-                           "the contact has patches so far apart that equal elements "
-                           "would be %d; fit them to the patches (mesh fitted), or take "
-                           "fewer",
-                           elements);
-    }
-    return rb_fail(why, RB_ZONE,
-                   "no potential contact holds the contact and fits it: the last one "
-                   "tried reaches from %g to %g mm",
-                   zone.from, zone.to);
-}
-
 /* Many elements need not be solved to learn how wide their line should be. */
 static interval known_zone(const rb_rolling_model *model)
 {
@@ -382,9 +332,12 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
 {
     const double zone = model->rc->zone;
     const interval limit = extent(model->rc);
-    const rb_status s = solve_equal(model, within((interval){-zone, zone}, limit),
-                                    model->plan.elements, why);
+    rb_rolling_mesh mesh;
+    rb_status s = equal_elements(model, within((interval){-zone, zone}, limit),
+                                 model->plan.elements, &mesh, why);
 
+    if (s == RB_OK)
+        s = rb_rolling_model_build(model, &mesh, why);
     if (s != RB_ZONE)
         return s;
     rb_rolling_case automatic = *model->rc;
@@ -401,16 +354,61 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
                    zone, wanted);
 }
 
+/* ---- The search -------------------------------------------------------------------- */
+
+/* Grows the potential contact until enough separated elements stand at each end, or no
+ * material is left; tightens it when the contact turns out to fill less than two thirds
+ * of it; and takes more elements where they are too long for separate patches, unless a
+ * coarse solution will do. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why)
 {
+    const int given = model->rc->zone > 0.0;
     const interval before = {model->first_from, model->first_to};
-    const rb_status s =
-        model->rc->zone > 0.0
-            ? solve_given(model, why)
-            : solve_automatic(model,
-                              !coarse && width(before) > 0.0 ? before : known_zone(model),
-                              coarse, why);
+    interval zone = before;
+    int elements = model->plan.elements;
+    double too_narrow = 0.0;
+    rb_status s = given ? solve_given(model, why) : RB_OK;
 
+    if (!given && (coarse || !(width(before) > 0.0)))
+        zone = known_zone(model);
+    for (int round = 0; !given; round++) {
+        rb_rolling_mesh mesh;
+        interval wider;
+        if (round == ROUNDS)
+            return rb_fail(why, RB_ZONE,
+                           "no potential contact holds the contact and fits it: the last "
+                           "one tried reaches from %g to %g mm",
+                           zone.from, zone.to);
+        s = equal_elements(model, zone, elements, &mesh, why);
+        if (s == RB_OK)
+            s = rb_rolling_model_build(model, &mesh, why);
+        if (s < 0 || !model->state.p)
+            return s;
+        const rb_status t = grown(model, zone, &wider);
+        if (t != RB_OK)
+            return t;
+        if (wider.from < zone.from || wider.to > zone.to) {
+            too_narrow = fmax(too_narrow, width(zone));
+            zone = wider;
+            continue;
+        }
+        if (is_open(model))
+            break;
+        const interval wanted = tightened(model);
+        const int more = coarse ? elements : elements_for(model, zone);
+        const int keeps_zone =
+            width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
+        if (keeps_zone && more <= 1.25 * elements)
+            break;
+        zone = keeps_zone ? zone : wanted;
+        elements = coarse ? elements : elements_for(model, zone);
+        if (are_too_many(model, elements))
+            return rb_fail(why, RB_ZONE,
+                           "the contact has patches so far apart that equal elements "
+                           "would be %d; fit them to the patches (mesh fitted), or take "
+                           "fewer",
+                           elements);
+    }
     if (s == RB_OK && coarse) {
         model->first_from = model->mesh.ends[0];
         model->first_to = model->mesh.ends[model->mesh.n];
