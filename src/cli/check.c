@@ -1,5 +1,6 @@
 /* rollbem check: results verified without the solver. */
 #include "cli/case.h"
+#include "cli/wait.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
@@ -238,10 +239,12 @@ static cli_exit check_file(const char *path, const check_options *o)
         code = cli_fail(code, "%s: out of memory", path);
     if (words && folder)
         rb_case_confine(words, o->any_folder ? NULL : folder);
+    cli_wait_begin();
     if (words && folder)
         code = first == '{' || first == '['
                    ? check_json(path, text, size, folder, !o->any_folder, words)
                    : check_table(path, text, words);
+    cli_wait_end();
     rb_case_free(words);
     free(folder);
     free(text);

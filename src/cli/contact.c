@@ -1,6 +1,7 @@
 /* rollbem contact FILE.inp: the two-dimensional cases of an input file of CONTACT. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/wait.h"
 #include "rollbem/case.h"
 
 #include <jansson.h>
@@ -209,7 +210,9 @@ static cli_exit run_case(const contact_runs *all, int k)
     say_left_out(all, k);
     if (!r->c.runs)
         return CLI_OK;
+    cli_wait_begin();
     r->status = rb_rolling_solve_between(&r->c.rc, r->c.from, r->c.to, &r->s, &r->why);
+    cli_wait_end();
     if (r->status == RB_OK)
         return CLI_OK;
     const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);

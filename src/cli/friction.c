@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/solvers.h"
+#include "cli/wait.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -348,7 +349,11 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};
+        if (!run->o->trace)
+            cli_wait_begin();
         s = rb_friction_solve(run->o->solver, &p, &opt, &solution, &r->info);
+        if (!run->o->trace)
+            cli_wait_end();
         code = assess(run, r, s);
         if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
             r->status = "infeasible";

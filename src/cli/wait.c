@@ -65,7 +65,7 @@ static void tick(int signal_number)
     add(text, line.terminal ? " s" : " s of the processor so far");
     add(text, phase ? ": " : "");
     add(text, phase ? phase : "");
-    add(text, line.terminal ? "" : "\n");
+    add(text, line.terminal ? "\r" : "\n"); /* who writes next writes over it */
     line.shown = write(STDERR_FILENO, text, strlen(text)) > 0;
     errno = kept;
 }
