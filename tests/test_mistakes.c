@@ -461,6 +461,8 @@ static void examples_are_at_hand(void **state)
     assert_int_equal(rollbem("-h"), 0);
     assert_ptr_equal(strstr(out, "Usage: rollbem"), out);
     check_refused("examples rail", 64, "examples: unexpected 'rail'");
+    check_refused("stress --support halfplane --plane stress --shakedown-map m.svg", 64,
+                  "--shakedown-map: its limits are those of plane strain");
 }
 
 /* On a terminal: the summary, then a short table; whoever asks for a form gets it. */

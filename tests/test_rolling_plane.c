@@ -121,6 +121,37 @@ static void nothing_presses_a_thin_disc_from_its_side(void **state)
     }
 }
 
+/* No residual stress changes the pressure at the surface, and none acts across a disc:
+ * p0/k = 2.  Where friction decides at the surface the disc bears less than plane strain.
+ */
+static void a_thin_disc_shakes_down_below_two_k(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
+        rb_rolling_shakedown limit[2];
+        rc.mu = k ? 0.3 : 0.0;
+        rc.creep_ratio = NAN;
+        rc.creep = k ? -1.0 : 0.0;
+        for (int plane = 0; plane < 2; plane++) {
+            rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
+            rb_rolling_model model = solved_model(&rc);
+            CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit[plane], NULL), RB_OK);
+            rb_rolling_shakedown again = limit[plane];
+            again.shear_yield = NAN;
+            CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_OK);
+            CHECK_REL(again.shear_yield, limit[plane].shear_yield, 1e-12, "again");
+            if (k == 0 && plane == 1) {
+                CHECK_REL(limit[1].shear_yield, 0.5 * rb_rolling_derive(&rc).stress, 5e-3,
+                          "p0/2");
+                CHECK_ABS(limit[1].y, 0.0, 1e-12, "at the surface");
+            }
+            rb_rolling_model_free(&model);
+        }
+        assert_true(limit[1].shear_yield / rb_rolling_derive(&rc).stress > 0.49);
+    }
+}
+
 /* A thin disc of nu = 1/2 can be compressed in its plane, a long body cannot. */
 static void what_is_compressible_depends_on_the_plane(void **state)
 {
@@ -143,6 +174,7 @@ int main(void)
         cmocka_unit_test(every_body_has_the_constants_of_plane_stress),
         cmocka_unit_test(a_thin_disc_is_as_stiff_as_its_young_modulus),
         cmocka_unit_test(nothing_presses_a_thin_disc_from_its_side),
+        cmocka_unit_test(a_thin_disc_shakes_down_below_two_k),
         cmocka_unit_test(what_is_compressible_depends_on_the_plane)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

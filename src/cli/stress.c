@@ -127,6 +127,9 @@ static cli_exit check(cli_case_run *run)
     if (st->vtk && (rb_report_vtk_kind_of(st->vtk, &kind, &why) != RB_OK ||
                     rb_report_vtk_check(kind, &asked, &why) != RB_OK))
         return cli_fail(CLI_USAGE, "--vtk: %s", why.text);
+    if (st->map && run->c->rc.plane == RB_PLANE_STRESS)
+        return cli_fail(CLI_USAGE, "--shakedown-map: its limits are those of plane "
+                                   "strain; in plane stress take --shakedown");
     const cli_exit code = read_grid(st);
     return code == CLI_CONTINUE && st->points
                ? read_points(

@@ -14,20 +14,24 @@ typedef struct {
     rb_rolling_stress at[ACROSS];
 } row;
 
-/* The radius of Mohr's circle with the residual stress 2 c. */
-static double radius_with(const rb_rolling_stress *s, double c)
+/* Tresca's shear with the residual stress 2 c: the radius of Mohr's circle in the plane.
+ * Across it a thin disc has no stress, where in plane strain a residual one keeps the
+ * third principal stress between the other two. */
+static double shear_with(const rb_rolling_stress *s, double c, rb_bem_plane plane)
 {
-    return hypot(0.5 * (s->sxx - s->syy) + c, s->sxy);
+    const double radius = hypot(0.5 * (s->sxx - s->syy) + c, s->sxy),
+                 mean = 0.5 * (s->sxx + s->syy) + c;
+    return plane == RB_PLANE_STRESS ? fmax(radius, 0.5 * (fabs(mean) + radius)) : radius;
 }
 
-/* What Tresca's body needs with it: the largest radius. */
+/* What Tresca's body needs with it: the largest of them. */
 static double needed_with(const row *r, double c, double *x)
 {
     double most = 0.0;
     for (int i = 0; i < ACROSS; i++) {
-        const double radius = radius_with(&r->at[i], c);
-        if (radius > most) {
-            most = radius;
+        const double shear = shear_with(&r->at[i], c, r->model->rc->plane);
+        if (shear > most) {
+            most = shear;
             *x = r->at[i].x;
         }
     }
@@ -59,7 +63,7 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
     }
     const rb_status s = rb_rolling_stress_at(r->model, ACROSS, r->xy, r->at, NULL);
     for (int i = 0; i < ACROSS && s == RB_OK; i++)
-        largest = fmax(largest, 0.5 * fabs(r->at[i].sxx - r->at[i].syy));
+        largest = fmax(largest, fabs(r->at[i].sxx) + fabs(r->at[i].syy));
     k->y = y;
     k->residual = s == RB_OK ? 2.0 * best_residual(r, -largest, largest) : 0.0;
     k->shear_yield = s == RB_OK ? needed_with(r, 0.5 * k->residual, &k->x) : 0.0;
@@ -131,6 +135,7 @@ rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
     rb_rolling_stress at;
     const rb_status s = rb_rolling_stress_at(model, 1, xy, &at, why);
     if (s == RB_OK)
-        shakedown->shear_yield = radius_with(&at, 0.5 * shakedown->residual);
+        shakedown->shear_yield =
+            shear_with(&at, 0.5 * shakedown->residual, model->rc->plane);
     return s;
 }

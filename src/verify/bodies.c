@@ -222,9 +222,34 @@ static void shakedown(rb_verify *v)
     }
 }
 
+/* Of a thin disc without friction: no residual stress changes syy = -p0 at the surface,
+ * and none acts across the disc. */
+static void shakedown_of_disc(rb_verify *v)
+{
+    rb_rolling_model model = {0};
+    rb_rolling_solution s = {0};
+    rb_rolling_shakedown limit = {0};
+    rb_message why = {""};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.plane = RB_PLANE_STRESS;
+    rc.mu = 0.0;
+    rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
+    if (status == RB_OK)
+        status = rb_rolling_shakedown_find(&model, &limit, &why);
+    rb_verify_note(v, status, &why);
+    rb_verify_relative(v,
+                       rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width) /
+                           limit.shear_yield,
+                       2.0, 0.01, "shakedown, plane stress: p0/k, mu = 0");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 void rb_verify_bodies(rb_verify *v)
 {
     shakedown(v);
+    shakedown_of_disc(v);
     ring(v, RB_PLANE_STRAIN);
     ring(v, RB_PLANE_STRESS);
     below_hertz(v);
