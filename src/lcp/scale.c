@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The largest entries of two rows, or of two columns, may differ by this factor: the
@@ -20,6 +21,9 @@ enum { SWEEPS = 30, BALANCING = 20 };
 /* A row whose terms are smaller than this part of those of the rows that share unknowns
  * with it is judged by that part of them: it may hold nothing but their rounding. */
 static const double FAINT = 1e-4;
+/* A residual above this part of max |q| is no rounding of rows whose entries are
+ * negligible here. */
+static const double PLAIN = 1e-6;
 
 /* A residual that needs no closer look. */
 static const double EXACT = 1e-13;
@@ -302,23 +306,28 @@ static void row_sums(const lcp_matrix *M, const double *q, const double *z, doub
 }
 
 /* most[i] = the largest terms, in the scale, of the rows that share an unknown with row
- * i, by its entry there: where row i has nothing but their rounding, they are its size.
- * An unknown that is zero has no rounding. */
+ * i: where row i has nothing but their rounding, they are its size.  felt[i]: the same by
+ * row i's entry of that unknown, which is not zero. */
 static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s, const double *z,
-                               const double *terms, double *most)
+                               const double *terms, double *most, double *felt)
 {
     memset(most, 0, (size_t)M->n * sizeof *most);
+    memset(felt, 0, (size_t)M->n * sizeof *felt);
     for (int j = 0; j < M->n; j++) {
         const column a = column_of(M, j);
         double largest = 0.0;
-        for (int k = 0; z[j] != 0.0 && k < a.count; k++) {
+        for (int k = 0; k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
             if (a.x[k] != 0.0)
                 largest = fmax(largest, terms[i] * s->row[i]);
         }
-        for (int k = 0; largest > 0.0 && k < a.count; k++) {
+        for (int k = 0; k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
-            most[i] = fmax(most[i], fabs(a.x[k]) * s->row[i] * s->col[j] * largest);
+            if (a.x[k] == 0.0)
+                continue;
+            most[i] = fmax(most[i], largest);
+            if (z[j] != 0.0)
+                felt[i] = fmax(felt[i], fabs(a.x[k]) * s->row[i] * s->col[j] * largest);
         }
     }
 }
@@ -328,10 +337,11 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
                          rb_lcp_info *info)
 {
     const int n = M->n;
-    double *w = rb_alloc((size_t)n, 3);
+    double *w = rb_alloc((size_t)n, 4);
     if (!w)
         return RB_ENOMEM;
-    double *terms = w + n, *most = terms + n;
+    double *terms = w + n, *most = terms + n, *felt = most + n;
+    const double plain = PLAIN * rb_norm_inf((size_t)n, q);
     row_sums(M, q, z, w, terms);
     /* rows that share unknowns are looked for only where a row does not pass alone */
     for (int pass = 0; pass < 2; pass++) {
@@ -343,7 +353,8 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
             const double high = z[i] - rb_lcp_upper(upper, i);
             const double own = fabs(fmax(fmin(low, w[i]), high));
             const double scaled = fabs(fmax(fmin(low / c, w[i] * r), high / c));
-            const double size = fmax(terms[i] * r, FAINT * most[i]);
+            const double others = pass == 0 ? 0.0 : own <= plain ? most[i] : felt[i];
+            const double size = fmax(terms[i] * r, FAINT * others);
             const double part = scaled == 0.0 ? 0.0 : scaled / size;
             if (isnan(z[i]) || isnan(w[i]) || isnan(part)) {
                 info->res = info->scaled = NAN;
@@ -359,7 +370,7 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
         if (pass == 0 && info->scaled <= EXACT)
             break;
         if (pass == 0)
-            largest_neighbours(M, scale, z, terms, most);
+            largest_neighbours(M, scale, z, terms, most, felt);
     }
     free(w);
     return RB_OK;
