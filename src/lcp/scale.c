@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The largest entries of two rows, or of two columns, may differ by this factor: the
