@@ -4,21 +4,25 @@
 >>> s = rollbem.solve(mu=0.3, creep=0.1)
 >>> s.tangential_load, s.p.max(), s.zone
 
-``solve``, ``curve``, ``history``, ``stress``, ``wear`` and ``sweep`` take the options of the
-program (``help(rollbem.solve)`` lists them, ``_`` for ``-``); ``lcp`` and ``friction`` take
-matrices; ``check``, ``contact``, ``verify`` and ``examples`` ask the program itself.
+``solve``, ``curve``, ``history``, ``stress``, ``wear``, ``sweep``, ``crack``, ``derivatives``,
+``fit`` and ``design`` take the options of the program (``help(rollbem.solve)`` lists them, ``_``
+for ``-``); ``lcp`` and ``friction`` take matrices; ``check``, ``contact``, ``verify`` and
+``examples`` ask the program itself.
 Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then Q < 0.
 """
 
 from . import _library, pictures  # _library first: see _kernels
 from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
                     Sweep, Wear, curve, friction, history, lcp, solve, stress, sweep, wear)
+from ._inverse import Crack, Design, Fit, Parameter, crack, derivatives, design, fit
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
                        Note, OutOfMemory, Unsolved)
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
 
-__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Curve", "Error",
-           "Extremum", "Friction", "History", "InvalidInput", "MissingFile", "Note", "OPTIONS",
-           "OutOfMemory", "RESULTS", "Reference", "References", "Solution", "Stress", "Sweep",
-           "Unsolved", "Wear", "check", "contact", "curve", "examples", "friction", "history",
+__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Design",
+           "Error", "Extremum", "Fit", "Friction", "History", "InvalidInput", "MissingFile", "Note",
+           "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution",
+           "Stress", "Sweep",
+           "Unsolved", "Wear", "check", "contact", "crack", "curve", "derivatives", "design",
+           "examples", "fit", "friction", "history",
            "lcp", "pictures", "solve", "stress", "sweep", "verify", "wear"]

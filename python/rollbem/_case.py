@@ -277,6 +277,13 @@ class Solution(_Named):
         """Whether Carter's law holds for this case."""
         return self._handle.number("carter") == 1.0
 
+    @property
+    def derivatives(self) -> dict:
+        """See :func:`rollbem.derivatives`."""
+        from ._inverse import derivatives
+
+        return derivatives(self)
+
     # What the solution is made of:
 
     @property

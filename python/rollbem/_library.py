@@ -51,6 +51,9 @@ FUNCTIONS = {
     "rb_api_stress": (_Int, _Handle, _Int, _Int, _Double),
     "rb_api_stress_at": (_Int, _Handle, _Int, _Doubles),
     "rb_api_stress_maxima": (_Int, _Handle, _Double),
+    "rb_api_crack": (_Int, _Handle, _Int, ctypes.POINTER(_Text), ctypes.POINTER(_Text)),
+    "rb_api_derivatives": (_Int, _Handle),
+    "rb_api_input": (_Text, _Handle, _Int, _Text, _Text, _Int),
     "rb_api_pivots": (_Int, _Handle),
     "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
@@ -322,6 +325,11 @@ class Handle(_Answers):
             lib.rb_api_stop(self.at)
             raise
         return status[0]
+
+    @staticmethod
+    def text_room() -> Any:
+        """Where the library writes a text."""
+        return ctypes.create_string_buffer(4096)
 
     def number(self, name: str) -> float:
         return lib.rb_api_number(self.at, name.encode())

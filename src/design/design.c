@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifndef RB_NLOPT /* builds by hand */
+#define RB_NLOPT 0
+#endif
 #if RB_NLOPT
 #include <nlopt.h>
 #endif

@@ -1,0 +1,296 @@
+"""Cracks, and what is asked of a case backwards: derivatives, fits to measurements, designs."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _program, _values
+from ._case import Array, Case, Solution, Table, _case, _Named
+from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib
+
+_CaseLike = Union[Case, str, os.PathLike, None]
+
+
+def _text(value: Any) -> str:
+    """As the program reads it: numbers to the last bit."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if np.ndim(value) == 1:
+        return ",".join(_text(x) for x in value)
+    return repr(float(value)) if not float(value).is_integer() else str(int(value))
+
+
+# ---- Cracks -------------------------------------------------------------------------------
+
+
+class Crack(_Named):
+    """A crack under a passing contact: numbers of the pass, columns over the positions.
+
+    ``faces`` holds ``opening``, ``sliding`` and ``zone`` (nodes x positions), the places ``x``, ``y`` of the nodes
+    and the corners ``path_x``, ``path_y`` of the crack; ``growth`` the columns of a crack that grows.
+    """
+
+    faces: "dict[str, Array]"
+    growth: "dict[str, Array]"
+
+    def __init__(self, case: Case, handle: Any) -> None:
+        self.case = case
+        columns = ("x", "K_I", "K_II", "K_I_upper", "K_II_upper", "open_length", "stick_length", "fluid_pressure",
+                   "max_pressure")
+        numbers = ("K_I_max", "K_I_min", "K_II_max", "K_II_min", "delta_K_I", "delta_K_II", "K_I_max_at", "K_II_max_at",
+                   "K_II_min_at", "K_II_at_K_I_max", "K_theta_max", "kink_angle", "K_I_max_upper", "K_I_min_upper",
+                   "K_II_max_upper", "K_II_min_upper", "open_max", "fluid_pressure_max", "pass_change", "max_pressure",
+                   "residual")
+        grown = ("length", "tip_x", "tip_y", "angle", "K_I_max", "delta_K_II", "delta_K", "rate", "cycles")
+        faces = {"opening": "opening", "sliding": "sliding", "zone": "zone", "x": "node.x", "y": "node.y",
+                 "path_x": "path.x", "path_y": "path.y"}
+
+        def found(names: Mapping[str, str], prefix: str) -> dict:
+            arrays = {name: handle.array(prefix + at) for name, at in names.items()}
+            return {name: array.copy() for name, array in arrays.items() if array is not None}
+
+        self._arrays = found({name: name for name in columns}, "crack.")
+        self._numbers = {name: float(np.ravel(x)[0]) for name, x in
+                         found({name: name for name in numbers}, "crack.summary.").items()}
+        self.growth = found({name: name for name in grown}, "crack.growth.")
+        self.faces = found(faces, "crack.")
+        self.faces["zone"] = self.faces["zone"].astype(int)
+
+    @property
+    def numbers(self) -> dict:
+        """The numbers by name."""
+        return dict(self._numbers)
+
+    def plot(self, figure: Any = None) -> Any:
+        """K_I and K_II over the position of the contact.  Returns the figure."""
+        import matplotlib.pyplot
+
+        figure = figure or matplotlib.pyplot.figure()
+        axes = figure.add_subplot()
+        axes.plot(self.x, self.K_I, label="$K_I$")
+        axes.plot(self.x, self.K_II, "--", label="$K_{II}$")
+        axes.set_xlabel("position of the contact  [mm]")
+        axes.set_ylabel("stress intensity  [MPa mm$^{1/2}$]")
+        axes.legend()
+        return figure
+
+    def __repr__(self) -> str:
+        return (f"<Crack: {len(self.x)} positions; K_I at most {self.K_I_max:.5g}, "
+                f"K_II {self.K_II_min:.5g} ... {self.K_II_max:.5g} MPa mm^0.5>")
+
+
+_CRACK = ("crack_length", "crack_angle", "crack_mouth", "crack_depth", "crack_friction", "crack_elements", "from", "to",
+          "passes", "fluid", "remote_stress", "unloaded", "coupled", "paris", "paris_range", "threshold", "growth",
+          "grow_to", "grow_steps")
+
+
+def crack(case: _CaseLike = None, **options: Any) -> Crack:
+    """Passes the contact of a case over a crack in body B: ``crack(rail, crack_angle=30, fluid="trapped")``.
+
+    Options of the crack are those of ``rollbem crack`` with ``_`` for ``-`` (``from_`` for ``from``); the others are
+    those of the case.
+    """
+    own = {name.rstrip("_"): value for name, value in options.items() if name.rstrip("_") in _CRACK}
+    whole = _case(case, {name: value for name, value in options.items() if name.rstrip("_") not in _CRACK})
+    handle = whole.handle("crack")
+    import ctypes
+
+    words = ctypes.c_char_p * max(len(own), 1)
+    names = words(*(name.replace("_", "-").encode() for name in own))
+    values = words(*(_text(value).encode() for value in own.values()))
+    status = handle.run("rb_api_crack", len(own), names, values)
+    if status != SOLVED:
+        raise handle.error(status)
+    return Crack(whole, handle)
+
+
+# ---- Derivatives --------------------------------------------------------------------------
+
+
+def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> "dict[str, dict[str, Any]]":
+    """Derivatives of every number of a solution by every number of its case: ``d["tangential_load"]["mu"]``.
+
+    A pair (left, right) where the two sides differ, NaN where there is none. Names of columns (``"p"``, ``"q"``) give an array with an
+    entry per element. In mm, N and MPa.
+    """
+    if not isinstance(solution, Solution):
+        solution = _case(solution, options).solve()
+    handle = solution._live()
+    status = handle.run("rb_api_derivatives")
+    if status != SOLVED:
+        raise handle.error(status)
+    room, inputs = handle.text_room(), []
+    while True:
+        name = lib.rb_api_input(handle.at, len(inputs), b"name", room, len(room))
+        if name is None:
+            break
+        inputs.append(name.decode())
+    found: "dict[str, dict[str, Any]]" = {}
+    for result in (*solution._numbers, *solution._arrays):
+        array = handle.array(f"derivative.{result}")
+        if array is None or np.isnan(array).all():
+            continue
+        sides = np.atleast_2d(array.reshape(-1, 2 * len(inputs)))
+        found[result] = {}
+        for k, name in enumerate(inputs):
+            left, right = sides[:, 2 * k].copy(), sides[:, 2 * k + 1].copy()
+            if result not in solution._arrays:
+                left, right = float(left[0]), float(right[0])
+            same = np.array_equal(left, right, equal_nan=True)
+            found[result][name] = left if same else (left, right)
+    return found
+
+
+# ---- By the program -----------------------------------------------------------------------
+
+
+def _arguments(case: Case) -> "list[str]":
+    words = []
+    for name, text in case._texts.items():
+        flag = name in OPTIONS and OPTIONS[name].kind == "flag"
+        option = "--" + name.replace("_", "-")
+        if not flag:
+            words.append(f"{option}={text}")
+        elif text == "yes":
+            words.append(option)
+    return words
+
+
+def _ask(command: str, case: Case, words: "list[str]", operands: "list[str]") -> "tuple[int, dict]":
+    case.handle("solve")  # refusals of single options in this package's words
+    if case.file is not None:
+        operands = [*operands, _values.path("case", case.file)]
+    code, printed, message = _program._run(command, *words, *_arguments(case), "--json", "--quiet", "--", *operands)
+    if not printed:
+        raise Unsolved(message)
+    return code, json.loads(printed)
+
+
+class Parameter(NamedTuple):
+    """A fitted number: NaN where the data do not tell it."""
+
+    value: float
+    interval: "tuple[float, float]"
+    deviation: float
+    correlation: "dict[str, float]"
+    identified: bool
+
+
+class Fit(_Named):
+    """Numbers of a case fitted to measured forces: ``parameters`` by name, and the fitted curve as columns."""
+
+    parameters: "dict[str, Parameter]"
+    sentences: "list[str]"
+
+    def __init__(self, answer: Mapping[str, Any]) -> None:
+        def number(x: Optional[float]) -> float:
+            return float("nan") if x is None else float(x)
+
+        self.parameters = {
+            name: Parameter(number(p["value"]), tuple(map(number, p["interval"])), number(p["deviation"]),
+                            {other: number(x) for other, x in p["correlation"].items()}, p["identified"])
+            for name, p in answer["parameters"].items()}
+        self.sentences = list(answer["sentences"])
+        self._arrays = {name: np.array([number(x) for x in column]) for name, column in answer["fit"].items()}
+        self._arrays["residual"] = np.array([number(x) for x in answer["residuals"]])
+        self._numbers = {name: answer[name] for name in ("level", "chi_square", "degrees_of_freedom", "noise", "kappa",
+                                                          "iterations")}
+
+    def __getitem__(self, name: str) -> Parameter:
+        return self.parameters[name.replace("_", "-")]
+
+    def plot(self, figure: Any = None) -> Any:
+        """Points and fitted curve.  Returns the figure."""
+        import matplotlib.pyplot
+
+        figure = figure or matplotlib.pyplot.figure()
+        axes = figure.add_subplot()
+        over, force = list(self._arrays)[:2]
+        order = np.argsort(self._arrays[over])
+        axes.plot(self._arrays[over], self._arrays[force], "o", label="measured")
+        axes.plot(self._arrays[over][order], self._arrays["fitted"][order], label="fitted")
+        axes.set_xlabel(over)
+        axes.set_ylabel(force)
+        axes.legend()
+        return figure
+
+    def __repr__(self) -> str:
+        return "<Fit: " + ", ".join(f"{name} = {p.value:.5g} ({p.interval[0]:.5g} ... {p.interval[1]:.5g})"
+                                    for name, p in self.parameters.items()) + ">"
+
+
+def fit(data: Union[str, os.PathLike, Table], names: Union[str, Sequence[str]], case: _CaseLike = None,
+        sigma: Optional[float] = None, bounds: Optional[Mapping[str, "tuple[float, float]"]] = None,
+        start: Optional[Mapping[str, float]] = None, level: float = 0.95, **options: Any) -> Fit:
+    """Fits numbers of a case to a measured creep curve, by ``rollbem fit``.
+
+    ``data`` is a file, a dictionary of columns or a ``pandas.DataFrame``: ``creep`` or ``creep_ratio``; ``force``,
+    ``force_ratio`` or ``force_over_load``; and ``load``, ``speed``, ``temperature``, ``sigma`` where they vary.
+    ``names`` are options, or ``creep_offset``. Numbers are in the units of the case.
+    """
+    whole = _case(case, options)
+    names = [names] if isinstance(names, str) else list(names)
+
+    def program(name: str) -> str:
+        return name.replace("_", "-")
+
+    if not isinstance(data, (str, os.PathLike)):
+        columns = {str(name): np.asarray(data[name], dtype=float) for name in data}
+        if len({len(column) for column in columns.values()}) != 1:
+            raise InvalidInput("data: expected columns of one length")
+        data = whole._write_table(columns)
+    words = ["--fit=" + ",".join(map(program, names)), f"--level={level!r}"]
+    if sigma is not None:
+        words.append(f"--sigma={float(sigma)!r}")
+    if bounds:
+        words.append("--bounds=" + ",".join(f"{program(k)}={float(a)!r}:{float(b)!r}" for k, (a, b) in bounds.items()))
+    if start:
+        words.append("--start=" + ",".join(f"{program(k)}={float(x)!r}" for k, x in start.items()))
+    return Fit(_ask("fit", whole, words, [os.fspath(data)])[1])
+
+
+class Design(_Named):
+    """The least or largest of a result: ``value``, ``start``, and the ``variables`` by name."""
+
+    variables: "dict[str, float]"
+
+    def __init__(self, answer: Mapping[str, Any]) -> None:
+        design = answer["design"]
+        self.variables = {name: v["value"] for name, v in design["variables"].items()}
+        self.constraints = design["constraints"]
+        table = [v for v in design["variables"].values() if "x" in v]
+        self._arrays = ({"x": np.array([v["x"] for v in table]), "gap": np.array([v["value"] for v in table])}
+                        if table else {})
+        self._numbers = {name: design[name] for name in ("value", "start", "evaluations")}
+        self.result, self.status = design["result"], design["status"]
+
+    def __repr__(self) -> str:
+        return f"<Design: {self.result} {self.value:.6g}, at the start {self.start:.6g}>"
+
+
+def design(case: _CaseLike = None, *, minimise: Optional[str] = None, maximise: Optional[str] = None,
+           over: Mapping[str, "tuple[float, float]"], subject: Union[str, Sequence[str]] = (),
+           span: Optional[float] = None, evaluations: int = 200, **options: Any) -> Design:
+    """The least or largest of a result over numbers of a case, by ``rollbem design``.
+
+    ``design(load=500, minimise="max_pressure", over={"radius": (20, 200)}, subject=["half_width<=1.2"])``; ``over={"gap":
+    (a, b)}`` varies every value of the table of the gap. Numbers are in the units of the case.
+    """
+    whole = _case(case, options)
+    words = ["--over=" + ",".join(f"{k.replace('_', '-')}={float(a)!r}:{float(b)!r}" for k, (a, b) in over.items()),
+             f"--evaluations={int(evaluations)}"]
+    for option, result in (("--minimise", minimise), ("--maximise", maximise)):
+        if result is not None:
+            words.append(f"{option}={result}")
+    subject = [subject] if isinstance(subject, str) else list(subject)
+    if subject:
+        words.append("--subject=" + ",".join(subject))
+    if span is not None:
+        words.append(f"--span={float(span)!r}")
+    return Design(_ask("design", whole, words, [])[1])

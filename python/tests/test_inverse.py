@@ -1,0 +1,71 @@
+"""Cracks, derivatives, fits and designs answer as the program does."""
+
+import numpy as np
+import pytest
+from conftest import run_json
+
+import rollbem
+
+PLANES = dict(support="halfplane", similar=True, load=500.0)
+STEADY = dict(PLANES, formulation="steady", creep_ratio=0.5)
+
+
+def test_cracks():
+    c = rollbem.crack(**PLANES, mu=0.0, crack_angle=45, passes=2, from_=-7)
+    assert len(c.x) == 242 and c.x[0] == pytest.approx(-7 * 0.8165, rel=1e-3)
+    assert c.K_II_max == c.K_II[121:].max()
+    assert c.faces["opening"].shape == (40, 242) and c.faces["path_y"][1] < 0
+    assert c.growth == {}
+    assert "delta_K_II" in c.numbers and "positions" in repr(c)
+    assert len(c.to_pandas()) == 242
+    grown = rollbem.crack(**PLANES, mu=0.0, paris=(1e-12, 3), grow_steps=2)
+    assert grown.growth["cycles"][0] == 0 and len(grown.growth["length"]) == 3
+    with pytest.raises(rollbem.InvalidInput, match="crack.angle"):
+        rollbem.crack(**PLANES, crack_angle=180)
+
+
+def test_derivatives():
+    s = rollbem.solve(**STEADY)
+    d = s.derivatives
+    want = run_json(**STEADY, derivatives="tangential_load")["derivatives"]["tangential_load"]
+    for name, value in want.items():
+        if isinstance(value, list):
+            assert np.isnan(d["tangential_load"][name][0]) and value[0] is None
+        else:
+            assert d["tangential_load"][name] == pytest.approx(value, rel=1e-6)
+    assert d["normal_load"]["load"] == pytest.approx(1, rel=1e-9)
+    assert d["q"]["mu"].shape == s.q.shape
+    assert rollbem.derivatives(**STEADY)["max_pressure"]["load"] == pytest.approx(s.max_pressure / 1000, rel=1e-3)
+    with pytest.raises(rollbem.InvalidInput):
+        rollbem.derivatives(**PLANES, formulation="static", increments=3)
+
+
+def test_fits():
+    xi = -0.5e-3 * np.arange(1, 13)
+    ratio = [-rollbem.solve(**PLANES, formulation="steady", mu=0.25, creep=float(x) + 1e-4).tangential_load / 500
+             for x in xi]
+    data = {"creep": xi, "force_over_load": -np.array(ratio)}
+    pandas = pytest.importorskip("pandas")
+    for columns in (data, pandas.DataFrame(data)):
+        found = rollbem.fit(columns, ["mu", "creep_offset"], **PLANES, bounds={"mu": (0.1, 0.6)}, start={"mu": 0.3})
+        assert found["mu"].value == pytest.approx(0.25, abs=1e-3)
+        assert found["creep_offset"].value == pytest.approx(1e-4, abs=1e-5)
+        assert found["mu"].interval[0] <= found["mu"].value <= found["mu"].interval[1]
+        assert len(found.fitted) == 12 and "mu" in repr(found)
+    with pytest.raises(rollbem.InvalidInput, match="fit"):
+        rollbem.fit(data, "mou", **PLANES)
+
+
+def test_designs():
+    try:
+        found = rollbem.design(**PLANES, minimise="max_pressure", over={"radius": (20, 200)}, subject="half_width<=1.2")
+    except rollbem.InvalidInput as error:
+        pytest.skip(str(error))
+    assert found.variables["radius"] == pytest.approx(107, rel=2e-2)
+    assert found.value < found.start and "max_pressure" in repr(found)
+    x = np.linspace(-4, 4, 9)
+    table = rollbem.design(**PLANES, mu=0, gap={"x": x, "gap": 1e-2 * x**2}, minimise="max_pressure",
+                           over={"gap": (-1e-3, 1e-3)}, evaluations=20)
+    assert table.gap.shape == x.shape and table.value < table.start
+    with pytest.raises(rollbem.InvalidInput, match="did you mean|no result"):
+        rollbem.design(**PLANES, minimise="max_presure", over={"radius": (20, 200)})
