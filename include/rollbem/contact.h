@@ -216,7 +216,6 @@ typedef struct {
     int mirrored; /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
                    */
     double delta0, xi0;            /* where the bordered unknowns start */
-    double *B_inverse;             /* Kwak's form: (A F_TT)^-1, n x n; owned */
     double *control_N, *control_T; /* n: row of the given force; owned */
 } rb_contact_lcp;
 

@@ -1,5 +1,6 @@
-/* The LCP of the contact problem: Kwak's form (K4), its principal pivot (K5), and the
- * rows and columns that a given load and a given force add to either (K6). */
+/* The LCP of the contact problem: the pivoted form (K5), with the rows and columns that a
+ * given load and a given force (K6) and a layer that yields (Y1) add to it, and Kwak's
+ * (K4), which is a principal pivot of all that. */
 #include "contact/internal.h"
 
 #include <cblas.h>
@@ -14,7 +15,6 @@ void rb_contact_lcp_free(rb_contact_lcp *lcp)
     free(lcp->b);
     free(lcp->z_scale);
     free(lcp->w_scale);
-    free(lcp->B_inverse);
     free(lcp->control_N);
     free(lcp->control_T);
     memset(lcp, 0, sizeof *lcp);
@@ -46,10 +46,8 @@ static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form
     lcp->w_scale = rb_alloc(size, 1);
     lcp->control_N = rb_alloc(n, 1);
     lcp->control_T = rb_alloc(n, 1);
-    if (form == RB_LCP_KWAK)
-        lcp->B_inverse = rb_alloc(n, n);
     if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N &&
-        lcp->control_T && (form != RB_LCP_KWAK || lcp->B_inverse)) {
+        lcp->control_T) {
         rb_contact_force_row(p, lcp->control_N, lcp->control_T);
         return RB_OK;
     }
@@ -169,160 +167,13 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
         pivoted_border(p, force_row(p, lcp), lcp);
 }
 
-/* ---- Kwak's form (K4) -------------------------------------------------------------- */
-
-/* Column of lambda+ (sign 0) or lambda- (sign 1) of element i. */
-static int lambda_column(int n, int i, int sign)
-{
-    return n + 2 * i + sign;
-}
-
-static rb_status invert(int n, double *B)
-{
-    lapack_int *pivots = calloc((size_t)n, sizeof *pivots);
-    if (!pivots)
-        return RB_ENOMEM;
-    lapack_int fault = LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, B, n, pivots);
-    if (fault == 0)
-        fault = LAPACKE_dgetri(LAPACK_COL_MAJOR, n, B, n, pivots);
-    free(pivots);
-    return rb_lapack_status(fault);
-}
-
-/* r_T = R z + r_0 for z = (r_N, lambda, delta', xi').  R's columns of lambda+ and lambda-
- * are B^-1 and -B^-1, that of delta' is zero; here are the others. */
-typedef struct {
-    double *N;    /* n x n, of r_N: -B^-1 S_N; owned */
-    double *xi;   /* n; zero where the force is not given */
-    double *rest; /* n: r_0 */
-} traction;
-
-static rb_status tangential_traction(const rb_contact_problem *p,
-                                     const rb_contact_lcp *lcp, traction *R)
-{
-    const int n = p->n;
-    const size_t length = (size_t)n;
-    const double *Bi = lcp->B_inverse;
-
-    R->N = rb_alloc(length, length + 3);
-    if (!R->N)
-        return RB_ENOMEM;
-    R->xi = R->N + length * length;
-    R->rest = R->xi + length;
-    double *d = R->rest + length;
-    for (int i = 0; i < n; i++)
-        d[i] = slip_offset(p, lcp, i);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, Bi, n, d, 1, 0.0, R->rest, 1);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, -1.0, Bi, n,
-                rb_contact_operator_matrix(p->op).S, n, 0.0, R->N, n);
-    if (p->force_given)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -xi_direction(lcp), Bi, n, p->e_T,
-                    1, 0.0, R->xi, 1);
-    return RB_OK;
-}
-
-/* y_N = d_N + F_NN r_N + F_NT r_T (K1). */
-static void kwak_gap_rows(const rb_contact_problem *p, const traction *R,
-                          rb_contact_lcp *lcp)
-{
-    const int n = p->n, ld = lcp->size;
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const double *F_NT = K.F + (size_t)n * K.ldf;
-    double *lambda = lcp->M + (size_t)lambda_column(n, 0, 0) * ld;
-
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
-                R->N, n, 0.0, lcp->M, ld);
-    add_block(n, 1.0, (operand){K.F, K.ldf}, lcp->M, ld);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
-                lcp->B_inverse, n, 0.0, lambda, 2 * ld);
-    add_block(n, -1.0, (operand){lambda, 2 * ld}, lambda + ld, 2 * ld);
-    if (p->force_given)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, K.ldf, R->xi, 1, 0.0,
-                    lcp->M + (size_t)xi_column(p) * ld, 1);
-    cblas_dcopy(n, p->d_N, 1, lcp->b, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, K.ldf, R->rest, 1, 1.0,
-                lcp->b, 1);
-}
-
-/* gamma+ and gamma- of a column of M, or of b: +- the column x of R. */
-static void set_friction(int n, double sign, const double *x, double *column)
-{
-    for (int i = 0; i < n; i++) {
-        column[lambda_column(n, i, 0)] = sign * x[i];
-        column[lambda_column(n, i, 1)] = -sign * x[i];
-    }
-}
-
-/* gamma+- = mu r_N +- r_T (K3). */
-static void kwak_friction_rows(const rb_contact_problem *p, const traction *R,
-                               rb_contact_lcp *lcp)
-{
-    const int n = p->n;
-    const size_t length = (size_t)n, ld = (size_t)lcp->size;
-
-    for (int j = 0; j < n; j++) {
-        const double *Bi = lcp->B_inverse + (size_t)j * length;
-        double *column = lcp->M + (size_t)j * ld;
-        set_friction(n, 1.0, R->N + (size_t)j * length, column);
-        for (int sign = 0; sign < 2; sign++) {
-            column[lambda_column(n, j, sign)] += p->bound[j];
-            set_friction(n, sign ? -1.0 : 1.0, Bi,
-                         lcp->M + (size_t)lambda_column(n, j, sign) * ld);
-        }
-    }
-    if (p->force_given)
-        set_friction(n, 1.0, R->xi, lcp->M + (size_t)xi_column(p) * ld);
-    set_friction(n, 1.0, R->rest, lcp->b);
-}
-
-static void kwak_border(const rb_contact_problem *p, const traction *R, border_row e,
-                        rb_contact_lcp *lcp)
-{
-    const int n = p->n, ld = lcp->size;
-    double *r_N = lcp->M + e.row, *lambda = r_N + (size_t)lambda_column(n, 0, 0) * ld;
-
-    cblas_dgemv(CblasColMajor, CblasTrans, n, n, e.sign, R->N, n, e.a_T, 1, 0.0, r_N, ld);
-    cblas_daxpy(n, e.sign, e.a_N, 1, r_N, ld);
-    cblas_dgemv(CblasColMajor, CblasTrans, n, n, e.sign, lcp->B_inverse, n, e.a_T, 1, 0.0,
-                lambda, 2 * ld);
-    cblas_daxpy(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
-    if (p->force_given)
-        r_N[(size_t)xi_column(p) * ld] = e.sign * cblas_ddot(n, e.a_T, 1, R->xi, 1);
-    lcp->b[e.row] = e.sign * (cblas_ddot(n, e.a_T, 1, R->rest, 1) - e.value);
-}
-
-static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    const int n = p->n;
-    traction R = {0};
-
-    memcpy(lcp->B_inverse, rb_contact_operator_matrix(p->op).S + (size_t)n * n,
-           (size_t)n * n * sizeof(double));
-    rb_status s = invert(n, lcp->B_inverse);
-    if (s == RB_OK)
-        s = tangential_traction(p, lcp, &R);
-    if (s == RB_OK) {
-        kwak_gap_rows(p, &R, lcp);
-        kwak_friction_rows(p, &R, lcp);
-        if (p->load_given)
-            kwak_border(p, &R, load_row(p), lcp);
-        if (p->force_given)
-            kwak_border(p, &R, force_row(p, lcp), lcp);
-    }
-    free(R.N);
-    return s;
-}
-
 /* ---- A layer that yields (Y1) ------------------------------------------------------ */
 
 /* Plastic slips s+ and s- (z), against sigma+- = yield + hardening u +- r_T (w), stand
- * behind the 3n: block by block in the pivoted form, by pairs in Kwak's. */
-static int yield_index(const rb_contact_problem *p, const rb_contact_lcp *lcp, int i,
-                       int sign)
+ * behind the 3n, block by block. */
+static int yield_index(const rb_contact_problem *p, int i, int sign)
 {
-    const int n = p->n;
-    return lcp->form == RB_LCP_KWAK ? 2 * n + lambda_column(n, i, sign)
-                                    : (3 + sign) * n + i;
+    return (3 + sign) * p->n + i;
 }
 
 /* yield + hardening u, u from the unit plastic slips of each element j. */
@@ -332,15 +183,15 @@ static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
         double u = p->own, next = 0.0;
         for (int i = j; i >= 0 && u != 0.0; i--) {
             for (int k = 0; k < 4; k++)
-                lcp->M[yield_index(p, lcp, i, k % 2) +
-                       (size_t)yield_index(p, lcp, j, k / 2) * (size_t)lcp->size] +=
+                lcp->M[yield_index(p, i, k % 2) +
+                       (size_t)yield_index(p, j, k / 2) * (size_t)lcp->size] +=
                     p->hardening * u;
             const double before = p->recall[0] * u + p->recall[1] * next;
             next = u;
             u = before;
         }
         for (int sign = 0; sign < 2; sign++)
-            lcp->b[yield_index(p, lcp, j, sign)] += p->yield[j];
+            lcp->b[yield_index(p, j, sign)] += p->yield[j];
     }
 }
 
@@ -352,37 +203,76 @@ static void pivoted_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
     for (size_t i = 0; i < n; i++)
         for (int sign = 0; sign < 2; sign++) {
             const double o = sign ? -1.0 : 1.0;
-            const size_t k = (size_t)yield_index(p, lcp, (int)i, sign);
+            const size_t k = (size_t)yield_index(p, (int)i, sign);
             lcp->M[n + i + k * ld] = -o;
             lcp->M[k + (n + i) * ld] = o;
             lcp->M[k + i * ld] = -o * p->bound[i];
         }
 }
 
-/* The columns of s+- are those of lambda+-, the rows of sigma+- those of gamma+- but for
- * mu r_N. */
-static void kwak_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    const int n = p->n, size = lcp->size;
-    double *lambda = lcp->M + (size_t)n * (size_t)size;
+/* ---- Kwak's form (K4) -------------------------------------------------------------- */
 
-    memcpy(lambda + 2 * (size_t)n * (size_t)size, lambda,
-           2 * (size_t)n * (size_t)size * sizeof *lambda);
-    for (int j = 0; j < size; j++) {
-        double *column = lcp->M + (size_t)j * (size_t)size;
-        memcpy(column + 3 * n, column + n, 2 * (size_t)n * sizeof *column);
-        for (int sign = 0; sign < 2 && j < n; sign++)
-            column[yield_index(p, lcp, j, sign)] -= p->bound[j];
-    }
-    memcpy(lcp->b + 3 * n, lcp->b + n, 2 * (size_t)n * sizeof *lcp->b);
+/* Where unknown k of the pivoted form stands in Kwak's: lambda+- and s+- in pairs. */
+static int kwak_place(const rb_contact_problem *p, int k)
+{
+    const int n = p->n, block = (k - n) / n;
+    return k < n || k >= delta_column(p)
+               ? k
+               : n + 2 * n * (block / 2) + 2 * ((k - n) % n) + block % 2;
 }
 
-static void add_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
+/* The principal pivot of the pivoted form on S_T: lambda+ is given and gamma+ follows
+ * from it, gamma = S_T^-1 (lambda+ - the other columns - b), in the rows of lambda+ and
+ * in all others. */
+static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
-    if (!p->yield)
-        return;
-    (lcp->form == RB_LCP_KWAK ? kwak_yield : pivoted_yield)(p, lcp);
-    add_yield_stress(p, lcp);
+    const int n = p->n, size = lcp->size;
+    const size_t length = (size_t)n, ld = (size_t)size;
+    double *gamma = rb_alloc(ld, length); /* its columns */
+    double *S_T = rb_alloc(length, length);
+    double *solved = rb_alloc(length, ld + 1); /* gamma by the other unknowns and 1 */
+    double *M = rb_alloc(ld, ld), *b = rb_alloc(ld, 1);
+    lapack_int *pivots = calloc(length, sizeof *pivots);
+    rb_status s = gamma && S_T && solved && M && b && pivots ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        double *own = lcp->M + length * ld;
+        memcpy(gamma, own, length * ld * sizeof *own);
+        for (int j = 0; j <= size; j++)
+            for (int i = 0; i < n; i++)
+                solved[(size_t)i + (size_t)j * length] =
+                    j >= n && j < 2 * n ? i == j - n
+                    : j < size          ? -lcp->M[n + i + (size_t)j * ld]
+                                        : -lcp->b[n + i];
+        for (size_t j = 0; j < length; j++)
+            memcpy(S_T + j * length, gamma + j * ld + n, length * sizeof *S_T);
+        memset(own, 0, length * ld * sizeof *own);
+        s = rb_lapack_status(
+            LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, size + 1, S_T, n, pivots, solved, n));
+    }
+    if (s == RB_OK) {
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma,
+                    size, solved, n, 1.0, lcp->M, size);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size,
+                    solved + length * ld, 1, 1.0, lcp->b, 1);
+        for (int i = 0; i < size; i++) {
+            const int row = kwak_place(p, i), is_gamma = i >= n && i < 2 * n;
+            const double *from = is_gamma ? solved + i - n : lcp->M + i;
+            const size_t step = is_gamma ? length : ld;
+            for (int j = 0; j < size; j++)
+                M[row + (size_t)kwak_place(p, j) * ld] = from[(size_t)j * step];
+            b[row] = is_gamma ? from[ld * step] : lcp->b[i];
+        }
+        memcpy(lcp->M, M, ld * ld * sizeof *M);
+        memcpy(lcp->b, b, ld * sizeof *b);
+    }
+    free(gamma);
+    free(S_T);
+    free(solved);
+    free(M);
+    free(b);
+    free(pivots);
+    return s;
 }
 
 /* ---- Both -------------------------------------------------------------------------- */
@@ -416,18 +306,13 @@ static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
     const double bound = rb_contact_friction_scale(p);
 
     fill(n, p->stress, lcp->z_scale);
-    fill(2 * n, p->slip_length, lcp->z_scale + n);
+    fill(delta_column(p) - n, p->slip_length, lcp->z_scale + n);
     fill(n, p->gap_length, lcp->w_scale);
-    fill(2 * n, bound, lcp->w_scale + n);
+    fill(delta_column(p) - n, bound, lcp->w_scale + n);
     if (pivoted) {
         fill(n, bound, lcp->z_scale + n);
         fill(n, p->slip_length, lcp->w_scale + n);
     }
-    for (int i = 0; i < n && p->yield; i++)
-        for (int sign = 0; sign < 2; sign++) {
-            lcp->z_scale[yield_index(p, lcp, i, sign)] = p->slip_length;
-            lcp->w_scale[yield_index(p, lcp, i, sign)] = bound;
-        }
     if (p->load_given) {
         lcp->z_scale[delta_column(p)] = p->gap_length;
         lcp->w_scale[delta_column(p)] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
@@ -460,13 +345,14 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
     if (s == RB_OK) {
         lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
         lcp->xi0 = xi0;
+        pivoted_form(problem, lcp);
+        if (problem->yield) {
+            pivoted_yield(problem, lcp);
+            add_yield_stress(problem, lcp);
+        }
         if (form == RB_LCP_KWAK)
             s = kwak_form(problem, lcp);
-        else
-            pivoted_form(problem, lcp);
     }
-    if (s == RB_OK)
-        add_yield(problem, lcp);
     if (s != RB_OK) {
         rb_contact_lcp_free(lcp);
         return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
@@ -478,21 +364,15 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
     return RB_OK;
 }
 
-/* r_T of (K4): B^-1 (T_T lambda - S_N r_N - d_T - xi e_T). */
-static void kwak_recover_traction(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                                  const double *z, rb_contact_state *state)
+/* gamma of element i: an unknown of the pivoted form, a row w = M z + b of Kwak's. */
+static double gamma_of(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                       const double *z, int i)
 {
-    const int n = p->n;
-    double *slip = state->lambda; /* scratch until the caller recomputes it */
-
-    for (int i = 0; i < n; i++)
-        slip[i] =
-            p->slip_length * (z[lambda_column(n, i, 0)] - z[lambda_column(n, i, 1)]) +
-            state->plastic[i] - p->d_T[i] - state->xi * p->e_T[i];
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0,
-                rb_contact_operator_matrix(p->op).S, n, state->p, 1, 1.0, slip, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, lcp->B_inverse, n, slip, 1, 0.0,
-                state->q, 1);
+    if (lcp->form == RB_LCP_PIVOTED)
+        return lcp->z_scale[p->n + i] * z[p->n + i];
+    const int row = kwak_place(p, p->n + i);
+    return lcp->w_scale[row] *
+           (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
 }
 
 void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp,
@@ -508,18 +388,17 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
         state->xi =
             lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
     for (int i = 0; i < n; i++) {
+        int plus = yield_index(p, i, 0), minus = yield_index(p, i, 1);
+        if (lcp->form == RB_LCP_KWAK) {
+            plus = kwak_place(p, plus);
+            minus = kwak_place(p, minus);
+        }
         state->p[i] = lcp->z_scale[i] * z[i];
         state->plastic[i] =
-            p->yield ? orientation(lcp) * p->slip_length *
-                           (z[yield_index(p, lcp, i, 0)] - z[yield_index(p, lcp, i, 1)])
-                     : 0.0;
+            p->yield ? orientation(lcp) * p->slip_length * (z[plus] - z[minus]) : 0.0;
+        state->q[i] =
+            orientation(lcp) * (gamma_of(p, lcp, z, i) - p->bound[i] * state->p[i]);
     }
-    if (lcp->form == RB_LCP_KWAK)
-        kwak_recover_traction(p, lcp, z, state);
-    else
-        for (int i = 0; i < n; i++)
-            state->q[i] = orientation(lcp) *
-                          (lcp->z_scale[n + i] * z[n + i] - p->bound[i] * state->p[i]);
     state->lcp_form = lcp->form;
 }
 

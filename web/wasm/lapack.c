@@ -111,21 +111,6 @@ int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *piv
                  : LAPACKE_dgetrs_work(layout, 'N', n, nrhs, A, lda, pivots, B, ldb);
 }
 
-int LAPACKE_dgetri(int layout, int n, double *A, int lda, const int *pivots)
-{
-    double *X = calloc((size_t)n * (size_t)n + 1, sizeof *X);
-    if (!X)
-        return LAPACK_WORK_MEMORY_ERROR;
-    for (int i = 0; i < n; i++)
-        X[(size_t)i * ((size_t)n + 1)] = 1.0;
-    LAPACKE_dgetrs_work(layout, 'N', n, n, A, lda, pivots, X, n);
-    for (int j = 0; j < n; j++)
-        memcpy(A + (size_t)j * (size_t)lda, X + (size_t)j * (size_t)n,
-               (size_t)n * sizeof *X);
-    free(X);
-    return 0;
-}
-
 /* A = U'U column by column, in the upper triangle; uplo is 'U' here. */
 int LAPACKE_dpotrf(int layout, char uplo, int n, double *A, int lda)
 {

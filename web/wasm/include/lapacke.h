@@ -10,7 +10,6 @@ int LAPACKE_dgetrf_work(int layout, int m, int n, double *A, int lda, int *pivot
 int LAPACKE_dgetrf(int layout, int m, int n, double *A, int lda, int *pivots);
 int LAPACKE_dgetrs_work(int layout, char trans, int n, int nrhs, const double *A, int lda,
                         const int *pivots, double *B, int ldb);
-int LAPACKE_dgetri(int layout, int n, double *A, int lda, const int *pivots);
 int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *pivots,
                        double *B, int ldb);
 int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda,
