@@ -271,6 +271,21 @@ static void lcp_copositive(lcp_family *f, int n)
         f->q[i] = floor(20.0 * lcp_random(f)) - 15.0;
 }
 
+/* A bimatrix game with n/2 strategies a player: costs in [1, 2), A y - 1 >= 0, B'x - 1 >=
+ * 0, up to the sums of x and y its equilibria. */
+static void lcp_game(lcp_family *f, int n)
+{
+    const int half = n / 2;
+    lcp_begin(f, 2 * half);
+    for (int i = 0; i < half; i++)
+        for (int j = 0; j < half; j++) {
+            lcp_add(f, i, half + j, 1.0 + lcp_random(f));
+            lcp_add(f, half + j, i, 1.0 + lcp_random(f));
+        }
+    for (int i = 0; i < f->n; i++)
+        f->q[i] = -1.0;
+}
+
 /* ---- Both together
  * ----------------------------------------------------------------------- */
 
@@ -292,6 +307,7 @@ static const lcp_family_kind lcp_families[] = {
     {"stackelberg", lcp_stackelberg, {20, 200, 600}},
     {"degenerate", lcp_degenerate, {20, 100, 300}},
     {"copositive", lcp_copositive, {20, 100, 300}},
+    {"game", lcp_game, {4, 20, 100, 600}},
 };
 enum { LCP_FAMILIES = sizeof lcp_families / sizeof lcp_families[0] };
 

@@ -176,8 +176,8 @@ int rb_api_stress_maxima(rb_api *a, double depth);
 
 /* The case of the handle is neither read nor changed. */
 
-/* z >= 0, M z + q >= 0, complementary; M n x n, column by column.  solver: "lemke" or
- * "newton" (sparse); max_pivots 0: the solver's own limit. */
+/* z >= 0, M z + q >= 0, complementary; M n x n, column by column.  solver: "auto",
+ * "lemke", "lemke-sparse" or "newton"; max_pivots 0: the solver's own limit. */
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots);
 /* u = W r + q, Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one

@@ -117,6 +117,21 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 
+/* What rb_lcp_solve knows, auto first. */
+typedef struct {
+    const char *name, *summary;
+} rb_lcp_solver;
+const rb_lcp_solver *rb_lcp_solvers(int *count);
+
+/* By name; solver NULL: "auto", a portfolio.  It reads the structure of M, lets the
+ * method begin that fits it, and where that does not end soon all methods go on in turns;
+ * info->solver says which of them gave the answer, iters sums all, max_iters is each
+ * one's.  Where all fail it hands out the end of Lemke's path.  A trace, a cover, a rule
+ * and boxes ask for Lemke's method.  Statuses as the others; RB_EINVAL: unknown solver,
+ * boxes for newton, too. */
+rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
+                       const rb_lcp_options *opt, double *z, rb_lcp_info *info);
+
 /* All solutions that complementary bases give, each once. */
 typedef struct {
     int n, count;

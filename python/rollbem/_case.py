@@ -631,10 +631,14 @@ class Answer:
 
 
 class Complementarity(Answer):
-    """``z`` and ``w = M z + q``; ``residual`` is max \\|min(z, w)\\|, from z alone."""
+    """``z`` and ``w = M z + q``; ``residual`` is max \\|min(z, w)\\|, from z alone.
+
+    ``scaled_residual``, each row's as a part of its own terms, decides whether the problem is solved.
+    """
 
     z: Array
     w: Array
+    scaled_residual: float
 
 
 class Friction(Answer):
@@ -648,16 +652,20 @@ class Friction(Answer):
     scaled_residual: float
 
 
-def lcp(M: Any, q: Any, solver: str = "lemke", max_pivots: int = 0) -> Complementarity:
-    """Solves z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's method, or "newton" (P-matrices)."""
+def lcp(M: Any, q: Any, solver: str = "auto", max_pivots: int = 0) -> Complementarity:
+    """Solves z >= 0, w = M z + q >= 0, z'w = 0 by "lemke", "lemke-sparse" or "newton" (P-matrices).
+
+    "auto" takes turns between them; the ``solver`` of the answer says which of them gave it.
+    """
     q = _values.vector("q", q)
     M = _values.matrix("M", M, len(q))
     handle = Handle("solve")
-    status = handle.run("rb_api_lcp", len(q), doubles(M), doubles(q), _values.word("solver", solver, "lemke or newton"),
+    status = handle.run("rb_api_lcp", len(q), doubles(M), doubles(q), _values.word("solver", solver, "auto, lemke, lemke-sparse or newton"),
                         _values.whole("max_pivots", max_pivots))
     if status < SOLVED:
         raise handle.error(status)
-    return _kept(Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w")), handle, status)
+    return _kept(Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w"),
+                                 scaled_residual=handle.number("task.scaled_residual")), handle, status)
 
 
 def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",

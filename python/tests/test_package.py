@@ -344,7 +344,7 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.sweep(mu=[0.1], workers=2**31), f"workers=: expected a whole number {TOO_LARGE}"),
     (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=1.5), "max_pivots=: expected a whole number from 0 to .*, got 1.5"),
     (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=2**31), f"max_pivots=: expected a whole number {TOO_LARGE}"),
-    (lambda: rollbem.lcp(EYE, [1, 2, 3], solver=None), "solver=: expected lemke or newton, got None"),
+    (lambda: rollbem.lcp(EYE, [1, 2, 3], solver=None), "solver=: expected auto, lemke, lemke-sparse or newton, got None"),
     (lambda: rollbem.lcp([], []), "q=: expected at least one number"),
     (lambda: rollbem.lcp(3, [1, 2]), "M=: expected a matrix of 2 x 2, got a number"),
     (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, dimension=0), "dimension=: expected a whole number from 2 to 3, got 0"),

@@ -121,9 +121,10 @@ def test_complementarity_problems(tmp_path):
     M, q = np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 2.0]]), [-1, 0.3, -2]
     file = tmp_path / "problem.txt"
     file.write_text("3\n2 -1 0  -1 2 -1  0 -1 2\n-1 0.3 -2\n")
-    for solver in ("lemke", "newton"):
+    for solver in ("auto", "lemke", "lemke-sparse", "newton"):
         want, got = solved_by_program("lcp", file, "--solver", solver), rollbem.lcp(M, q, solver=solver)
         assert same(got.z, want["z"]) and same(got.w, want["w"]) and got.residual == want["residual"]
+        assert got.solver == want["solver"] and got.scaled_residual == want["scaled_residual"]
         assert np.allclose(M @ got.z + q, got.w, atol=1e-14) and np.minimum(got.z, got.w).min() > -1e-14
     with pytest.raises(rollbem.Unsolved) as caught:  # no solution: 0 z - 1 >= 0
         rollbem.lcp([[0.0]], [-1.0])

@@ -26,54 +26,41 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
 
 /* ---- Complementarity --------------------------------------------------------------- */
 
-/* w = M z + q with M twice, as the one and the other solver takes it. */
-typedef struct {
-    rb_sparse M;
-    const double *dense, *q;
-    double *z, *w;
-} lcp;
-
-static rb_status solve_lcp(rb_api *a, int newton, const lcp *p,
-                           const rb_lcp_options *options)
-{
-    const int n = p->M.rows;
-    const rb_lcp_problem dense = {n, p->dense, n, p->q};
-    const rb_lcp_mixed_problem sparse = {.M = &p->M, .q = p->q};
-    rb_lcp_info info = {0};
-    rb_api_call_begins();
-    const rb_status s = newton ? rb_lcp_newton(&p->M, p->q, options, p->z, &info)
-                               : rb_lcp_lemke(&dense, options, p->z, &info);
-    if (s >= 0)
-        a->residual = rb_lcp_residual_mixed(&sparse, p->z, p->w);
-    a->scaled_residual = info.scaled;
-    rb_api_call_ends();
-    a->iterations = info.iters;
-    a->why = info.msg;
-    return s;
-}
-
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots)
 {
-    const int newton = strcmp(solver, "newton") == 0;
     rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info = {0};
+    rb_sparse sparse = {0};
     options.max_iters = max_pivots;
-    begin(a, "lcp.", newton ? "newton" : "lemke");
-    if (!newton && strcmp(solver, "lemke") != 0)
+    int count, known = 0;
+    const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
+    while (known < count && strcmp(solver, solvers[known].name) != 0)
+        known++;
+    begin(a, "lcp.", known < count ? solvers[known].name : "");
+    if (known == count)
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "--solver: expected lemke or newton, got '%.60s'",
+                                       "--solver: expected auto, lemke, lemke-sparse or "
+                                       "newton, got '%.60s'",
                                        solver));
     if (n < 1)
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
     api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
     api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
-    if (!w)
-        return rb_api_ended(a, RB_ENOMEM);
-    lcp p = {.dense = M, .q = q, .z = z->at, .w = w->at};
-    rb_status s = rb_sparse_from_dense(n, n, M, n, &p.M);
-    if (s == RB_OK)
-        s = solve_lcp(a, newton, &p, &options);
-    rb_sparse_free(&p.M);
+    rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
+    if (s == RB_OK) {
+        const rb_lcp_mixed_problem p = {.M = &sparse, .q = q};
+        rb_api_call_begins();
+        s = rb_lcp_solve(solver, &p, &options, z->at, &info);
+        if (s >= 0)
+            a->residual = rb_lcp_residual_mixed(&p, z->at, w->at);
+        rb_api_call_ends();
+        a->scaled_residual = info.scaled;
+        a->iterations = info.iters;
+        a->solver = info.solver ? info.solver : a->solver;
+        a->why = info.msg;
+    }
+    rb_sparse_free(&sparse);
     return rb_api_ended(a, s);
 }
 

@@ -17,13 +17,13 @@ typedef struct {
     const char *q, *lower, *upper, *cover, *start, *output;
 } lcp_options;
 
-enum { AUTO, LEMKE, NEWTON };
+enum { AUTO, LEMKE, LEMKE_SPARSE, NEWTON };
 
-static const rb_choice solvers[] = {
-    {"auto", AUTO}, {"lemke", LEMKE}, {"newton", NEWTON}, {NULL, 0}};
-
-/* Of this order on a matrix that is stored sparse is solved without a dense tableau. */
-enum { LARGE = 500 };
+static const rb_choice solvers[] = {{"auto", AUTO},
+                                    {"lemke", LEMKE},
+                                    {"lemke-sparse", LEMKE_SPARSE},
+                                    {"newton", NEWTON},
+                                    {NULL, 0}};
 
 static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
                                   {"first-index", RB_LCP_FIRST_INDEX},
@@ -45,14 +45,15 @@ static const rb_option options[] = {
     RB_FLAG_LINE("game", PLACE(game),
                  "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
     RB_GROUP_LINE("solver", "Solver"),
-    RB_CHOICE_LINE(
-        "solver", PLACE(solver), solvers,
-        "auto: newton on sparse matrices of order 500 and more, lemke otherwise "
-        "and where newton fails"),
+    RB_CHOICE_LINE("solver", PLACE(solver), solvers,
+                   "auto: all in turns, those first that M's structure asks for; lemke: "
+                   "on a tableau; "
+                   "lemke-sparse: on sparse factors, also for boxes; newton: see above"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "scaled residual that counts as solved: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
-                    "iteration limit", .unset = "lemke 50 n + 1000, newton 10 n + 100"),
+                    "iteration limit of each method",
+                    .unset = "lemke 50 n + 1000, newton 10 n + 100"),
     RB_TEXT_LINE("start", PLACE(start), "FILE",
                  "z of a similar problem to start from: n numbers, as --q",
                  .unset = "the bounds", .file = RB_FILE_READ),
@@ -79,7 +80,7 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 static const char about[] =
     "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
     "method\n"
-    "(any matrix) or block principal pivoting (newton: sparse, sure for P-matrices).\n"
+    "(any matrix) and block principal pivoting (newton: sparse, sure for P-matrices).\n"
     "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
     "    2\n"
     "    2 1   1 2   -5 -6\n"
@@ -93,13 +94,15 @@ static const char about[] =
 static const char notes[] =
     "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
     "from z,\n"
-    "seconds, scaled residual. The last one decides: each row's residual as a part of "
-    "its "
-    "own terms\n"
-    "|M| |z| + |q|, so that no units of rows and columns change it. With --trace, "
-    "--solution or --all\n"
-    "these stand in # lines. newton counts\n"
-    "linear systems, --all bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) "
+    "seconds, scaled residual, the solver that gave the answer. The scaled residual "
+    "decides: each row's residual\n"
+    "as a part of its own terms |M| |z| + |q|, so that no units of rows and columns "
+    "change "
+    "it. With --trace,\n"
+    "--solution or --all these stand in # lines. newton counts linear systems, auto sums "
+    "those of all methods that\n"
+    "had a turn, --all counts bases. Pivots name the variables w(1) ... w(n), z(1) ... "
+    "z(n) "
     "and the\n"
     "artificial z0. Of a game z holds the probabilities of the row and then of the "
     "column\n"
@@ -245,9 +248,9 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         char residual[40] = ""; /* without a solution there is none */
         if (isfinite(r->info.res))
             snprintf(residual, sizeof residual, ", scaled residual %.3g", r->info.scaled);
-        rb_report_comment(c, "%s: %s, n = %d, %d %s%s, %.3g s", r->file, r->status, r->n,
-                          r->info.iters, run->o->all ? "bases" : "pivots", residual,
-                          r->seconds);
+        rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r->file, r->status,
+                          r->solver, r->n, r->info.iters,
+                          run->o->all ? "bases" : "pivots", residual, r->seconds);
     } else {
         rb_report_cell_text(c, r->file);
         rb_report_cell_words(c, r->status);
@@ -256,6 +259,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         rb_report_cell_number(c, r->info.res);
         rb_report_cell_number(c, r->seconds);
         rb_report_cell_number(c, r->info.scaled);
+        rb_report_cell_text(c, r->solver);
         rb_report_cells_end_row(c);
     }
     if ((run->o->solution || run->o->all) && r->z)
@@ -305,39 +309,6 @@ static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
     return opt;
 }
 
-/* On a dense tableau, or on a sparse LU what no tableau can do or hold. */
-static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
-{
-    const rb_lcp_options opt = solver_options(run, r);
-    if (r->lower || r->upper || r->start || (!M->dense && M->rows >= LARGE))
-        return rb_lcp_mixed(&r->boxed, &opt, r->z, &r->info);
-    if (rb_io_matrix_to_dense(M) != RB_OK)
-        return rb_fail(&r->info.msg, RB_ENOMEM,
-                       "lcp: out of memory for a dense matrix of order %d", r->n);
-    return rb_lcp_lemke(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, &opt, r->z,
-                        &r->info);
-}
-
-static int wants_newton(const lcp_options *o, const rb_io_matrix *M)
-{
-    const int of_lemke = o->trace || o->cover || o->rule || o->lower || o->upper;
-    return o->solver == NEWTON ||
-           (o->solver == AUTO && !M->dense && M->rows >= LARGE && !of_lemke);
-}
-
-static rb_status run_methods(lcp_run *run, rb_io_matrix *M, lcp_result *r)
-{
-    const rb_lcp_options opt = solver_options(run, r);
-    if (wants_newton(run->o, M)) {
-        r->solver = "newton";
-        const rb_status s = rb_lcp_newton(&r->M, r->boxed.q, &opt, r->z, &r->info);
-        if (s <= 0 || run->o->solver == NEWTON)
-            return s;
-    }
-    r->solver = "lemke";
-    return run_lemke(run, M, r);
-}
-
 /* The numbers are of a file: RB_EINVAL is its fault. */
 static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
 {
@@ -356,13 +327,16 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
     return code;
 }
 
-static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+static cli_exit run_solver(lcp_run *run, lcp_result *r)
 {
+    const rb_lcp_options opt = solver_options(run, r);
     const double start = rb_seconds();
-    const rb_status s = run_methods(run, M, r);
+    const rb_status s =
+        rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
     r->seconds = rb_seconds() - start;
     if (s < 0)
         return invalid(r, s, &r->info.msg);
+    r->solver = r->info.solver;
     r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
     r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
     if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
@@ -457,7 +431,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, &(rb_message){""});
     r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
-    return run->o->all ? run_all(run, &p->M, r) : run_solver(run, &p->M, r);
+    return run->o->all ? run_all(run, &p->M, r) : run_solver(run, r);
 }
 
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
@@ -565,7 +539,7 @@ static const char *columns_of(const lcp_options *o)
     return o->trace      ? "file pivot entering leaving row ratio z0"
            : o->all      ? "file solution i z w"
            : o->solution ? "file i z w"
-                         : "file status n pivots residual seconds scaled";
+                         : "file status n pivots residual seconds scaled solver";
 }
 
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "

@@ -254,13 +254,6 @@ rb_status rb_lcp_assess(rb_lcp_info *info)
                          info->row + 1, info->scaled, info->iters);
 }
 
-/* Of a pivot, bringing columns up to date included: what the tableau's table of
- * docs/lcp.md comes to. */
-static double work_of_pivot(int n)
-{
-    return 300.0 + 8.0 * n + 0.045 * (double)n * n;
-}
-
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
  * leaves or vanishes (solved) or nothing blocks the entering variable (secondary ray). */
 static rb_status follow_path(void *state)
@@ -286,7 +279,7 @@ static rb_status follow_path(void *state)
         if (s != RB_OK)
             return s;
         l->leaving = pivot(l, row, entering);
-        l->work.used += work_of_pivot(l->n);
+        l->work.used += rb_lcp_work_of_pivot(l->n);
         if (l->leaving == z0)
             return RB_OK;
         s = rb_lcp_lemke_keep_accurate(l);
@@ -324,15 +317,17 @@ static rb_status allocate(lemke *l)
     return RB_OK;
 }
 
-/* In the scale; ties of q's least entries, which the long paths of Murty and Fathi need,
- * are none under a generic cover. */
+/* Entries of a generic cover differ by this part: enough to make the paths of Murty and
+ * Fathi short, and little enough for other paths to stay as long as with ones. */
+static const double GENERIC = 0.0625;
+
 static void choose_cover(lemke *l, double *cover)
 {
     unsigned long long seed = 20260101;
     if (l->data.cover || !l->task->generic)
         return;
     for (int i = 0; i < l->n; i++)
-        cover[i] = rb_lcp_random(&seed);
+        cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
     l->data.cover = cover;
 }
 

@@ -16,7 +16,7 @@ enum { CHANCES = 10 };
 
 /* Operations beside the factorisation: of ordering and analysis per entry of the factors,
  * of gathering and products per entry of M, and of what costs like n. */
-static const double PER_FACTOR = 150.0, PER_ENTRY = 10.0, PER_ROW = 20.0;
+static const double PER_FACTOR = 40.0, PER_ENTRY = 10.0, PER_ROW = 20.0;
 
 typedef struct {
     lcp_work work;
