@@ -133,7 +133,8 @@ export function tractions_picture(host, words, answer, options = {}) {
         inner,
     );
     const at = (list, xs = c.x) => line([...xs].map((v, i) => [X(v), Y(list[i])]));
-    if (options.ghost) {
+    /* The state before, where the axis has room for it. */
+    if (options.ghost && most_of(options.ghost.columns.p) < 1.5 * top) {
         const g = options.ghost.columns;
         inner.append(
             svg("path", {

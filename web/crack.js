@@ -81,7 +81,7 @@ export function crack_view(words, page) {
             to,
             unit,
             digits,
-            read: () => Number(given()[name]),
+            read: (a) => Number(a.crack[name]),
             write: (v) => set({ [name]: plain(Math.max(from, Math.min(to, v))) }),
         });
     const drive = page.knob({

@@ -3,7 +3,7 @@
 import { canvas_pen, read_palette, svg_pen } from "./pen.js";
 import { draw_lens, fit_lens, lens_still_fits } from "./lens.js";
 import { html, show } from "./draw.js";
-import { ALL_TANGENTIAL, NORMAL, formulation_of, hold, share_of_ground } from "./state.js";
+import { ALL_TANGENTIAL, NORMAL, formulation_of, hold, radius_of_ground, share_of_ground } from "./state.js";
 import { say } from "./words.js";
 
 const LENS_SPEED = 0.24; /* contact widths per second: slow motion */
@@ -341,35 +341,29 @@ export function hero_view(words, page) {
     }
     function draw_wheel(pen, at, a, seen, given) {
         const { cx, cy, r, ground, left, right } = at,
-            R = a.numbers.radius ?? Number(a.values.radius),
+            R = Number(a.values.radius),
             support = a.values.support;
+        /* The ground: a plane, another roll, or a bore around the wheel, to the same scale. */
+        const bend = radius_of_ground(a.values) * (r / R),
+            reach = Math.min(right - cx, cx - left, 0.98 * Math.abs(bend)),
+            places = Array.from({ length: 41 }, (_, k) => cx + (k / 20 - 1) * reach),
+            ground_at = (x) =>
+                Number.isFinite(bend)
+                    ? ground + bend - Math.sign(bend) * Math.sqrt(Math.max(0, bend ** 2 - (x - cx) ** 2))
+                    : ground;
         const rolls = formulation_of(given) !== "static";
         const small = page.large() ? 15 : r < 50 ? 11 : 13;
-        pen.shape(
-            [
-                [left, ground],
-                [right, ground],
-                [right, ground + 14],
-                [left, ground + 14],
-            ],
-            { fill: "body-b" },
-        );
-        pen.strokes(
-            [
-                [
-                    [left, ground],
-                    [right, ground],
-                ],
-            ],
-            { stroke: "edge", width: 1.6 },
-        );
+        pen.shape([...places.map((x) => [x, ground_at(x)]), ...places.map((x) => [x, ground_at(x) + 14]).reverse()], {
+            fill: "body-b",
+        });
+        pen.strokes([places.map((x) => [x, ground_at(x)])], { stroke: "edge", width: 1.6, name: "ground" });
         const ties = [],
             gap = 22,
             shift = (((turn * r) % gap) + gap) % gap;
-        for (let x = right - shift; x > left + 6; x -= gap)
+        for (let x = cx + reach - shift; x > cx - reach + 6; x -= gap)
             ties.push([
-                [x, ground + 4],
-                [x - 5, ground + 11],
+                [x, ground_at(x) + 4],
+                [x - 5, ground_at(x) + 11],
             ]);
         pen.strokes(ties, { stroke: "soft", width: 1.2, alpha: 0.7 });
         pen.circle(cx, cy, r, { fill: "body-a", stroke: "edge", width: 2 });
@@ -469,17 +463,21 @@ export function hero_view(words, page) {
             answer: a,
             shape: shape ?? a,
             share: share_of_ground(given, a.values),
+            bend: radius_of_ground(a.values),
             fit: scale,
             way,
-            ghost: store.holding || ghost_shown(a) ? store.ghosts.main : null,
+            ghost: ghost_shown(a) ? store.ghosts.main : null,
             words: scene_words(a),
             large: page.large(),
         });
         draw_wheel(pen, at.wheel, a, at.wide ? at.lens : null, given);
         return { ...at, ...drawn, contact_px: drawn.X(a.numbers.contact_to) - drawn.X(a.numbers.contact_from) };
     }
+    /* The state before, where it differs and the axis has room for it. */
     const ghost_shown = (a) =>
         store.ghosts.main &&
+        fit &&
+        store.ghosts.main.numbers.max_pressure < 1.5 * fit.press &&
         store.ghosts.main !== a &&
         Math.abs(store.ghosts.main.numbers.max_pressure / a.numbers.max_pressure - 1) > 0.01;
     function paint() {
@@ -542,7 +540,7 @@ export function hero_view(words, page) {
         const n = a.numbers;
         lead.textContent = formulation_of(page.given) === "static" ? w.lead_rest : w.lead;
         note.hidden = !trouble && !a.notes?.length;
-        note.textContent = trouble ? w.stale : (a.notes ?? []).map((line) => say(words.note, { line })).join(" ");
+        note.textContent = trouble ? w.stale : (a.notes ?? []).map((line) => line.replace(/\.?$/, ".")).join(" ");
         canvas.setAttribute(
             "aria-label",
             say(w.alt, {

@@ -103,8 +103,8 @@ function zone_at({ columns: c }, x) {
 }
 
 /* Surfaces of both bodies over x, in mm: of a coarser solution over the whole window, stretched with the contact.
- * share: what of the approach body B takes. */
-function surfaces(shape, answer, share) {
+ * share: what of the approach body B takes; bend: its radius without load. */
+function surfaces(shape, answer, share, bend) {
     const { x, gap, un } = shape.columns,
         scale = answer.numbers.half_width / shape.numbers.half_width;
     const grow = (answer.numbers.approach || 1) / (shape.numbers.approach || 1);
@@ -119,15 +119,15 @@ function surfaces(shape, answer, share) {
         return list[k - 1] + ((list[k] - list[k - 1]) * (u - x[k - 1])) / (x[k] - x[k - 1]);
     };
     return (at) => {
-        const lower = -share * grow * (between(un, at) - deep);
+        const lower = -share * grow * (between(un, at) - deep) - at ** 2 / (2 * bend);
         return { lower, upper: lower + grow * Math.max(0, between(gap, at)) };
     };
 }
 
-/* box: { x, y, w, h }.  scene: { answer, shape, share, fit, way (mm that the material has moved), ghost, words,
+/* box: { x, y, w, h }.  scene: { answer, shape, share, bend, fit, way (mm that the material has moved), ghost, words,
  * large }.  Returns where things are, for the handles on top. */
 export function draw_lens(pen, box, scene) {
-    const { answer, shape, share, fit, way, ghost, words } = scene;
+    const { answer, shape, share, bend, fit, way, ghost, words } = scene;
     const { columns: c, numbers: n } = answer;
     const [x0, x1] = fit.window,
         per = box.w / (x1 - x0),
@@ -136,8 +136,9 @@ export function draw_lens(pen, box, scene) {
     const middle = box.y + box.h * 0.55,
         depth = Math.min(box.h * 0.36, 0.22 * box.w + 30);
     const touching = n.contact_to > n.contact_from;
-    const heights = shape ? surfaces(shape, answer, share) : () => ({ upper: 0, lower: 0 });
-    const sag = Math.max(1e-12, heights(x0).upper - heights((x0 + x1) / 2).upper, heights((x0 + x1) / 2).upper * 2);
+    const heights = shape ? surfaces(shape, answer, share, bend) : () => ({ upper: 0, lower: 0 });
+    const [end, center] = [heights(x0), heights((x0 + x1) / 2)],
+        sag = Math.max(1e-12, end.upper - center.upper, center.lower - end.lower, center.upper * 2);
     const lift = round_125((0.11 * box.h) / (sag * per)),
         level = heights(n.contact_from || 0).lower;
     const surface = (x) => {
@@ -326,13 +327,14 @@ export function draw_lens(pen, box, scene) {
         if (!touching) return;
         if (box.w > 560 && Math.max(...c.q.map(Math.abs)) > 1e-6 * fit.press)
             pen.text(box.x + 12, foot, words.friction, { fill: "rub", size: small, halo: "body-b" });
-        const runs = { stick: [Infinity, -Infinity], slip: [Infinity, -Infinity] };
-        c.x.forEach((x, i) => {
-            if (!c.zone[i]) return;
-            const run = runs[c.zone[i] === 1 ? "stick" : "slip"];
-            run[0] = Math.min(run[0], x);
-            run[1] = Math.max(run[1], x);
-        });
+        /* The longest piece of each. */
+        const runs = { stick: [0, 0], slip: [0, 0] },
+            kind_at = (i) => [undefined, "stick", "slip"][Math.min(2, c.zone[i])];
+        for (let i = 0, begin = 0; i < c.x.length; i++) {
+            if (kind_at(i) !== kind_at(begin)) begin = i;
+            const run = runs[kind_at(i)];
+            if (run && c.x[i] - c.x[begin] > run[1] - run[0]) runs[kind_at(i)] = [c.x[begin], c.x[i]];
+        }
         const at = middle + depth * 0.9 + small + 4;
         for (const kind of ["stick", "slip"])
             if (X(runs[kind][1]) - X(runs[kind][0]) > 44)

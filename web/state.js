@@ -114,6 +114,9 @@ export function share_of_ground(given, values) {
     return b / (a + b) || 0;
 }
 
+/* Its radius; infinite: a plane, negative: a bore around A. */
+export const radius_of_ground = (values) => Number(values["radius-b"]) || Infinity;
+
 /* "0,3" of a German or French keyboard; a list of numbers keeps its commas. */
 export const with_point = (text) =>
     (/^\s*[-+]?\d*,\d+(e[-+]?\d+)?\s*[^\d,.]*$/i.test(text) ? text.replace(",", ".") : text).trim();

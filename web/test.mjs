@@ -1034,6 +1034,63 @@ async function views(page) {
         await settled();
         check((await text_of("#headline")) === "Now it skids." && !(await places())[1], await text_of("#headline"));
     });
+    await test("another roll is drawn as one, to scale; a state of another scale is no ghost", async () => {
+        const ground = () =>
+            page.run(`(() => {
+                const picture = new DOMParser().parseFromString(rollbem.views.hero.picture_of(), "image/svg+xml").documentElement;
+                const d = picture.querySelector("path.ground").getAttribute("d").match(/[-\\d.]+ [-\\d.]+/g).map((p) => p.split(" ").map(Number));
+                return { low: Math.max(...d.map(([, y]) => y)) - d[20][1], reach: d[40][0] - d[20][0] };
+            })()`);
+        await page.run("rollbem.preset('rail'); rollbem.open('bench')");
+        await settled();
+        const plane = await ground();
+        await page.run("rollbem.preset('roll')");
+        await settled();
+        const roll = await ground();
+        check(plane.low === 0 && roll.low > 0.6 * roll.reach, JSON.stringify([plane, roll]));
+        const ghosts = await page.run("document.querySelectorAll('#at-bench .tractions .ghost').length");
+        check(ghosts === 0, `${ghosts} lines of 1000 MPa on an axis of 2 MPa`);
+        await page.run("rollbem.page.change({ ...rollbem.page.given, load: '30' })");
+        await settled();
+        check(await page.run("document.querySelectorAll('#at-bench .tractions .ghost').length === 2"), "no ghost");
+        await page.run("rollbem.open('hero')");
+        await settled();
+        check(
+            /to scale, R = 150 mm/.test(await page.run("rollbem.views.hero.picture_of()")),
+            "the radius of the wheel",
+        );
+        check(
+            await page.run("!/[.][.]/.test(document.querySelector('.hero .trouble').textContent)"),
+            "two full stops after a note",
+        );
+    });
+    await test("pictures and clips are saved as files", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        const saved = async (text, wait) =>
+            page.run(`(async () => {
+                const blobs = [], make = URL.createObjectURL;
+                URL.createObjectURL = (blob) => { blobs.push(blob); return make.call(URL, blob); };
+                HTMLAnchorElement.prototype.click = function () { this.dispatchEvent(new Event("click")); };
+                [...document.querySelectorAll("#at-hero .menu button")].find((b) => b.textContent === ${JSON.stringify(text)}).click();
+                for (const end = performance.now() + ${wait}; !blobs.length && performance.now() < end; ) await new Promise((r) => setTimeout(r, 50));
+                URL.createObjectURL = make;
+                delete HTMLAnchorElement.prototype.click;
+                const head = blobs[0] ? [...new Uint8Array(await blobs[0].slice(0, 4).arrayBuffer())] : [];
+                return blobs[0] ? [blobs[0].type, blobs[0].size, head] : document.querySelector("#at-hero .menu [role=status]").textContent;
+            })()`);
+        for (const [text, type, head, least] of [
+            ["PNG", "image/png", [0x89, 0x50, 0x4e, 0x47], 20e3],
+            ["SVG", "image/svg+xml", [0x3c, 0x73, 0x76, 0x67], 5e3],
+            ["Clip (WebM)", "video/webm", [0x1a, 0x45, 0xdf, 0xa3], 10e3],
+        ]) {
+            const got = await saved(text, 20e3);
+            check(
+                got[0] === type && got[1] > least && JSON.stringify(got[2]) === JSON.stringify(head),
+                `${text}: ${JSON.stringify(got)}`,
+            );
+        }
+    });
     await test("what takes long is cancelled with its worker, and the page goes on", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('bench')");
         await settled();

@@ -79,7 +79,6 @@ export const words = {
             faster_unit: "faster than it travels",
         },
     },
-    note: "{line}.",
     history: { undo: "Undo (Ctrl+Z)", redo: "Redo (Ctrl+Y)", reset: "As it was opened" },
     skip: "To the workbench",
     full_screen: "Full screen, larger type",
