@@ -435,15 +435,7 @@ export function brake_view(words, page) {
                 store,
                 name: "brake",
                 set: (s) => set(hold(given(), ALL_TANGENTIAL, "creep-ratio", plain(Math.max(0, s)))),
-                set_force: (f) =>
-                    set(
-                        hold(
-                            given(),
-                            ALL_TANGENTIAL,
-                            "creep-ratio",
-                            plain(Math.max(0, n.creep_ratio - (f - n.force_ratio) / 2)),
-                        ),
-                    ),
+                set_force: (f) => set(hold(given(), ALL_TANGENTIAL, "force-ratio", plain(Math.min(-0.001, f)))),
             }),
         );
         if (focused) curve_host.querySelector(".handle")?.focus();

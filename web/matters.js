@@ -5,6 +5,7 @@ import { say } from "./words.js";
 const RESULTS = ["max_pressure", "approach", "tangential_load", "creepage"],
     MOST_ROWS = 8,
     LIVE = 150 /* ms: what takes longer waits until the hand lets go */,
+    PATIENCE = 300 /* ms after which bars of the case before say so */,
     SMALL = 1e-6; /* of the result: rounding, not an effect */
 
 /* [{ name, less, more }], the largest first: the change of a result, as a part of it, for one percent less and more of
@@ -33,6 +34,7 @@ export function matters_card(words, page) {
         drawn_for = null,
         scale = 0,
         cost = 0,
+        behind_since = 0,
         seen = false;
     const node = card(w.title, html("p", { class: "note" }, w.note), choice, rows, told);
     new IntersectionObserver(([entry]) => {
@@ -61,10 +63,16 @@ export function matters_card(words, page) {
               ? w.little
               : `${x > 0 ? "+" : ""}${show(100 * x, Math.abs(x) > 10 ? 3 : 2)} %`;
     function draw() {
-        const key = [data, chosen, store.trouble("main")];
+        /* Of another case than the one that is shown: faint and without numbers until the answer is there. */
+        if (!data || data.given === page.given) behind_since = 0;
+        else if (!behind_since) {
+            behind_since = performance.now();
+            setTimeout(draw, PATIENCE + 20);
+        }
+        const old = behind_since > 0 && performance.now() - behind_since > PATIENCE,
+            key = [data, chosen, store.trouble("main"), old];
         node.classList.toggle("stale-inside", Boolean(store.trouble("main")));
-        /* Of another case than the one that is shown: faint until the answer is there. */
-        rows.classList.toggle("old", Boolean(data) && data.given !== page.given);
+        rows.classList.toggle("old", old);
         if (!data || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
         if (data.refused || !has(chosen)) {
@@ -102,11 +110,15 @@ export function matters_card(words, page) {
                             }),
                         ),
                     ),
-                    html("span", { class: "value" }, percent(more)),
+                    html("span", { class: "value" }, old ? "…" : percent(more)),
                 ),
             ),
         );
         const kinks = list.filter(({ less, more }) => !(Math.abs(less + more) <= 1e-3 * scale));
+        if (old) {
+            told.textContent = "…";
+            return;
+        }
         told.textContent = [
             list.length
                 ? say(w.most, {

@@ -19,8 +19,10 @@ function line_up(wasm, script, take, impatient = false) {
     let worker = null,
         busy = null,
         since = 0,
-        last = 0;
+        last = 0,
+        begun = false;
     const begin = async () => {
+        begun = true;
         const started = await start_worker(wasm, script);
         worker = started.worker;
         worker.onmessage = ({ data }) => {
@@ -50,6 +52,7 @@ function line_up(wasm, script, take, impatient = false) {
         ask(request) {
             waiting.delete(request.slot);
             waiting.set(request.slot, { ...request, id: ++last });
+            if (!begun) begin();
             /* Nobody waits for the answer to an older question. */
             if (impatient && busy?.slot === request.slot && performance.now() - since > LONG) end_worker().then(next);
             else next();
@@ -78,12 +81,11 @@ export async function start_solver(packed, worker_source, take) {
     const script = URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" }));
     const lines = [line_up(wasm, script, take), line_up(wasm, script, take), line_up(wasm, script, take, true)];
     const { options, results } = await lines[0].begin();
-    const others = lines.slice(1).map((line) => line.begin());
+    lines[1].begin(); /* the third one when it is asked */
     const line_of = ({ kind }) => lines[kind === "solve" ? 0 : kind === "derivatives" ? 2 : 1];
     return {
         options,
         results,
-        others,
         ask: (request) => line_of(request).ask(request),
         idle: () => lines.every((line) => line.idle()),
         waits: (slot) => lines.some((line) => line.waits(slot)),

@@ -241,7 +241,7 @@ export function step_view(words, page) {
         of_case = null,
         asked = null,
         wanted = null;
-    const title = html("h3"),
+    const title = html("h3", {}, words.guess_title),
         matrix_host = html("div"),
         sentence = html("p", { class: "sentence", "aria-live": "polite" });
     const strips = html("div", { class: "stack", style: "gap:.35rem" }),
