@@ -31,82 +31,10 @@ typedef struct {
     rb_rolling_history *history;
     int steps;    /* in all */
     double shift; /* rigid shift so far [length] */
-    double *w_T;  /* n: tangential displacement that the next step starts from */
     double *q;    /* n: friction before the step */
-    double *mu;   /* n: coefficients of the particles before the step; NULL where the law
-                     does not depend on the state */
-    double *yielded; /* n: what the interface has yielded, room for `remember` */
-    rb_rolling_former_place ahead; /* for steps of another length than an element's */
-    rb_rolling_heat_track heat;
-    rb_rolling_memory_track past; /* of bodies that relax */
-    double interval; /* [s] that the bodies at hand are those of; -1: of none */
-    int row, part;   /* of the program: steps towards this row that are done */
+    rb_rolling_particles particles;
+    int row, part; /* of the program: steps towards this row that are done */
 } history_state;
-
-static double element_length(const history_state *r)
-{
-    return r->model->bodies.f.h[r->model->mesh.n / 2];
-}
-
-/* Coefficients at the former places of the particles that a step of length c brings. */
-static void remember_friction(history_state *r, double c)
-{
-    const rb_contact_problem *p = &r->model->problem;
-    const double *x = r->model->bodies.f.x;
-    const rb_rolling_table now = {p->n, x, p->bound};
-
-    for (int i = 0; i < p->n && r->mu; i++)
-        r->mu[i] = rb_rolling_friction_at(&now, x[i] + c);
-    r->model->carried.mu = r->mu;
-}
-
-/* What the interface has yielded where the particles come from that a step of length c
- * brings to the elements: linear between midpoints; nothing beyond the last one, where
- * it is new. */
-static void remember_yielded(history_state *r, double c)
-{
-    const double *x = r->model->bodies.f.x;
-    const int n = r->model->mesh.n;
-
-    if (!r->model->carried.yielded)
-        return;
-    rb_rolling_yielded(r->model, r->yielded);
-    r->yielded[n] = 0.0;
-    for (int i = 0, j = 0; i < n; i++) {
-        while (j < n && x[j + 1] <= x[i] + c)
-            j++;
-        const double share = j < n ? (x[i] + c - x[j]) / (x[j + 1] - x[j]) : 0.0;
-        r->model->carried.yielded[i] =
-            j < n ? (1.0 - share) * r->yielded[j] + share * r->yielded[j + 1] : 0.0;
-    }
-}
-
-/* w_T of the present tractions at the same places (c = 0), or where the particles are
- * that a step of length c brings to them. */
-static rb_status remember(history_state *r, double c)
-{
-    const rb_contact_state *state = &r->model->state;
-    const rb_rolling_bodies *bodies = &r->model->bodies;
-    const int n = state->n, m = n + 1;
-    const int element = fabs(c - element_length(r)) <= 1e-9 * element_length(r);
-    rb_status s = RB_OK;
-
-    memcpy(r->q, state->q, (size_t)n * sizeof(double));
-    remember_yielded(r, element ? element_length(r) : c);
-    if (c > 0.0 && !element) {
-        if (r->ahead.step == 0.0)
-            s = rb_rolling_former_place_create(r->rc, bodies, c, &r->ahead);
-        if (s == RB_OK)
-            rb_rolling_former_place_apply(&r->ahead, bodies, state->p, state->q, r->w_T);
-        return s;
-    }
-    double *w = rb_alloc(2 * (size_t)m, 1);
-    s = w ? rb_rolling_displacement(bodies, state->p, state->q, w) : RB_ENOMEM;
-    if (s == RB_OK)
-        memcpy(r->w_T, w + m + element, (size_t)n * sizeof(double));
-    free(w);
-    return s;
-}
 
 /* Of the program at rest, so far; 0 where it has no times. */
 static double time_of(const history_state *r)
@@ -125,40 +53,6 @@ static double time_of(const history_state *r)
 static double interval_of(const history_state *r, double c)
 {
     return rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0;
-}
-
-/* Bodies that relax are others in every step: elastic ones of that interval, displaced
- * by what came before. */
-static rb_status relax(history_state *r, double interval, int rolls, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    rb_status s = RB_OK;
-
-    if (!rb_rolling_relaxes(r->rc))
-        return RB_OK;
-    if (!(fabs(interval - r->interval) <= 1e-9 * interval)) {
-        const rb_rolling_case step = rb_rolling_memory_case(r->rc, interval);
-        rb_contact_problem_free(&model->problem);
-        rb_rolling_bodies_free(&model->bodies);
-        s = rb_rolling_bodies_create(&step, NULL, &model->mesh, &model->bodies, why);
-        if (s == RB_OK)
-            s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
-                                          &model->problem, why);
-        r->interval = interval;
-    }
-    if (s != RB_OK)
-        return s;
-    rb_rolling_memory_track_begin(&r->past, interval, rolls, model->bodies.f.w0);
-    rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
-    return RB_OK;
-}
-
-static void relaxed(history_state *r, double interval)
-{
-    const rb_contact_state *state = &r->model->state;
-
-    if (rb_rolling_relaxes(r->rc))
-        rb_rolling_memory_track_end(&r->past, interval, state->p, state->q);
 }
 
 /* mu of a step that differs from that of the step before.  Coefficients that depend on
@@ -213,7 +107,7 @@ static void record(history_state *r, double distance)
     if (h->time) {
         const rb_rolling_program *program = r->program;
         h->time[k] = program->time ? time_of(r) : distance * h->half_width / r->rc->speed;
-        h->lost_work[k] = r->past.lost;
+        h->lost_work[k] = r->particles.past.lost;
     }
     if (h->mu)
         h->mu[k] = model->rc->mu;
@@ -304,20 +198,17 @@ static rb_status static_step(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->w_T, model->carried.yielded, 0.0};
+    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r), mu_before = model->rc->mu;
     rb_message reason = {""};
-    rb_status s = first ? RB_OK : remember(r, 0.0);
 
-    if (s != RB_OK)
-        return s;
     r->part++;
-    const double interval = time_of(r) - before;
+    const rb_rolling_stride stride = {0.0, time_of(r) - before, first};
     rb_rolling_case rest =
         rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
-    s = check_force(r, &rest, why);
+    rb_status s = check_force(r, &rest, why);
     if (rest.formulation == RB_TRANSIENT && isnan(rest.force) && isnan(rest.force_ratio))
         rest.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
     rest.formulation = RB_STATIC;
@@ -325,7 +216,7 @@ static rb_status static_step(history_state *r, rb_message *why)
     if (s == RB_OK)
         s = rb_rolling_model_set_case(model, &rest, why);
     if (s == RB_OK)
-        s = relax(r, interval, 0, why);
+        s = rb_rolling_particles_bring(&r->particles, &stride, why);
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
@@ -335,7 +226,7 @@ static rb_status static_step(history_state *r, rb_message *why)
     s = assess(r, answer_at_rest(r, &reason), &reason, why);
     r->shift += model->state.xi;
     if (s >= 0) {
-        relaxed(r, interval);
+        rb_rolling_particles_leave(&r->particles, &stride);
         record(r, 0.0);
     }
     if (s == RB_OK)
@@ -363,18 +254,17 @@ static rb_status rolled_step(history_state *r, double from, double to, rb_messag
 {
     rb_rolling_model *model = r->model;
     const double c = r->history->step, mu_before = model->rc->mu;
-    const rb_rolling_past past = {r->w_T, model->carried.yielded, c};
-    rb_message reason = {""};
-    rb_status s = remember(r, c);
-
-    remember_friction(r, c);
+    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
+    const rb_rolling_stride stride = {c, interval_of(r, c), 0};
     const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, to);
-    if (s == RB_OK)
-        s = check_force(r, &step, why);
+    rb_message reason = {""};
+    rb_status s = check_force(r, &step, why);
+
+    memcpy(r->q, model->state.q, (size_t)model->state.n * sizeof *r->q);
     if (s == RB_OK)
         s = rb_rolling_model_set_case(model, &step, why);
     if (s == RB_OK)
-        s = relax(r, interval_of(r, c), 1, why);
+        s = rb_rolling_particles_bring(&r->particles, &stride, why);
     if (s == RB_OK)
         s = move_gap(model, to * r->history->half_width);
     if (s != RB_OK)
@@ -382,17 +272,12 @@ static rb_status rolled_step(history_state *r, double from, double to, rb_messag
     follow_way(model, mu_before);
     if (from == 0.0 && model->rc->friction.start)
         rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
-    if (r->history->max_temperature)
-        rb_rolling_heat_track_advance(&r->heat);
     rb_rolling_set_past(model->rc, &model->bodies, &past, &model->problem);
     s = assess(r, answer_rolled(r, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
-    if (s >= 0 && r->history->max_temperature)
-        rb_rolling_heat_track_step(model->rc, model->state.q, model->state.lambda,
-                                   &r->heat, model->carried.temperature);
     if (s >= 0) {
-        relaxed(r, interval_of(r, c));
+        rb_rolling_particles_leave(&r->particles, &stride);
         record(r, to);
     }
     return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
@@ -479,7 +364,7 @@ static rb_status plan_steps(history_state *r, double *step, rb_message *why)
     const int at_rest = rb_rolling_program_at_rest(r->program), n = r->program->n;
     const double unit = r->history->half_width;
     const double way = at_rest < n ? r->program->distance[n - 1] * unit : 0.0;
-    const double elements = way / element_length(r);
+    const double elements = way / rb_rolling_middle_length(r->model);
 
     r->steps = steps_at_rest(r);
     *step = 0.0;
@@ -494,70 +379,6 @@ static rb_status plan_steps(history_state *r, double *step, rb_message *why)
     r->steps += (int)count;
     *step = way / count;
     return RB_OK;
-}
-
-/* Both surfaces begin with the temperature of their bodies. */
-static rb_status prepare_heat(history_state *r, double step, rb_message *why)
-{
-    const int n = r->model->mesh.n;
-
-    if (!rb_rolling_has_heat(r->rc))
-        return RB_OK;
-    r->model->carried.temperature = rb_alloc((size_t)n, 1);
-    if (!r->model->carried.temperature)
-        return RB_ENOMEM;
-    for (int i = 0; i < n; i++)
-        r->model->carried.temperature[i] = r->rc->heat_a.temperature;
-    r->model->carried.heat = &r->heat;
-    r->heat = (rb_rolling_heat_track){.n = n, .h = element_length(r), .step = step};
-    return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
-}
-
-/* Elements as long as a step, so that the past moves from one to the next. */
-static rb_status match_elements(history_state *r, double step, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
-    const double middle = 0.5 * (from + to);
-    rb_rolling_plan plan = model->plan;
-    rb_rolling_mesh mesh;
-
-    plan.elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
-    const double half = 0.5 * plan.elements * step;
-    rb_status s =
-        rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh, why);
-    if (s != RB_OK)
-        return s;
-    rb_rolling_mesh_free(&model->mesh);
-    model->mesh = mesh;
-    rb_contact_state_free(&model->state);
-    return rb_contact_state_alloc(mesh.n, &model->state);
-}
-
-/* Bodies that relax come without a past.  Behind the mesh it counts for as long as its
- * slowest term remembers, or for all the way. */
-static rb_status prepare_relaxation(history_state *r, double step, rb_message *why)
-{
-    enum { FORGOTTEN = 36 }; /* exp(-36) is below rounding */
-    const rb_rolling_case *rc = r->rc;
-    const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
-    double slowest = 0.0;
-    rb_status s = RB_OK;
-
-    r->interval = -1.0;
-    r->row = r->part = 0;
-    if (!rb_rolling_relaxes(rc))
-        return RB_OK;
-    if (step > 0.0 && !r->found)
-        s = match_elements(r, step, why);
-    for (int b = 0; b < 1 + rc->elastic_b; b++)
-        for (int k = 0; k < memory[b]->n; k++)
-            slowest = fmax(slowest, memory[b]->time[k]);
-    const double tail =
-        step > 0.0 ? fmin(r->steps, FORGOTTEN * slowest * rc->speed / step) : 0.0;
-    return s == RB_OK ? rb_rolling_memory_track_create(rc, &r->model->mesh,
-                                                       (int)ceil(tail), &r->past, why)
-                      : s;
 }
 
 static rb_status prepare(history_state *r, double zone, rb_message *why)
@@ -575,26 +396,21 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     if (s == RB_OK && r->found && r->found->steps != r->steps)
         s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d",
                     r->found->steps, r->steps);
+    r->row = r->part = 0;
+    r->particles = (rb_rolling_particles){.rc = r->rc,
+                                          .model = r->model,
+                                          .step = step,
+                                          .steps = r->steps,
+                                          .keeps_elements = r->found != NULL};
     if (s == RB_OK)
-        s = prepare_relaxation(r, step, why);
-    if (s != RB_OK)
-        return s;
-    r->w_T = rb_alloc((size_t)r->model->mesh.n, 1);
-    r->q = rb_alloc((size_t)r->model->mesh.n, 1);
-    const int moves = rb_rolling_law_depends_on_state(r->rc);
-    r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
-    const int yields = r->rc->yield_stress > 0.0;
-    r->yielded = yields ? rb_alloc((size_t)r->model->mesh.n + 1, 1) : NULL;
-    r->model->carried.yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
-    s = r->w_T && r->q && (r->mu || !moves) &&
-                (!yields || (r->yielded && r->model->carried.yielded))
-            ? RB_OK
-            : RB_ENOMEM;
+        s = rb_rolling_particles_create(&r->particles, why);
+    if (s == RB_OK) {
+        r->q = rb_alloc((size_t)r->model->mesh.n, 1);
+        s = r->q ? RB_OK : RB_ENOMEM;
+    }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps,
                                      r->history);
-    if (s == RB_OK)
-        s = prepare_heat(r, step, why);
     r->history->step = step;
     r->history->steady_from = -1;
     return s;
@@ -602,16 +418,9 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
 
 static void run_free(history_state *r)
 {
-    free(r->w_T);
     free(r->q);
-    free(r->mu);
-    free(r->yielded);
-    r->w_T = r->q = r->mu = r->yielded = NULL;
-    r->model->carried.mu = NULL; /* both are the run's */
-    r->model->carried.heat = NULL;
-    rb_rolling_former_place_free(&r->ahead);
-    rb_rolling_heat_track_free(&r->heat);
-    rb_rolling_memory_track_free(&r->past);
+    r->q = NULL;
+    rb_rolling_particles_free(&r->particles);
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of

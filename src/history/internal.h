@@ -39,6 +39,41 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
                                  const double *q);
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
 
+/* ---- carried.c --------------------------------------------------------------------- */
+
+/* What particles carry into a step of a history.  The caller sets the first five. */
+typedef struct {
+    const rb_rolling_case *rc; /* of the history; borrowed */
+    rb_rolling_model *model;   /* after the last step; borrowed */
+    double step;               /* length of a rolled step; 0: none rolls */
+    int steps;                 /* in all */
+    int keeps_elements;        /* 1: those of states that are known */
+    double *w_T;     /* n: tangential displacement that the next step starts from */
+    double *mu;      /* n: coefficients before the step */
+    double *yielded; /* n + 1: what the interface has yielded, to be brought on */
+    rb_rolling_former_place ahead; /* for steps of another length than an element's */
+    rb_rolling_heat_track heat;
+    rb_rolling_memory_track past; /* of bodies that relax */
+    double interval; /* [s] that the bodies at hand are those of; -1: of none */
+} rb_rolling_particles;
+
+/* A step: rolled by c, 0: at rest, in so many seconds. */
+typedef struct {
+    double c, interval;
+    int is_first; /* 1: at rest, with nothing before it */
+} rb_rolling_stride;
+
+/* Length of the element in the middle, which all have. */
+double rb_rolling_middle_length(const rb_rolling_model *model);
+/* May change the mesh of the model. */
+rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why);
+/* Before a step is solved: what is carried comes to where its particles are then. */
+rb_status rb_rolling_particles_bring(rb_rolling_particles *r,
+                                     const rb_rolling_stride *stride, rb_message *why);
+/* After it. */
+void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
+void rb_rolling_particles_free(rb_rolling_particles *r);
+
 /* ---- program.c --------------------------------------------------------------------- */
 
 /* Rows at rest that the program begins with. */
