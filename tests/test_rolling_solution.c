@@ -365,11 +365,54 @@ static void few_elements_do_not_tell_the_edges(void **state)
     }
 }
 
+/* Hertz: P/2 (delta - a^2/(8 R)).  On any body dE/d(delta) = P without friction.  What
+ * relaxes or yields has no such energy. */
+static void strain_energy_is_the_work_of_pressing(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rc.mu = 0.0;
+    rc.contact_elements = 400;
+    rb_rolling_solution s = solved(&rc);
+    const double a = s.hertz_half_width;
+    CHECK_REL(s.strain_energy,
+              0.5 * s.normal_load * (s.approach - a * a / (8.0 * rc.a.radius)), 1e-4,
+              "Hertz");
+    CHECK_ABS(s.nip_width, s.contact_to - s.contact_from, 0.0, "nip");
+    CHECK_REL(s.nip_width, 2.0 * a, 2e-2, "2a");
+    rb_rolling_solution_free(&s);
+
+    const int supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
+    for (int k = 0; k < 3; k++) {
+        double energy[3], load = 0.0;
+        for (int j = 0; j < 3; j++) {
+            rb_rolling_case pressed = plane(RB_STATIC);
+            pressed.a.support = supports[k];
+            pressed.mu = 0.0;
+            pressed.zone = 4.0;
+            pressed.load = NAN;
+            pressed.approach = 0.1 * (1.0 + 0.01 * (j - 1));
+            s = solved(&pressed);
+            energy[j] = s.strain_energy;
+            load = j == 1 ? s.normal_load : load;
+            rb_rolling_solution_free(&s);
+        }
+        CHECK_REL((energy[2] - energy[0]) / (2.0 * 0.1 * 0.01), load, 2e-2, "support %d",
+                  k);
+    }
+    rc = plane(RB_STEADY);
+    rc.a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
+    s = solved(&rc);
+    assert_true(isnan(s.strain_energy));
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_parts_of_the_time_are_within_the_whole),
         cmocka_unit_test(columns_are_those_of_the_state),
+        cmocka_unit_test(strain_energy_is_the_work_of_pressing),
         cmocka_unit_test(sums_are_those_of_the_tractions),
         cmocka_unit_test(shift_and_creepage_at_rest),
         cmocka_unit_test(slip_that_pushes_is_a_violation),

@@ -428,6 +428,7 @@ typedef struct {
     double half_width;               /* of the contact, from edge to edge [length] */
     double datum;                    /* of A; NAN where it has none [length] */
     double contact_from, contact_to; /* outermost edges (theory.md 5.1) */
+    double nip_width;                /* the one less the other [length] */
     int edges_bounded; /* 1: p does not fall as theory.md (E1) has it at some edge, which
                           the elements beside it bound */
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
@@ -446,8 +447,10 @@ typedef struct {
     double torque_a;   /* M + Q R_A: external torque on A's axle, > 0 the way A rolls, so
                           that it drives A [force]; NAN in static */
     double torque_b;   /* M - Q R_B: the same of B; NAN also where B is a plane */
-    double max_strain; /* compression of a layer, cover or rim over its thickness, the
-                          larger one of both bodies; without one a/(2R) */
+    double strain_energy; /* of both bodies per thickness, from w_N = w_T = 0 [force];
+                             NAN of bodies that relax and of an interface that yields */
+    double max_strain;    /* compression of a layer, cover or rim over its thickness, the
+                             larger one of both bodies; without one a/(2R) */
     double max_temperature;    /* in contact; NAN where not asked for, as below */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */

@@ -54,6 +54,8 @@ const char *cli_command_help(const char *name);
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */
 int cli_run(const char *name, int argc, char **argv);
 
+/* "--example NAME" and what it is, of example k = 0, 1, ...; 0: there are no more. */
+int cli_example_about(int k, char *name, size_t name_size, char *about, size_t size);
 /* 1: --example takes that name. */
 int cli_example_is_case(const char *name);
 

@@ -472,3 +472,39 @@ int cli_example(int argc, char **argv)
     cli_args_free(&args);
     return code;
 }
+
+/* ---- rollbem examples ----------------------------------------------------------------
+ */
+
+int cli_examples(int argc, char **argv)
+{
+    static const cli_spec spec = {
+        .synopsis = "rollbem examples",
+        .about = "Lists the cases that --example NAME starts from, and what they are."};
+    char name[60], text[1000];
+    cli_args args = {0};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands > 0)
+        code = cli_fail(CLI_USAGE, "examples: unexpected '%s'", args.operand[0]);
+    if (code == CLI_CONTINUE) {
+        FILE *pager = cli_open_pager();
+        puts("rollbem --example NAME solves one; every command that takes a case takes "
+             "it.");
+        for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
+            cli_print_entry(name, text);
+        puts("rollbem example NAME solves finite elements with friction.");
+        cli_print_entry(
+            "example bar",
+            "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)");
+        cli_print_entry(
+            "example truss",
+            "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)");
+        cli_print_entry(
+            "example wall",
+            "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)");
+        cli_close_pager(pager);
+        code = CLI_OK;
+    }
+    cli_args_free(&args);
+    return code;
+}

@@ -1,5 +1,5 @@
-/* The case files of examples/, which the program carries along: --example NAME, and
- * rollbem examples. */
+/* The case files of examples/, which the program carries along: --example NAME, also of
+ * `rollbem example NAME`. */
 #include "cli/case.h"
 
 #include <string.h>
@@ -50,16 +50,18 @@ cli_exit cli_example_read(rb_case *c, const cli_args *args)
 }
 
 /* The comment that it begins with says what it is. */
-static void print_title(int k)
+int cli_example_about(int k, char *name, size_t name_size, char *about, size_t size)
 {
-    char name[60], about[1000] = "";
-    snprintf(name, sizeof name, "--example %s", examples[k].name);
+    if (k >= EXAMPLES)
+        return 0;
+    snprintf(name, name_size, "--example %s", examples[k].name);
+    about[0] = '\0';
     for (const char *line = examples[k].text; *line == ';'; line++) {
         line += 1 + (line[1] == ' ');
-        rb_append(about, sizeof about, "%.*s ", (int)strcspn(line, "\n"), line);
+        rb_append(about, size, "%.*s ", (int)strcspn(line, "\n"), line);
         line = strchr(line, '\n');
     }
-    cli_print_entry(name, about);
+    return 1;
 }
 
 int cli_example_is_case(const char *name)
@@ -68,36 +70,4 @@ int cli_example_is_case(const char *name)
         if (strcmp(examples[k].name, name) == 0)
             return 1;
     return 0;
-}
-
-int cli_examples(int argc, char **argv)
-{
-    static const cli_spec spec = {
-        .synopsis = "rollbem examples",
-        .about = "Lists the cases that --example NAME starts from, and what they are."};
-    cli_args args = {0};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE && args.operands > 0)
-        code = cli_fail(CLI_USAGE, "examples: unexpected '%s'", args.operand[0]);
-    if (code == CLI_CONTINUE) {
-        FILE *pager = cli_open_pager();
-        puts("rollbem --example NAME solves one; every command that takes a case takes "
-             "it.");
-        for (int k = 0; k < EXAMPLES; k++)
-            print_title(k);
-        puts("rollbem example NAME solves finite elements with friction.");
-        cli_print_entry(
-            "example bar",
-            "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)");
-        cli_print_entry(
-            "example truss",
-            "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)");
-        cli_print_entry(
-            "example wall",
-            "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)");
-        cli_close_pager(pager);
-        code = CLI_OK;
-    }
-    cli_args_free(&args);
-    return code;
 }

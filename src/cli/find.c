@@ -141,9 +141,11 @@ void cli_find_options(const cli_spec *spec)
             cli_option_metavar(o, values, sizeof values);
             snprintf(name, sizeof name, "--%s%s", o->name, values);
             cli_option_text(o, set->target, text, sizeof text);
+            if (!matches(name, text))
+                continue;
             if (*command)
                 rb_append(text, sizeof text, " [rollbem %s]", command);
-            show_if(name, text);
+            print(name, text);
         }
     }
 }
@@ -215,6 +217,15 @@ static void find_units(const rb_option_set *set)
         print(search.word[0], text);
 }
 
+static void find_examples(void)
+{
+    char name[60], about[1000];
+    search.title = "Examples";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
+        for (int k = 0; cli_example_about(k, name, sizeof name, about, sizeof about); k++)
+            show_if(name, about);
+}
+
 static void find_texts(int kind, const char *title)
 {
     search.title = title;
@@ -240,6 +251,7 @@ static void find_everything(const rb_option_set *options)
     find_options();
     find_units(options);
     find_results();
+    find_examples();
     find_texts(WORD, "Glossary");
     find_texts(QUESTION, "Questions");
 }

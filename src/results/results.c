@@ -54,6 +54,9 @@ static const rb_rolling_result scalars[] = {
            .study = 8, .meaning = "of the contact, where p^2 extrapolates to zero"),
     RESULT("contact_from", contact_from, .unit = "mm", .meaning = "its trailing edge"),
     RESULT("contact_to", contact_to, .unit = "mm", .meaning = "its leading edge"),
+    RESULT("nip_width", nip_width, .unit = "mm",
+           .meaning =
+               "from the trailing edge to the leading one, 2a of a single contact"),
     RESULT("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_PRESSURE,
            .study = 9, .meaning = "p0"),
     RESULT("contact", contact, .kind = RB_RESULT_WHOLE, .study = 10,
@@ -90,6 +93,10 @@ static const rb_rolling_result scalars[] = {
                       "brakes it"),
     RESULT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 25,
            .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B: the same of B's axle"),
+    RESULT("strain_energy", strain_energy, .no_derivative = 1, .unit = "N",
+           .meaning =
+               "elastic energy of both bodies per width, half the work of p and q on "
+               "un and ut; of half-planes it depends on datum"),
     RESULT("max_strain", max_strain, .study = 26,
            .meaning = "largest compression of a layer, cover or rim over its thickness; "
                       "without one a/(2R)"),

@@ -217,6 +217,18 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     return RB_OK;
 }
 
+/* Clapeyron's: half the work of the tractions, which are linear in the displacements
+ * unless a body relaxes or the interface yields. */
+static double strain_energy(const rb_rolling_model *model, const rb_rolling_solution *s)
+{
+    double twice = 0.0;
+    if (!rb_rolling_can(model->rc, RB_BODY_ELASTIC) || s->yielding >= 0)
+        return NAN;
+    for (int i = 0; i < s->n; i++)
+        twice += s->h[i] * (s->p[i] * s->un[i] + s->q[i] * s->ut[i]);
+    return 0.5 * twice;
+}
+
 static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
 {
     if (!system)
@@ -306,6 +318,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
+    s->nip_width = s->contact_to - s->contact_from;
+    s->strain_energy = strain_energy(model, s);
     s->max_strain = rb_rolling_strain(model->rc, s->approach, s->max_pressure, NULL);
     if (isnan(s->max_strain))
         s->max_strain = 0.5 * s->half_width / rb_rolling_radius(model->rc);

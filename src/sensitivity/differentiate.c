@@ -430,7 +430,8 @@ static void add_motions(const rb_sensitivity *s, const variants *v,
         const motion m = edges_of(s->model, NULL, found);
         d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
         d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
-        d->half_width = 0.5 * (d->contact_to - d->contact_from);
+        d->nip_width = d->contact_to - d->contact_from;
+        d->half_width = 0.5 * d->nip_width;
     }
 }
 
