@@ -288,6 +288,14 @@ static void command_prints_derivatives(void **state)
         36);
     json_decref(root);
     assert_int_equal(rollbem("--derivatives nonsense" BODIES), 64);
+    static const char *const forms[] = {"--json", "--tolerance radius=1%", ""};
+    for (int k = 0; k < 3; k++) { /* a zone that the contact fills is no solution */
+        char words[300];
+        snprintf(words, sizeof words,
+                 "--derivatives approach %s" BODIES " --zone 1e-3 --mesh uniform",
+                 forms[k]);
+        assert_int_equal(rollbem(words), 1);
+    }
     assert_int_equal(rollbem("--tolerance mu=-1" BODIES), 64);
     assert_int_equal(rollbem("--tolerance zone=1" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --error" BODIES), 64);

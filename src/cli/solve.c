@@ -212,6 +212,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
     if (s == RB_OK && (it->derivatives || it->tolerance))
         s = differentiate(run, it, why);
+    else /* nor is there any of what is not solved */
+        it->derivatives = it->tolerance = NULL;
     rb_case_result_convert(&it->r, units);
     for (int k = 0; k < it->all.n; k++)
         rb_rolling_solution_convert(&it->all.solution[k], units);
