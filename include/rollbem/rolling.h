@@ -669,9 +669,11 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model,
 /* A variant of a solved model: a case that differs from the model's by a little in some
  * number, on the same elements, with the model's state and zones; a flexibility that does
  * not change is borrowed from the model.  RB_INACCURATE: the boundary outside the
- * contact gets another number of elements.  variant: overwritten; free it in any case. */
+ * contact gets another number of elements.  results: 0: its equations alone are wanted.
+ * variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    rb_rolling_model *variant, rb_message *why);
+                                    int results, rb_rolling_model *variant,
+                                    rb_message *why);
 /* The model's own case on elements that are moved to shift + scale x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);

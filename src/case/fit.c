@@ -172,6 +172,8 @@ static rb_status evaluate_point(problem *p, const double *theta, int k, double *
         s = differentiate(p, theta, k, model, row, why);
     for (int j = 0; j < p->n && s == RB_OK && row; j++)
         p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma;
+    if (s == RB_OK && row && model != base) /* the next one begins with its zones */
+        rb_rolling_variant_set(model, NULL, 0.0, base);
     if (s != RB_OK && model == base)
         rb_rolling_model_free(base);
     rb_rolling_variant_free(base, &varied);

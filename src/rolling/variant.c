@@ -144,12 +144,12 @@ static rb_status changed_displacement(const rb_rolling_model *of,
     return RB_OK;
 }
 
-/* 1: the formula knows how the flexibility changes. */
+/* 1: the formula knows how the flexibility changes.  kappa of a law asks for the matrix
+ * itself. */
 static int has_formula(const rb_rolling_model *of, const rb_rolling_case *rc)
 {
     return are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
-           rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
-           !rb_rolling_law_depends_on_state(rc);
+           rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM;
 }
 
 /* ---- Variants
@@ -184,14 +184,16 @@ static int borrows_bodies(const rb_rolling_model *of, const rb_rolling_model *v)
     return v->bodies.f.m && v->bodies.f.data == of->bodies.f.data;
 }
 
-/* by_formula: 1: bodies that change, or elements that move, need no new flexibility. */
+/* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
+ * only where all results stay right. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
                         int by_formula, motion moved, rb_rolling_model *v,
                         rb_message *why)
 {
     const int borrows = (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 &&
                          moved.shift == 0.0) ||
-                        (by_formula && has_formula(of, rc));
+                        (by_formula && has_formula(of, rc) &&
+                         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
 
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
@@ -222,13 +224,13 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 1, (motion){shift, scale}, v, why);
+    return create(of, of->rc, 2, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    rb_rolling_model *v, rb_message *why)
+                                    int results, rb_rolling_model *v, rb_message *why)
 {
-    return create(of, rc, 1, at_rest, v, why);
+    return create(of, rc, results ? 2 : 1, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,

@@ -51,6 +51,7 @@ void rb_sensitivity_derivative_free(rb_sensitivity_derivative *d)
 
 typedef struct {
     const rb_rolling_model *base;
+    int results; /* 0: rates alone */
     stencil at;
     double step;
     rb_rolling_model model[PLACES];
@@ -130,7 +131,7 @@ static rb_status variants_create(const rb_rolling_model *base,
         rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
         if (freely)
             rc = rb_sensitivity_without_force(&rc);
-        s = rb_rolling_variant_create(base, &rc, &v->model[k], why);
+        s = rb_rolling_variant_create(base, &rc, v->results, &v->model[k], why);
     }
     return s;
 }
@@ -439,7 +440,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
                                        const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
-    variants v = {.base = s->model};
+    variants v = {.base = s->model, .results = 1};
     const int two = s->degenerate > 0 || (s->free_rolling && s->free_rolling->degenerate);
 
     memset(d, 0, sizeof *d);

@@ -121,7 +121,7 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (!s->law_slip || !room || (model->rc->friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
-        status = rb_rolling_variant_create(model, model->rc, &v, why);
+        status = rb_rolling_variant_create(model, model->rc, 1, &v, why);
     if (status == RB_OK)
         status = fill_law(s, &v, room, why);
     rb_rolling_variant_free(model, &v);
