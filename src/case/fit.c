@@ -180,8 +180,8 @@ static rb_status evaluate_point(problem *p, const double *theta, int k, double *
     return s;
 }
 
-/* chi^2; INFINITY where a point has no solution. */
-static rb_status evaluate(problem *p, const double *theta, int with_rows, double *chi2,
+/* chi^2 and all rows; a trial: INFINITY where a point has no solution. */
+static rb_status evaluate(problem *p, const double *theta, int is_trial, double *chi2,
                           rb_message *why)
 {
     double row[RB_CASE_FIT_MAX];
@@ -189,9 +189,9 @@ static rb_status evaluate(problem *p, const double *theta, int with_rows, double
 
     p->kappa = 0.0;
     for (int k = 0; k < p->points && s == RB_OK; k++)
-        s = evaluate_point(p, theta, k, with_rows ? row : NULL, why);
+        s = evaluate_point(p, theta, k, row, why);
     *chi2 = s == RB_OK ? cblas_ddot(p->points, p->f, 1, p->f, 1) : INFINITY;
-    return s != RB_ENOMEM && !with_rows ? RB_OK : s;
+    return s != RB_ENOMEM && is_trial ? RB_OK : s;
 }
 
 /* ---- Levenberg and Marquardt
@@ -247,33 +247,38 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
 {
     double chi2, damping = 1e-3;
     int held[RB_CASE_FIT_MAX], done = 0;
-    rb_status s = evaluate(p, theta, 1, &chi2, why);
+    rb_status s = evaluate(p, theta, 0, &chi2, why);
 
     for (int k = 0; k < STEPS && s == RB_OK && !done; k++) {
         double step[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], next = INFINITY;
         hold(p, theta, held);
-        double *f = rb_alloc((size_t)p->points, 1);
+        const size_t points = (size_t)p->points, rows = points * (size_t)p->n;
+        double *f = rb_alloc(points, 1 + (size_t)p->n), *J = f + points;
         if (!f)
             return rb_fail(why, RB_ENOMEM, "out of memory for a fit");
-        memcpy(f, p->f, (size_t)p->points * sizeof *f);
+        memcpy(f, p->f, points * sizeof *f);
+        memcpy(J, p->J, rows * sizeof *J);
         for (int shrink = 0; shrink < SHRINKS && !(next < chi2) && s == RB_OK; shrink++) {
-            memcpy(p->f, f, (size_t)p->points * sizeof *f);
+            memcpy(p->f, f, points * sizeof *f);
+            memcpy(p->J, J, rows * sizeof *J);
             if (damped_step(p, damping, held, step) == RB_OK) {
                 for (int j = 0; j < p->n; j++) {
                     const double most = LONGEST * p->fit->parameter[j].scale;
                     trial[j] = theta[j] + fmin(fmax(step[j], -most), most);
                     within(&p->fit->parameter[j], &trial[j]);
                 }
-                s = evaluate(p, trial, 0, &next, why);
+                s = evaluate(p, trial, 1, &next, why);
             }
             damping *= next < chi2 ? 0.2 : 4.0;
         }
         free(f);
         done = !(next < chi2) || chi2 - next <= 1e-10 * chi2;
-        if (next < chi2)
+        if (next < chi2) {
             memcpy(theta, trial, (size_t)p->n * sizeof *theta);
-        if (s == RB_OK)
-            s = evaluate(p, theta, 1, &chi2, why);
+            chi2 = next;
+        } else if (s == RB_OK) { /* back where it was */
+            s = evaluate(p, theta, 0, &chi2, why);
+        }
         p->fit->iterations++;
         if (s == RB_OK && observer && observer->step &&
             observer->step(p->fit->iterations, chi2, p->n, theta, observer->context))
