@@ -30,7 +30,7 @@ static rb_case *new_case(rb_case_purpose purpose)
         {"support", "halfplane"},  {"similar", "yes"},  {"half-width", "1"},
         {"radius", "500"},         {"poisson", "0.3"},  {"young", "1.82"},
         {"gap", "parabola"},       {"mesh", "uniform"}, {"contact-elements", "40"},
-        {"formulation", "steady"}, {"speed", "1000"},      {"friction-law", "exponential"}};
+        {"formulation", "steady"}, {"speed", "1000"},   {"friction-law", "exponential"}};
     rb_case *c = rb_case_create(purpose);
     for (size_t k = 0; c && k < sizeof words / sizeof *words; k++)
         must(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &why));
