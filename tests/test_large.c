@@ -1,5 +1,5 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <cblas.h>

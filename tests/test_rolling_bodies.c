@@ -1,5 +1,5 @@
 /* Two elastic bodies (4.5), each with its own support. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* A cylinder in a bore: outer race, journal, internal gear. */
 #include "refused.h"
 #include "rollbem/closed_forms.h"
-#include "rolling/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

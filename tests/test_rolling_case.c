@@ -1,7 +1,7 @@
 /* Cases that must be refused, each with its reason, and the quantities derived from good
  * ones. */
 #include "refused.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Given loads and forces up to full sliding, and the two solvers against each other. */
 #include "check.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Curves: where their points lie, that each is its case, refusals. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <string.h>
@@ -43,8 +43,11 @@ static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
 static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case *rc)
 {
     rb_rolling_solution s = solved(rc);
-    double contact, stick;
-    rb_rolling_zone_lengths(s.n, s.zone, s.h, &contact, &stick);
+    double contact = 0.0, stick = 0.0;
+    for (int i = 0; i < s.n; i++) {
+        contact += s.zone[i] != RB_ZONE_SEPARATED ? s.h[i] : 0.0;
+        stick += s.zone[i] == RB_ZONE_STICK ? s.h[i] : 0.0;
+    }
     CHECK_REL(c->creepage[k], s.creepage, 1e-9, "point %d: creepage", k);
     CHECK_REL(c->creep_ratio[k], s.creep_ratio, 1e-9, "point %d: its ratio", k);
     CHECK_REL(c->normal_load[k], s.normal_load, 1e-9, "point %d: P", k);

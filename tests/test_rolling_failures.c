@@ -1,6 +1,6 @@
 /* Every call that leads to an allocation sees it refused once, in small cases of all
  * kinds: it is told, and nothing is lost. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

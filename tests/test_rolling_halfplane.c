@@ -1,6 +1,6 @@
 /* Hertz, Carter, Bentall-Johnson, Cattaneo-Mindlin on the half-plane: no error but that
  * of the contact mesh. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,6 +1,6 @@
 /* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * + b must be the gap, the slip, the friction margins and the missing forces of the
  * tractions that z means. */
 #include "check.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 
 /* Dissimilar bodies, so that every block is there. */
 static rb_rolling_model dissimilar_model(int load_given, int force_given)

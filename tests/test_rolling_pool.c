@@ -1,6 +1,6 @@
 /* The processes of a study, as the one sees them that hands out cases. */
 #define _GNU_SOURCE
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <errno.h>
@@ -285,7 +285,7 @@ static int pretended_collect(rb_rolling_pool *pool, int milliseconds, int *k,
     if (p->collects-- == 0)
         return RB_ENOMEM;
     *k = p->waiting[--p->given];
-    *row = rb_rolling_no_row(RB_OK);
+    *row = (rb_rolling_row){.solution.status = RB_OK};
     row->solution.normal_load = *k;
     return 1;
 }

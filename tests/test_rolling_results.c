@@ -1,6 +1,6 @@
 /* What follows from a solved model: creep curves, stress, dissipation, error bars. */
 #include "check.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Stress below a contact: its parts, closed forms on the axis and far away, maxima and
  * where they are looked for. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

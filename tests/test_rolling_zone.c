@@ -1,5 +1,5 @@
 /* The potential contact, the edges of the contact and elements fitted to them. */
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -266,6 +266,10 @@ typedef struct {
 } rb_rolling_derived;
 
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
+/* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width. */
+double rb_rolling_radius(const rb_rolling_case *rc);
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
 /* 1: a body has a thickness, as a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);
 /* Of A and B; A's where B is a plane. */
@@ -315,6 +319,8 @@ rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
                                     const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
+/* The undeformed gap of the profile at x, with what is worn off. */
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
 
 /* The bodies of a case on a contact mesh.  The factored systems stay for later solves. */
 typedef struct {
@@ -334,6 +340,9 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
                                    const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
                                    rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
+/* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
+                                  const double *q, double *w);
 
 /* A row of the table of bodies (src/rolling/body.c): whoever asks what a body is asks its
  * rows.  A body has the row of its support and one for each addition to it (layer, cover,
@@ -636,6 +645,20 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
  * last bit. */
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why);
+/* A model of a copy of the case, with nothing made yet.  plan NULL: that of the case.
+ * RB_ENOMEM; model: overwritten. */
+rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why);
+/* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
+ * contact does not end within the mesh. */
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
+                                 rb_message *why);
+/* Solves the model's problem again, with the times and counts kept, from its zones where
+ * warm is 1.  RB_ZONE as above: every solve on any mesh comes here. */
+rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
+/* The same on the present mesh under the controls that the model's case has now, from the
+ * present zones. */
+rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 /* Bodies and contact problem on the elements of a result, with a state of zeros: nothing
  * is solved.  model: all zeros before; free it in any case. */
 rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
@@ -662,6 +685,14 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
                                    rb_message *why);
 
+/* P and Q of the state. */
+double rb_rolling_model_load(const rb_rolling_model *model);
+double rb_rolling_model_force(const rb_rolling_model *model);
+/* Q over the most that friction carries, mu P; NAN without friction or load. */
+double rb_rolling_force_ratio(const rb_rolling_model *model);
+/* The outer edges of all patches; NAN without contact. */
+void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_contact_state *state, double *from, double *to);
 /* Tractions, slip, zones, forces and the proof of them. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);

@@ -8,17 +8,12 @@
 
 /* ---- case.c: quantities derived from a case ---------------------------------------- */
 
-double rb_rolling_radius(const rb_rolling_case *rc); /* 1/R = 1/R_A + 1/R_B */
-double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
-double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
 /* Whether the boundary of wheels outside the contact is finer than is worth solving to
  * learn where the contact is, and the plan with the usual one. */
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
 /* Q, a ratio of it or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
-/* Q over the most that friction carries, mu P; NAN without friction or load. */
-double rb_rolling_force_ratio(const rb_rolling_model *model);
 
 /* 1 where the flexibility has products by Fourier transforms: half-planes under equal
  * elements, by Newton. */
@@ -129,10 +124,6 @@ rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
                                        const rb_rolling_mesh *mesh,
                                        rb_rolling_bodies *bodies, rb_message *why);
 
-/* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
-rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
-                                  const double *q, double *w);
-
 /* ---- mesh.c ------------------------------------------------------------------------ */
 
 /* Gaps at the midpoints, with the irregularity where it is now.  RB_ENOMEM. */
@@ -191,9 +182,6 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
                         rb_contact_problem *p);
 
-/* P and Q of the state. */
-double rb_rolling_model_load(const rb_rolling_model *model);
-double rb_rolling_model_force(const rb_rolling_model *model);
 /* What the interface has yielded so far at the elements (n). */
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
@@ -277,25 +265,10 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
 
 /* ---- model.c ----------------------------------------------------------------------- */
 
-/* A model of a copy of the case, with nothing made yet.  plan NULL: that of the case.
- * RB_ENOMEM; model: overwritten. */
-rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                 rb_rolling_model *model, rb_message *why);
 /* Another case on the same elements, as the next step of a history or the next point of a
  * curve; mesh, bodies and problem stay as they are. */
 rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
                                     rb_message *why);
-
-/* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
- * contact does not end within the mesh. */
-rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
-                                 rb_message *why);
-/* Solves the model's problem again, with the times and counts kept.  Every solve on any
- * mesh comes here and ends with rb_rolling_check_enclosed. */
-rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
-/* The same on the present mesh under the controls that model->rc has now, from the
- * present zones. */
-rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 
 /* ---- create.c ---------------------------------------------------------------------- */
 
@@ -366,9 +339,8 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 
 /* What is worn off at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
-/* The undeformed gap of the profile at x, with what is worn off. */
-double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
-/* The same at n places, with the irregularity that has come there.  RB_ENOMEM. */
+/* The undeformed gap at n places, with the irregularity that has come there.  RB_ENOMEM.
+ */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
                                const double *x, double *gap);
 /* 0: a gap that may touch in several places. */
@@ -449,9 +421,6 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                  const rb_contact_state *state, int at,
                                  rb_rolling_run *run);
-/* The outer edges of all patches; NAN without contact. */
-void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                              const rb_contact_state *state, double *from, double *to);
 /* p0: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* The patches of a solution and what is taken from all of them.  RB_ENOMEM. */
