@@ -1,20 +1,18 @@
 /* Numbers of a case fitted to measured forces (theory.md, D5): Levenberg's and
- * Marquardt's method with exact derivatives.  Elements stay those of the first solution
- * of each point while the numbers move, so that the sum of squares is smooth. */
+ * Marquardt's method (GSL's) with exact derivatives.  Elements stay those of the first
+ * solution of each point while the numbers move, so that the sum of squares is smooth. */
 #include "case/internal.h"
 
-#include <cblas.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multifit_nlinear.h>
 #include <lapacke.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 100, SHRINKS = 14 };
+enum { STEPS = 100 };
 /* The least and the largest of a coefficient of friction and its fall. */
 static const double LEAST_MU = 0.01, MOST_MU = 3.0;
-/* The longest step of a number, in its scale. */
-static const double LONGEST = 2.0;
 /* A correlation that is worth a word. */
 static const double CORRELATED = 0.95;
 
@@ -28,6 +26,21 @@ typedef struct {
     double *f, *J;          /* points; points x n: residuals and their derivatives */
     double kappa;           /* the largest of all points */
 } problem;
+
+/* GSL's header of BLAS and OpenBLAS's exclude each other. */
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int k = 0; k < n; k++)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* Of J. */
+static const double *column(const problem *p, int j)
+{
+    return p->J + (size_t)j * (size_t)p->points;
+}
 
 /* ---- One point -----------------------------------------------------------------------
  */
@@ -190,7 +203,7 @@ static rb_status evaluate(problem *p, const double *theta, int is_trial, double 
     p->kappa = 0.0;
     for (int k = 0; k < p->points && s == RB_OK; k++)
         s = evaluate_point(p, theta, k, row, why);
-    *chi2 = s == RB_OK ? cblas_ddot(p->points, p->f, 1, p->f, 1) : INFINITY;
+    *chi2 = s == RB_OK ? dot(p->points, p->f, p->f) : INFINITY;
     return s != RB_ENOMEM && is_trial ? RB_OK : s;
 }
 
@@ -205,87 +218,132 @@ static void within(const rb_case_parameter *of, double *x)
               of->high - (of->high_open ? inside : 0.0));
 }
 
-/* (J'J + damping diag(J'J)) step = -J'f of the parameters that are not at a bound. */
-static rb_status damped_step(const problem *p, double damping, const int *held,
-                             double *step)
+/* A bound that the sum of squares presses against holds a parameter. */
+static int is_held(const problem *p, const double *theta, int j)
 {
-    const int n = p->n;
-    double A[RB_CASE_FIT_MAX * RB_CASE_FIT_MAX];
+    const rb_case_parameter *of = &p->fit->parameter[j];
+    const double down = dot(p->points, column(p, j), p->f);
+    const double near = 1e-8 * of->scale;
 
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, p->points, 1.0, p->J, p->points,
-                0.0, A, n);
-    cblas_dgemv(CblasColMajor, CblasTrans, p->points, n, -1.0, p->J, p->points, p->f, 1,
-                0.0, step, 1);
-    for (int j = 0; j < n; j++) {
-        A[j + j * n] *= 1.0 + damping;
-        if (!held[j] && A[j + j * n] > 0.0)
-            continue;
-        for (int i = 0; i < n; i++)
-            A[(i > j ? i : j) + (i > j ? j : i) * n] = 0.0;
-        A[j + j * n] = 1.0;
-        step[j] = 0.0;
-    }
-    return LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', n, 1, A, n, step, n) == 0 ? RB_OK
-                                                                          : RB_SINGULAR;
+    return (theta[j] <= of->low + near && down > 0.0) ||
+           (theta[j] >= of->high - near && down < 0.0);
 }
 
-/* A bound that the sum of squares presses against holds a parameter. */
-static void hold(const problem *p, const double *theta, int *held)
+/* What GSL's solver asks at x, in the scales of the parameters; known: f and J of x. */
+typedef struct {
+    problem *p;
+    double theta[RB_CASE_FIT_MAX], x[RB_CASE_FIT_MAX];
+    int known, clipped;
+    double chi2, worst;
+    rb_status status;
+    rb_message *why;
+} state;
+
+static void evaluate_at(const gsl_vector *x, state *at)
 {
+    problem *p = at->p;
+    int same = at->known;
+
+    for (int j = 0; j < p->n; j++)
+        same = same && at->x[j] == gsl_vector_get(x, (size_t)j);
+    if (same)
+        return;
+    at->clipped = 0;
     for (int j = 0; j < p->n; j++) {
-        const rb_case_parameter *of = &p->fit->parameter[j];
-        const double down =
-            cblas_ddot(p->points, p->J + (size_t)j * (size_t)p->points, 1, p->f, 1);
-        const double near = 1e-8 * of->scale;
-        held[j] = (theta[j] <= of->low + near && down > 0.0) ||
-                  (theta[j] >= of->high - near && down < 0.0);
+        at->x[j] = gsl_vector_get(x, (size_t)j);
+        at->theta[j] = at->x[j] * p->fit->parameter[j].scale;
+        const double wanted = at->theta[j];
+        within(&p->fit->parameter[j], &at->theta[j]);
+        at->clipped |= at->theta[j] != wanted;
     }
+    at->status = evaluate(p, at->theta, 1, &at->chi2, at->why);
+    at->known = 1;
+}
+
+/* Where a point has no solution the residuals are larger than any so far. */
+static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
+{
+    state *at = context;
+
+    evaluate_at(x, at);
+    if (at->status != RB_OK)
+        return GSL_ENOMEM;
+    const int fails = !(at->chi2 < INFINITY);
+    for (int k = 0; k < at->p->points; k++)
+        gsl_vector_set(f, (size_t)k, fails ? at->worst : at->p->f[k]);
+    if (!fails)
+        at->worst = fmax(at->worst, 10.0 * sqrt(at->chi2));
+    return GSL_SUCCESS;
+}
+
+static int rows(const gsl_vector *x, void *context, gsl_matrix *J)
+{
+    state *at = context;
+    const problem *p = at->p;
+
+    evaluate_at(x, at);
+    if (at->status != RB_OK || !(at->chi2 < INFINITY))
+        return GSL_EFAILED;
+    for (int j = 0; j < p->n; j++) {
+        const int held = is_held(p, at->theta, j);
+        for (int k = 0; k < p->points; k++)
+            gsl_matrix_set(J, (size_t)k, (size_t)j,
+                           held ? 0.0
+                                : p->J[(size_t)k + (size_t)j * (size_t)p->points] *
+                                      p->fit->parameter[j].scale);
+    }
+    return GSL_SUCCESS;
 }
 
 static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *observer,
                          rb_message *why)
 {
-    double chi2, damping = 1e-3;
-    int held[RB_CASE_FIT_MAX], done = 0;
-    rb_status s = evaluate(p, theta, 0, &chi2, why);
+    const size_t n = (size_t)p->n, points = (size_t)p->points;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    how.scale = gsl_multifit_nlinear_scale_marquardt;
+    gsl_multifit_nlinear_workspace *w =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, points, n);
+    gsl_vector *x = gsl_vector_alloc(n);
+    state at = {.p = p, .worst = 1.0, .why = why};
+    gsl_multifit_nlinear_fdf fdf = {
+        .f = residuals, .df = rows, .n = points, .p = n, .params = &at};
+    double chi2 = INFINITY;
+    int done = 0;
+    rb_status s = w && x ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a fit");
 
+    if (s == RB_OK)
+        s = evaluate(p, theta, 0, &chi2, why); /* says why the start has no solution */
+    at.known = 1;
+    at.chi2 = chi2;
+    for (size_t j = 0; j < n && s == RB_OK; j++) {
+        at.theta[j] = theta[j];
+        at.x[j] = theta[j] / p->fit->parameter[j].scale;
+        gsl_vector_set(x, j, at.x[j]);
+    }
+    if (s == RB_OK && gsl_multifit_nlinear_init(x, &fdf, w) != GSL_SUCCESS)
+        s = at.status != RB_OK ? at.status : rb_fail(why, RB_INACCURATE, "fit: no start");
     for (int k = 0; k < STEPS && s == RB_OK && !done; k++) {
-        double step[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], next = INFINITY;
-        hold(p, theta, held);
-        const size_t points = (size_t)p->points, rows = points * (size_t)p->n;
-        double *f = rb_alloc(points, 1 + (size_t)p->n), *J = f + points;
-        if (!f)
-            return rb_fail(why, RB_ENOMEM, "out of memory for a fit");
-        memcpy(f, p->f, points * sizeof *f);
-        memcpy(J, p->J, rows * sizeof *J);
-        for (int shrink = 0; shrink < SHRINKS && !(next < chi2) && s == RB_OK; shrink++) {
-            memcpy(p->f, f, points * sizeof *f);
-            memcpy(p->J, J, rows * sizeof *J);
-            if (damped_step(p, damping, held, step) == RB_OK) {
-                for (int j = 0; j < p->n; j++) {
-                    const double most = LONGEST * p->fit->parameter[j].scale;
-                    trial[j] = theta[j] + fmin(fmax(step[j], -most), most);
-                    within(&p->fit->parameter[j], &trial[j]);
-                }
-                s = evaluate(p, trial, 1, &next, why);
-            }
-            damping *= next < chi2 ? 0.2 : 4.0;
-        }
-        free(f);
-        done = !(next < chi2) || chi2 - next <= 1e-10 * chi2;
-        if (next < chi2) {
-            memcpy(theta, trial, (size_t)p->n * sizeof *theta);
-            chi2 = next;
-        } else if (s == RB_OK) { /* back where it was */
-            s = evaluate(p, theta, 0, &chi2, why);
-        }
+        const int ended = gsl_multifit_nlinear_iterate(w);
+        evaluate_at(w->x, &at); /* the solver's own place, not the last trial */
+        s = at.status;
+        done = ended != GSL_SUCCESS || chi2 - at.chi2 <= 1e-10 * chi2;
+        chi2 = at.chi2;
+        memcpy(theta, at.theta, n * sizeof *theta);
         p->fit->iterations++;
+        if (s == RB_OK && at.clipped && !done) { /* goes on from the bound */
+            for (size_t j = 0; j < n; j++)
+                gsl_vector_set(x, j, theta[j] / p->fit->parameter[j].scale);
+            gsl_multifit_nlinear_init(x, &fdf, w);
+        }
         if (s == RB_OK && observer && observer->step &&
             observer->step(p->fit->iterations, chi2, p->n, theta, observer->context))
             s = rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d steps",
                         p->fit->iterations);
     }
     p->fit->chi_square = chi2;
+    if (w)
+        gsl_multifit_nlinear_free(w);
+    gsl_vector_free(x);
     return s == RB_OK && !done
                ? rb_fail(why, RB_MAXITER, "fit: not at rest after %d steps", STEPS)
                : s;
@@ -301,8 +359,9 @@ static rb_status covariance(const problem *p, double *C, int *which)
     const int n = p->n;
     double length[RB_CASE_FIT_MAX];
 
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, p->points, 1.0, p->J, p->points,
-                0.0, C, n);
+    for (int j = 0; j < n; j++)
+        for (int i = j; i < n; i++)
+            C[i + j * n] = dot(p->points, column(p, i), column(p, j));
     for (int j = 0; j < n; j++)
         length[j] = sqrt(C[j + j * n]);
     for (int j = 0; j < n; j++)
