@@ -1,7 +1,7 @@
 /* Chapter 4: the stress below the contact of the first screen, coarse while a hand moves something; its largest value
  * and the place of it are the library's own. */
 import { card, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
-import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
+import { ALL_TANGENTIAL, formulation_of, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
 import { say } from "./words.js";
 
@@ -148,7 +148,8 @@ export function below_view(words, page) {
         if (formulation_of(page.given) === "static")
             return page.change(hold(page.given, ALL_TANGENTIAL, "force-ratio", String(-Math.min(0.99, value))));
         const sign = store.solved.main?.numbers.creep_ratio < 0 ? -1 : 1;
-        if (Number(page.given.mu) === 0) return;
+        if (Number(page.given.mu) === 0)
+            return page.change(hold(page.given, ALL_TANGENTIAL, "creep", plain(value / 1000)));
         page.change(hold(page.given, ALL_TANGENTIAL, "creep-ratio", String(Number((sign * value).toFixed(3)))));
     }
     function wants() {
@@ -328,7 +329,7 @@ export function below_view(words, page) {
                 depth: show(shear.depth / a, 2),
                 part: show(shear.value / p0, 2),
             }),
-            w.why,
+            Number(data.given.mu) === 0 ? w.smooth : w.why,
         ]
             .filter(Boolean)
             .join(" ");

@@ -202,7 +202,7 @@ export function crack_view(words, page) {
     function draw_at(k) {
         const a = data.numbers.half_width,
             width = width_of(picture),
-            per = Math.min(136, width / 4.8) /* px of a half-width */,
+            per = Math.min(Math.max(110, 0.16 * innerHeight), width / 4.8) /* px of a half-width */,
             tall = Math.round(0.95 * per + 62),
             height = Math.round(tall + 1.72 * per + 24),
             shown = guess !== null,

@@ -93,7 +93,8 @@ export function make_store(first, { link, changed, restored, shown, released }) 
     function write(how) {
         clearTimeout(timer);
         try {
-            history[how]({ rollbem: true, state, index }, "", link(state));
+            /* Of what a hand is at only the state before it is an entry. */
+            history[how]({ rollbem: true, state: kept, index }, "", link(kept));
         } catch {
             /* a frame without an address */
         }

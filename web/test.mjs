@@ -856,6 +856,7 @@ async function views(page) {
             await mouse("mousePressed", 0);
             for (const k of [0.3, 0.6, 1]) await mouse("mouseMoved", k);
             await page.until("rollbem.solver.idle()");
+            await page.run("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))");
             const on_the_way = await seen();
             await mouse("mouseReleased", 1);
             await settled();
@@ -880,8 +881,8 @@ async function views(page) {
             `the tip: ${JSON.stringify(await page.run("rollbem.store.case('crack')"))}, the wheel at ${after.place}`,
         );
         await page.run("rollbem.store.undo()");
+        await page.until("rollbem.store.case('crack')['crack-angle'] === '30'");
         await settled();
-        check((await page.run("rollbem.store.case('crack')['crack-angle']")) === "30", "undo");
         /* By keys. */
         for (const [name, key, holds] of [
             ["wheel", "ArrowRight", `rollbem.views.crack.shown().place > ${there.place} + 0.05`],
@@ -920,6 +921,7 @@ async function views(page) {
             await text_of("#at-crack .answer"),
         );
         await page.run("rollbem.store.undo()");
+        await page.until("rollbem.store.case('crack')['crack-angle'] !== '180'");
         await settled();
     });
     await test("which input matters: bars that follow the sliders", async () => {
@@ -1064,6 +1066,26 @@ async function views(page) {
             "two full stops after a note",
         );
     });
+    await test("below: the brake without friction moves nothing, and a sentence says so", async () => {
+        await page.run(
+            "rollbem.preset('rail'); rollbem.page.change(rollbem.page.with_mu(rollbem.page.given, 0)); rollbem.open('below')",
+        );
+        await settled();
+        await page.run("rollbem.views.below.reveal()");
+        await settled();
+        await page.run(
+            "{ const s = document.querySelector('[data-dial=below-drive]'); s.value = 1; s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); }",
+        );
+        await settled();
+        const told = await text_of("#at-below .tale .answer");
+        check(
+            /Without friction braking changes nothing/.test(told) &&
+                (await page.run("Math.abs(rollbem.page.given.creep - 0.001) < 1e-5")),
+            told,
+        );
+        await page.run("rollbem.preset('rail')");
+        await settled();
+    });
     await test("pictures and clips are saved as files", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");
         await settled();
@@ -1193,8 +1215,9 @@ async function views(page) {
                     }
                     await page.run(`${slider}.dispatchEvent(new PointerEvent('pointerup'))`);
                     await settled();
-                    await page.run("rollbem.store.undo()");
-                    await new Promise((resolve) => setTimeout(resolve, 50));
+                    await page.run(
+                        "rollbem.store.can_undo && new Promise((resolve) => { addEventListener('popstate', resolve, { once: true }); rollbem.store.undo(); })",
+                    );
                     await settled();
                     const said = STILL[name]?.test(await page.run(`document.querySelector('#at-${view}').textContent`));
                     if (way < 20 && !said && !ends.some(({ trouble }) => trouble))
@@ -1220,6 +1243,21 @@ async function views(page) {
         await key("hub", "ArrowDown");
         check_close(await number("normal_load"), 13800, 1, "the hub, pressed");
         check(/5[78] % of this contact is slipping/.test(await text_of("#headline")), await text_of("#headline"));
+    });
+    await test("a slow drag is undone to where it began", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('hero')");
+        await settled();
+        await page.run("rollbem.store.hold()");
+        for (const load of [15000, 20000, 25000]) {
+            await page.run(`rollbem.page.change({ ...rollbem.page.given, load: '${load}' })`);
+            await new Promise((resolve) => setTimeout(resolve, 400));
+        }
+        await page.run("rollbem.store.release()");
+        await settled();
+        await page.run("rollbem.store.undo()");
+        await page.until("rollbem.page.given.load === '12500'", 5);
+        await page.run("rollbem.store.redo()");
+        await page.until("rollbem.page.given.load === '25000'", 5);
     });
     await test("undo, redo, Back and reset", async () => {
         const s = () => page.run("rollbem.page.given['creep-ratio'] ?? null");

@@ -331,6 +331,7 @@ export const words = {
         answer_below: "Below: at {depth} a, where the shear reaches {part} of the highest pressure.",
         answer_surface: "At the surface, where the shear reaches {part} of the highest pressure.",
         why: "Pressure alone squeezes from all sides; it shears most a little way down. Friction adds shear at the surface, and the place moves up.",
+        smooth: "Without friction braking changes nothing here: both surfaces slide freely.",
         then: "Now brake harder, or change the friction. The picture follows the contact of the first screen.",
         drive: "how hard it brakes",
         free: "rolls freely",
