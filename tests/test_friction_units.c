@@ -253,6 +253,50 @@ static void cones_in_other_units(void **state)
     }
 }
 
+/* Where (13) is asked for, it decides in every solver; else a note says where it is above
+ * the tolerance.  W of a thousandth: (13) wants smaller forces at open contacts. */
+static void the_measure_of_acary_decides_where_asked(void **state)
+{
+    (void)state;
+    int count, notes = 0;
+    const rb_friction_solver *solvers = rb_friction_solvers(&count);
+    for (int trial = 0; trial < 12; trial++) {
+        rb_friction_problem p;
+        double r[18], u[18];
+        random_problem(2 + trial % 2, 6, 77u + (unsigned)trial, &p);
+        rescale(&p, 1e-3, 1.0);
+        for (int s = 0; s < count; s++)
+            for (int acary = 0; acary < 2; acary++) {
+                rb_friction_options opt = rb_friction_defaults();
+                rb_friction_info info;
+                rb_friction_errors again;
+                rb_message note = {""};
+                const rb_friction_solution at = {r, u, NULL};
+                if ((solvers[s].needs & RB_FRICTION_ONLY_2D) && p.dimension != 2)
+                    continue;
+                opt.tol = 1e-5;
+                opt.measure = acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
+                const rb_status got =
+                    rb_friction_solve(solvers[s].name, &p, &opt, &at, &info);
+                if (s == 0)
+                    CHECK_STATUS(got, RB_OK);
+                if (got != RB_OK)
+                    continue;
+                CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &again), RB_OK);
+                CHECK_REL(info.residual, again.residual, 1e-9, "%s", solvers[s].name);
+                CHECK_REL(info.scaled, again.scaled, 1e-9, "%s", solvers[s].name);
+                CHECK_MAX(acary ? info.residual : info.scaled, opt.tol, "%s, %s",
+                          solvers[s].name, acary ? "(13)" : "scaled");
+                assert_int_equal(rb_friction_note(opt.tol, &info, &note),
+                                 info.residual > opt.tol);
+                assert_int_equal(note.text[0] != '\0', info.residual > opt.tol);
+                notes += note.text[0] != '\0';
+            }
+        rb_friction_problem_free(&p);
+    }
+    assert_true(notes > 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +305,7 @@ int main(void)
         cmocka_unit_test(every_solver_on_files_in_other_units),
         cmocka_unit_test(a_light_touch_is_solved_at_once),
         cmocka_unit_test(cones_in_other_units),
+        cmocka_unit_test(the_measure_of_acary_decides_where_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -180,6 +180,10 @@ int rb_api_stress_maxima(rb_api *a, double depth);
  * "lemke", "lemke-sparse" or "newton"; max_pivots 0: the solver's own limit. */
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots);
+/* Which residual decides from now on: "scaled" (at first), or "acary", (13) of Acary,
+ * which depends on units.  rb_api_note says where a problem is solved in the scaled
+ * measure alone. */
+int rb_api_friction_measure(rb_api *a, const char *measure);
 /* u = W r + q, Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one
  * first; W column by column, mu an entry per contact.  solver: a name of rollbem
  * friction.  Nine plain parameters: no struct has to be laid out in another language. */

@@ -151,8 +151,15 @@ typedef struct {
     const double *r;     /* m */
 } rb_friction_progress;
 
+/* Which of the two residuals decides. */
+typedef enum {
+    RB_FRICTION_BY_SCALED, /* rho = 1/W_NN of each contact */
+    RB_FRICTION_BY_ACARY   /* (13), rho = 1 */
+} rb_friction_measure_name;
+
 typedef struct {
-    double tol;       /* on the scaled measure; default 1e-8 */
+    double tol; /* on the measure that decides; default 1e-8 */
+    rb_friction_measure_name measure;
     int max_iters;    /* of the whole call, every part of a solver that runs others
                          counted; 0: the solver's own limit */
     double seconds;   /* time limit; 0: none */
@@ -168,7 +175,8 @@ typedef struct {
     const char *solver; /* that gave the answer; static text */
     int iters;          /* Newton steps, sweeps, pivots */
     double residual;    /* as in rb_friction_errors, recomputed from r (and v) alone */
-    double scaled;      /* likewise; decides */
+    double scaled;      /* likewise; decides unless (13) was asked for */
+    rb_friction_measure_name measure; /* which of them decides */
     double floor;
     double flops; /* floating-point operations, docs/friction.md says how counted */
     double seconds;
@@ -195,11 +203,18 @@ const rb_friction_solver *rb_friction_solver_named(const char *name);
 
 rb_friction_options rb_friction_defaults(void);
 
+/* The residual that decides. */
+double rb_friction_deciding(const rb_friction_info *info);
+/* 1, with a sentence, where a problem is solved in the scaled measure and (13) is above
+ * the tolerance and the floor. */
+int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note);
+
 /* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and, unless it is NULL, v are
- * written; the best iterate when not solved.  RB_OK: scaled <= max(tol, floor).
- * RB_MAXITER, RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not
- * solved. RB_EINVAL: unknown solver, problem refused by rb_friction_problem_check or by
- * the solver; info->msg says which.  info: written, or NULL. */
+ * written; the best iterate when not solved.  RB_OK: the measure that decides is at most
+ * max(tol, floor). RB_MAXITER, RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time
+ * limit): not solved. RB_EINVAL: unknown solver, problem refused by
+ * rb_friction_problem_check or by the solver; info->msg says which.  info: written, or
+ * NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
                             const rb_friction_options *opt,
                             const rb_friction_solution *solution, rb_friction_info *info);

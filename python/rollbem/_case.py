@@ -650,6 +650,7 @@ class Friction(Answer):
     r: Array
     u: Array
     scaled_residual: float
+    notes: list
 
 
 def lcp(M: Any, q: Any, solver: str = "auto", max_pivots: int = 0) -> Complementarity:
@@ -669,12 +670,15 @@ def lcp(M: Any, q: Any, solver: str = "auto", max_pivots: int = 0) -> Complement
 
 
 def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",
-             tol: float = 1e-8, max_iters: int = 0) -> Friction:
+             tol: float = 1e-8, max_iters: int = 0, measure: str = "scaled") -> Friction:
     """Solves u = W r + q under Coulomb's law; per contact the normal row comes first.
 
     ``mu`` is a number or one per contact.  ``friction("file.hdf5")`` reads FCLib or Siconos.
+    ``measure="acary"``: (13) of Acary, ``residual``, decides instead of ``scaled_residual``; where a
+    problem is solved in the scaled measure alone, a warning (:class:`Note`) says so.
     """
     handle = Handle("solve")
+    handle.check(handle.run("rb_api_friction_measure", _values.word("measure", measure, "scaled or acary")))
     how = (_values.word("solver", solver, "a name of rollbem friction or auto"), _values.number("tol", tol),
            _values.whole("max_iters", max_iters))
     if q is None:
@@ -698,6 +702,9 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
     found = Friction(handle, r=np.atleast_2d(handle.array("friction.r").T),
                      u=np.atleast_2d(handle.array("friction.u").T))
     found.scaled_residual = handle.number("task.scaled_residual")
+    found.notes = handle.notes()
+    for note in found.notes:
+        warnings.warn(note, Note, stacklevel=2)
     return _kept(found, handle, status)
 
 

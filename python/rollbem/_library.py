@@ -57,6 +57,7 @@ FUNCTIONS = {
     "rb_api_pivots": (_Int, _Handle),
     "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
+    "rb_api_friction_measure": (_Int, _Handle, _Text),
     "rb_api_friction": (_Int, _Handle, _Int, _Int, _Doubles, _Doubles, _Doubles, _Text, _Double, _Int),
     "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
     "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
@@ -340,7 +341,7 @@ class Handle(_Answers):
 
     def notes(self) -> list:
         """What must be known to read the solution rightly."""
-        room, found = ctypes.create_string_buffer(256), []
+        room, found = ctypes.create_string_buffer(640), []
         while (text := lib.rb_api_note(self.at, len(found), room, len(room))) is not None:
             found.append(in_keywords(text.decode()))
         return found

@@ -147,6 +147,14 @@ def test_friction_problems(tmp_path):
         want = solved_by_program("friction", file)
         assert same(answer.r, want["r"]) and same(answer.u, want["u"])
         assert answer.scaled_residual == want["scaled_residual"] and answer.solver == want["solver"]
+    assert got.notes == [] and want["note"] is None and want["measure"] == "scaled"
+    exact = rollbem.friction(W, q, mu, measure="acary", tol=1e-9)
+    assert exact.residual <= 1e-9
+    with pytest.warns(rollbem.Note, match=r"the residual \(13\) of Acary, .* above tol=1e-08.*measure= acary"):
+        small = rollbem.friction(np.diag([1e-9, 0.5e-9, 0.5e-9]), [-1e-3, 0.4e-3, -0.3e-3], 0.8)
+    assert small.scaled_residual <= 1e-8 < small.residual and len(small.notes) == 1
+    with pytest.raises(rollbem.InvalidInput, match="measure=: expected scaled or acary, got 'units'"):
+        rollbem.friction(W, q, mu, measure="units")
     with pytest.raises(rollbem.MissingFile):
         rollbem.friction(tmp_path / "none.hdf5")
 

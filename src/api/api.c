@@ -278,6 +278,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
 
 int rb_api_solve(rb_api *a)
 {
+    a->note.text[0] = '\0';
     if (rb_api_resolve(a) < 0)
         return a->status;
     a->result.model = a->kept;
@@ -434,7 +435,11 @@ const char *rb_api_word(const rb_api *a, const char *name)
 const char *rb_api_note(const rb_api *a, int k, char *text, int size)
 {
     const rb_rolling_solution *s = &a->result.solution;
-    if (s->n == 0 || k < 0)
+    if (k == 0 && a->note.text[0]) {
+        snprintf(text, (size_t)size, "%s", a->note.text);
+        return text;
+    }
+    if (s->n == 0 || k < 0 || a->note.text[0])
         return NULL;
     const rb_rolling_note_list list =
         rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);

@@ -36,6 +36,8 @@ struct rb_api {
     int *nonbasis; /* the last pivot's, both owned */
     int iterations;
     double residual, scaled_residual;
+    int by_acary;        /* (13) decides whether friction problems are solved */
+    rb_message note;     /* on the last problem that was handed over; empty: none */
     const char *solver;  /* of the last problem that was handed over; static text */
     _Atomic int stopped; /* by another thread, or a signal handler */
     rb_status status;

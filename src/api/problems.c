@@ -17,7 +17,7 @@ const rb_contact_cone_solvers *rb_api_cone_solvers(void)
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
-    a->why.text[0] = '\0';
+    a->why.text[0] = a->note.text[0] = '\0';
     a->stopped = 0;
     a->iterations = 0;
     a->residual = a->scaled_residual = NAN;
@@ -80,6 +80,7 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
     rb_friction_info info = {0};
     options.tol = tol;
     options.max_iters = max_iters;
+    options.measure = a->by_acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
     options.progress = goes_on;
     options.context = a;
     api_array *r = rb_api_make_array(a, "friction.r", p->dimension, p->contacts);
@@ -97,7 +98,20 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
     a->residual = info.residual;
     a->scaled_residual = info.scaled;
     a->why = info.msg;
+    if (s == RB_OK)
+        rb_friction_note(tol, &info, &a->note);
     return s;
+}
+
+int rb_api_friction_measure(rb_api *a, const char *measure)
+{
+    const int by_acary = strcmp(measure, "acary") == 0;
+    if (!by_acary && strcmp(measure, "scaled") != 0)
+        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
+                                       "--measure: expected scaled or acary, got '%.60s'",
+                                       measure));
+    a->by_acary = by_acary;
+    return rb_api_ended(a, RB_OK);
 }
 
 int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,

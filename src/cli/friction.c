@@ -17,7 +17,7 @@
 typedef struct {
     const char *solver;
     double tol, seconds;
-    int max_iters, kind, format, facts, solution, trace;
+    int max_iters, measure, kind, format, facts, solution, trace;
     rb_report_style style;
     const char *output;
 } friction_options;
@@ -42,13 +42,19 @@ static const rb_choice formats[] = {
     {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
     {NULL, 0}};
 
+static const rb_choice measures[] = {
+    {"scaled", RB_FRICTION_BY_SCALED}, {"acary", RB_FRICTION_BY_ACARY}, {NULL, 0}};
+
 #define PLACE(member) offsetof(friction_options, member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "scaled error that counts as solved: see below"),
+                   "error that counts as solved: see below"),
+    RB_CHOICE_LINE("measure", PLACE(measure), measures,
+                   "which error decides: scaled, or acary: (13), which depends on the "
+                   "units of the file"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
@@ -89,7 +95,9 @@ static const char notes[] =
     "of the data allows), seconds, scaled residual. The last one decides: (13) with rho "
     "= 1/W_NN\n"
     "of each contact, in units of velocity, which does not change with the units of the "
-    "file.\n"
+    "file;\n"
+    "with --measure acary (13) decides. A note says where a problem is solved in the "
+    "scaled measure alone.\n"
     "Status solved-to-rounding: above the tolerance, at or below the floor; infeasible: "
     "not solved,\n"
     "and proved to have no solution.\n"
@@ -114,7 +122,8 @@ typedef struct {
     int contacts, dimension, m; /* m: 0 when not read */
     rb_friction_info info;
     rb_friction_facts facts;
-    double *r, *u; /* m; owned */
+    rb_message note; /* on how the result is to be read; empty: none */
+    double *r, *u;   /* m; owned */
 } friction_result;
 
 static int is_json(const friction_options *o)
@@ -149,6 +158,9 @@ static void add_problem(friction_run *run, const friction_result *r)
     rb_report_json_set(&p, "iterations", count(r->m > 0, r->info.iters));
     rb_report_json_set(&p, "residual", rb_report_json_number(r->info.residual));
     rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
+    rb_report_json_set(&p, "measure", json_string(measures[run->o->measure].name));
+    rb_report_json_set(&p, "note",
+                       r->note.text[0] ? json_string(r->note.text) : json_null());
     rb_report_json_set(&p, "floor", rb_report_json_number(r->info.floor));
     rb_report_json_set(&p, "flops", rb_report_json_number(r->info.flops));
     rb_report_json_set(&p, "seconds", rb_report_json_number(r->info.seconds));
@@ -220,6 +232,8 @@ static void print_solution(const friction_run *run, rb_report_cells *c,
 
 static void print_problem(friction_run *run, const friction_result *r)
 {
+    if (r->m && r->note.text[0])
+        rb_report_comment(&run->files.cells, "note: %s: %s", r->file, r->note.text);
     if (r->m && run->o->solution)
         print_solution(run, &run->files.cells, r);
     else if (r->m)
@@ -290,10 +304,15 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
     r->status = rb_friction_status_text(s, run->o->tol, &r->info);
     if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
         return failed(r, s, r->info.msg.text);
+    if (s == RB_OK && rb_friction_note(run->o->tol, &r->info, &r->note))
+        fprintf(stderr, "rollbem: %s: note: %s\n", r->file, r->note.text);
     if (s == RB_OK)
         return CLI_OK;
-    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, scaled residual %.2g",
-                    r->file, r->info.solver, r->status, r->info.iters, r->info.scaled);
+    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, %s %.2g", r->file,
+                    r->info.solver, r->status, r->info.iters,
+                    run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)"
+                                                            : "scaled residual",
+                    rb_friction_deciding(&r->info));
 }
 
 static int trace(const rb_friction_progress *at, void *context)
@@ -316,6 +335,7 @@ static rb_friction_options solver_options(friction_run *run)
     const friction_options *o = run->o;
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = o->tol;
+    opt.measure = (rb_friction_measure_name)o->measure;
     opt.max_iters = o->max_iters;
     opt.seconds = o->seconds;
     opt.progress = o->trace ? trace : NULL;

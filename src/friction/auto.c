@@ -363,6 +363,7 @@ static void conclude(const portfolio *p, const member *winner, rb_friction_task 
     info->residual = proof->residual;
     info->scaled = proof->scaled;
     info->floor = proof->floor;
+    info->measure = proof->measure;
 }
 
 static rb_status run_auto(rb_friction_task *task, int variant)

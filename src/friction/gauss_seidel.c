@@ -172,14 +172,14 @@ static int looks_now(int k, int limit)
 /* What rounding of the velocities kept up cannot reach. */
 #define SAFE_TOLERANCE 1e-12
 
-/* (13) with the velocities at hand; recomputed where `refresh` or a close call asks for
- * it. */
+/* The measure with the velocities at hand; recomputed where `refresh` or a close call
+ * asks for it. */
 static double look(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
     const double tol = t->opt.tol;
     const double error =
-        rb_friction_natural_norm(t->problem, t->measure->rho, t->r, t->u, NULL) /
+        rb_friction_natural_norm(t->problem, t->measure->deciding, t->r, t->u, NULL) /
         t->measure->scale;
     t->info->flops += 25.0 * t->m;
     const int clear = error > tol || (error <= 0.5 * tol && tol >= SAFE_TOLERANCE);

@@ -48,9 +48,10 @@ typedef struct {
     double scale;               /* ||q||, or 1 where q = 0 */
     rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
     double spring;              /* k; 0 where K is regular */
-    double *y;                  /* m, workspace; owns e, dv and rho too */
+    double *y;                  /* m, workspace; owns e, dv, rho and ones too */
     double *e, *dv;             /* n each, workspace */
-    double *rho;                /* 2 per contact */
+    double *rho, *ones;         /* 2 per contact; ones: (13) */
+    const double *deciding;     /* one of them */
 } rb_friction_measure;
 
 rb_status rb_friction_measure_init(const rb_friction_problem *problem,
@@ -58,7 +59,7 @@ rb_status rb_friction_measure_init(const rb_friction_problem *problem,
 /* After q, or f and w, have changed. */
 rb_status rb_friction_measure_reload(rb_friction_measure *measure);
 /* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written.
- * scaled: the measure that decides; paper: (13), or NULL. */
+ * paper NULL: scaled is the measure that decides; else scaled and (13). */
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
                                     double *v, double *u, double *scaled, double *paper);
 /* What of the measure numbers of the size of r can resolve: below this it says nothing,

@@ -120,12 +120,16 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
     const size_t nc = (size_t)p->contacts;
     *measure = (rb_friction_measure){
-        .problem = p, .scale = 1.0, .y = malloc((m + 2 * n + 2 * nc) * sizeof(double))};
+        .problem = p, .scale = 1.0, .y = malloc((m + 2 * n + 4 * nc) * sizeof(double))};
     if (!measure->y)
         return RB_ENOMEM;
     measure->e = measure->y + m;
     measure->dv = measure->e + n;
     measure->rho = measure->dv + n;
+    measure->deciding = measure->rho;
+    measure->ones = measure->rho + 2 * nc;
+    for (size_t k = 0; k < 2 * nc; k++)
+        measure->ones[k] = 1.0;
     rb_status s = rb_friction_rho(p, measure->rho);
     if (s == RB_OK && n) {
         s = rb_sparse_cholesky_create(&p->K, &measure->factor);
@@ -215,8 +219,8 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
         local_velocity(p, r, u);
     if (s != RB_OK)
         return s;
-    const double norm =
-        rb_friction_natural_norm(p, measure->rho, r, u, paper ? &with_rho_1 : NULL);
+    const double norm = rb_friction_natural_norm(
+        p, paper ? measure->rho : measure->deciding, r, u, paper ? &with_rho_1 : NULL);
     *scaled = relative(measure, correction + norm);
     if (paper)
         *paper = relative(measure, correction + with_rho_1);
@@ -225,7 +229,8 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
 
 double rb_friction_measure_resolution(const rb_friction_measure *measure, const double *r)
 {
-    return DBL_EPSILON * rb_friction_size(measure->problem, measure->rho, r, measure->y) /
+    return DBL_EPSILON *
+           rb_friction_size(measure->problem, measure->deciding, r, measure->y) /
            measure->scale;
 }
 

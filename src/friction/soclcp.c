@@ -219,20 +219,25 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     rb_status s = check_canonical(p, &largest, &info->msg);
     if (s != RB_OK)
         return s;
+    const double unit = unit_of(p);
+    const int acary = used.measure == RB_FRICTION_BY_ACARY;
     canonical c = {.p = p,
-                   .unit = unit_of(p),
+                   .unit = acary ? 1.0 : unit,
                    .tol = used.tol,
                    .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0};
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
     s = run_canonical(&c, largest, used.max_iters ? used.max_iters : LIMIT, x,
                       &info->iters);
-    info->scaled = error_in(p, c.unit, x, y);
+    info->measure = used.measure;
+    info->scaled = error_in(p, unit, x, y);
     info->residual = rb_friction_soclcp_error(p, x, y);
     info->flops = c.flops;
     info->seconds = rb_seconds() - start;
     if (s >= 0)
-        s = info->scaled <= used.tol ? RB_OK : s == RB_OK ? RB_INACCURATE : s;
+        s = rb_friction_deciding(info) <= used.tol ? RB_OK
+            : s == RB_OK                           ? RB_INACCURATE
+                                                   : s;
     return s;
 }
 

@@ -76,11 +76,29 @@ const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method
     return row;
 }
 
+double rb_friction_deciding(const rb_friction_info *info)
+{
+    return info->measure == RB_FRICTION_BY_ACARY ? info->residual : info->scaled;
+}
+
 const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
 {
-    if (s == RB_OK && info && info->scaled > tol)
+    if (s == RB_OK && info && rb_friction_deciding(info) > tol)
         return "solved-to-rounding";
     return rb_status_text(s);
+}
+
+int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note)
+{
+    const double allowed = fmax(tol, info->floor);
+    if (!(info->scaled <= allowed) || !(info->residual > allowed))
+        return 0;
+    rb_fail(
+        note, RB_OK,
+        "the residual (13) of Acary, which depends on units, is %.2g, above --tol %g; "
+        "the scaled residual %.2g decides, unless --measure acary asks for (13)",
+        info->residual, tol, info->scaled);
+    return 1;
 }
 
 /* ---- One call ---------------------------------------------------------------------- */
@@ -106,6 +124,7 @@ static rb_status begin_call(call *c, const char *name, const rb_friction_problem
     c->info = info ? info : &c->unwanted;
     name = name ? name : "auto";
     rb_friction_info_clear(c->info, name);
+    c->info->measure = c->opt.measure;
     const rb_friction_options *opt = &c->opt;
     rb_message *why = &c->info->msg;
     c->solver = rb_friction_solver_named(name);
@@ -195,6 +214,9 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
                              .v = c->at.v ? c->at.v : shared->memory + m + n};
     c->info->solver = c->solver->name;
     shared->stop = 0;
+    shared->measure.deciding = c->opt.measure == RB_FRICTION_BY_ACARY
+                                   ? shared->measure.ones
+                                   : shared->measure.rho;
     const rb_status s = run_and_prove(&task, c->solver);
     if (c->timed)
         c->info->seconds = rb_seconds() - c->start;

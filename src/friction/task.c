@@ -85,6 +85,7 @@ void rb_friction_info_clear(rb_friction_info *info, const char *solver)
     info->solver = solver;
     info->iters = 0;
     info->residual = info->scaled = INFINITY;
+    info->measure = RB_FRICTION_BY_SCALED;
     info->floor = info->flops = info->seconds = 0.0;
     info->msg.text[0] = '\0';
 }
@@ -165,7 +166,8 @@ int rb_friction_prove(rb_friction_task *task)
                                                &info->scaled, &info->residual);
     info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
     count_measure(task);
-    task->proved = rb_friction_task_accepts(task, info->scaled);
+    info->measure = task->opt.measure;
+    task->proved = rb_friction_task_accepts(task, rb_friction_deciding(info));
     return task->proved;
 }
 
