@@ -225,6 +225,52 @@ static void forward_is_adjoint(void **state)
     }
 }
 
+/* ---- By gap and mu of every element ------------------------------------------------ */
+
+/* All coefficients together are mu, and the gap of a radius is x^2/(2R). */
+static void vectors_add_up(void **state)
+{
+    static const words some[] = {
+        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola",
+          "load", "500", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
+          "creep", "1e-3"}},
+        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola",
+          "load", "500", "mesh", "uniform", "zone", "1.2", ROLLING, "young-b", "70000",
+          "force-ratio", "-0.5"}},
+        {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03",
+          "mesh", "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}}};
+    (void)state;
+    for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
+        rb_message why = {""};
+        rb_case_result r;
+        rb_case_derivatives all;
+        rb_case *c = solved(&some[k], NULL, 0.0, &r);
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        const int n = all.n_x;
+        assert_int_equal(n, r.solution.n);
+        for (int f = 0; f < RB_CASE_OVER_X_N; f++) {
+            const char *name = rb_case_over_x_names[f];
+            const double *gap = all.over_x + 2 * f * n, *mu = gap + n;
+            double by_radius = 0.0, by_mu = 0.0, size = 0.0;
+            for (int i = 0; i < n; i++) {
+                const double x = r.solution.x[i];
+                by_radius -= gap[i] * x * x / (2.0 * 50.0 * 50.0);
+                size += fabs(gap[i]) * x * x / (2.0 * 50.0 * 50.0);
+                by_mu += mu[i];
+            }
+            CHECK_ABS(by_radius, value_of(&of(&all, "radius")->d.value[0], name),
+                      1e-7 * size + 1e-12 * fabs(value_of(&r.solution, name)),
+                      "%s by radius", name);
+            CHECK_ABS(by_mu, value_of(&of(&all, "mu")->d.value[0], name),
+                      1e-8 * fabs(by_mu) + 1e-9 * fabs(value_of(&r.solution, name)),
+                      "%s by mu", name);
+        }
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
 /* ---- Carter
  * ---------------------------------------------------------------------------- */
 
@@ -478,6 +524,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives_are_those_of_solutions),
         cmocka_unit_test(forward_is_adjoint),
+        cmocka_unit_test(vectors_add_up),
         cmocka_unit_test(carter_slopes),
         cmocka_unit_test(equal_elements_move_with_their_zone),
         cmocka_unit_test(fitted_elements_move_with_the_edges),

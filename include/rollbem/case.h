@@ -365,8 +365,22 @@ typedef struct {
     rb_case_derivative *of;           /* in the order of the options; owned */
     int degenerate;                   /* elements between two zones */
     rb_sensitivity_elements elements; /* what they do while an input changes */
-    rb_units units;                   /* of results and numbers; mm at first */
+    int n_x; /* elements; 0: no vectors (a law that depends on the state, no matrix) */
+    double *over_x; /* of every rb_case_over_x in turn: by the gap at each element
+                       [unit/length], then by its coefficient of friction, n_x each, on
+                       elements that stay and at the creepage as it is; owned */
+    rb_units units; /* of results and numbers; mm at first */
 } rb_case_derivatives;
+
+/* What has derivatives by gap and mu of every element. */
+typedef enum {
+    RB_CASE_OVER_X_LOAD,
+    RB_CASE_OVER_X_FORCE,
+    RB_CASE_OVER_X_APPROACH,
+    RB_CASE_OVER_X_CREEPAGE,
+    RB_CASE_OVER_X_N
+} rb_case_over_x;
+extern const char *const rb_case_over_x_names[RB_CASE_OVER_X_N];
 
 /* Of a solved model of the case, with respect to all of its numbers, or to those names
  * (n, or 0: all).  all: overwritten; free it in any case. */

@@ -620,6 +620,13 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
     int is_column;
     const rb_rolling_result *r = rb_case_derivative_result(result, &is_column);
     const int values = strcmp(result, "value") == 0;
+    for (int k = 0; k < 2 * RB_CASE_OVER_X_N && all->n_x > 0; k++) {
+        char known[40];
+        snprintf(known, sizeof known, "%s.%s", rb_case_over_x_names[k / 2],
+                 k % 2 ? "mu" : "gap");
+        if (strcmp(known, result) == 0)
+            return rb_api_copy_array(a, name, all->n_x, 1, all->over_x + k * all->n_x);
+    }
     const int rows = !values && is_column ? a->result.solution.n : 1;
     api_array *made = all->n > 0 && (r || values)
                           ? rb_api_make_array(a, name, rows, values ? all->n : 2 * all->n)

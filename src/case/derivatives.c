@@ -130,6 +130,65 @@ static int is_asked(int n, const char *const *names, const char *name)
     return asked;
 }
 
+/* ---- By gap and mu over x ---------------------------------------------------------- */
+
+const char *const rb_case_over_x_names[RB_CASE_OVER_X_N] = {
+    [RB_CASE_OVER_X_LOAD] = "normal_load",
+    [RB_CASE_OVER_X_FORCE] = "tangential_load",
+    [RB_CASE_OVER_X_APPROACH] = "approach",
+    [RB_CASE_OVER_X_CREEPAGE] = "creepage"};
+
+/* One adjoint solve each (D3). */
+static rb_status differentiate_over_x(const rb_sensitivity *s,
+                                      const rb_rolling_model *model,
+                                      rb_case_derivatives *all, rb_message *why)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
+    const int n = p->n;
+    rb_contact_state weight = {0};
+    rb_sensitivity_rate adjoint = {0};
+    rb_status status = RB_OK;
+
+    if (!model->bodies.F || rb_rolling_law_depends_on_state(model->rc) || all->degenerate)
+        return RB_OK;
+    all->over_x = rb_alloc((size_t)n, 2 * RB_CASE_OVER_X_N);
+    status = all->over_x ? rb_contact_state_alloc(n, &weight) : RB_ENOMEM;
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(n, &adjoint);
+    for (int k = 0; k < RB_CASE_OVER_X_N && status == RB_OK; k++) {
+        double *by_gap = all->over_x + (size_t)(2 * k) * (size_t)n, *by_mu = by_gap + n;
+        for (int i = 0; i < n; i++) {
+            weight.p[i] = k == RB_CASE_OVER_X_LOAD    ? p->load_N[i]
+                          : k == RB_CASE_OVER_X_FORCE ? p->force_N[i]
+                                                      : 0.0;
+            weight.q[i] = k == RB_CASE_OVER_X_LOAD    ? p->load_T[i]
+                          : k == RB_CASE_OVER_X_FORCE ? p->force_T[i]
+                                                      : 0.0;
+        }
+        weight.delta = k == RB_CASE_OVER_X_APPROACH;
+        weight.xi = k == RB_CASE_OVER_X_CREEPAGE;
+        status = rb_sensitivity_adjoint(s, &weight, &adjoint, why);
+        /* a given part of what friction carries changes with it */
+        const double part = p->force_given
+                                ? adjoint.tangential * p->force_ratio /
+                                      (p->mu * p->stress * model->bodies.f.h[0])
+                                : 0.0;
+        for (int i = 0; i < n && status == RB_OK; i++) {
+            by_gap[i] = adjoint.gap[i];
+            by_mu[i] =
+                adjoint.bound[i] - (part != 0.0 ? part * (p->load_N[i] * state->p[i] +
+                                                          p->load_T[i] * state->q[i])
+                                                : 0.0);
+        }
+    }
+    all->n_x = status == RB_OK ? n : 0;
+    rb_sensitivity_rate_free(&adjoint);
+    rb_contact_state_free(&weight);
+    return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives")
+                               : RB_OK;
+}
+
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why)
@@ -160,6 +219,8 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
         all->degenerate = rb_sensitivity_degenerate(s);
         all->elements = rb_sensitivity_motion(s);
     }
+    if (status == RB_OK)
+        status = differentiate_over_x(s, model, all, why);
     rb_sensitivity_free(s);
     free(number);
     return status;
@@ -167,7 +228,16 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
 
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)
 {
+    static const char *const unit[RB_CASE_OVER_X_N] = {"N/mm", "N/mm", "mm", NULL};
+
     all->units = units;
+    for (int i = 0; i < 2 * RB_CASE_OVER_X_N * all->n_x; i++) {
+        const int k = i / all->n_x;
+        if (unit[k / 2])
+            all->over_x[i] = rb_unit_shown(units, unit[k / 2], all->over_x[i]);
+        if (k % 2 == 0)
+            all->over_x[i] /= rb_unit_shown(units, "mm", 1.0);
+    }
     for (int k = 0; k < all->n; k++) {
         rb_case_derivative *it = &all->of[k];
         const double one = rb_unit_shown(units, it->unit, 1.0);
@@ -187,6 +257,7 @@ void rb_case_derivatives_free(rb_case_derivatives *all)
     for (int k = 0; k < all->n; k++)
         rb_sensitivity_derivative_free(&all->of[k].d);
     free(all->of);
+    free(all->over_x);
     *all = (rb_case_derivatives){0};
 }
 

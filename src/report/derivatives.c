@@ -114,7 +114,7 @@ static const char *elements_of(const rb_report_derivatives *d)
 
 void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
 {
-    json_t *results = json_object(), *without = json_object();
+    json_t *results = json_object(), *without = json_object(), *over_x = json_object();
     char text[160];
 
     for (int k = 0; k < d->n; k++)
@@ -126,6 +126,19 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
             rb_report_json_set(&without, d->all->of[i].name,
                                json_string(d->all->of[i].why.text));
     rb_report_json_set(root, "without_derivatives", without);
+    for (int k = 0; k < RB_CASE_OVER_X_N && d->all->n_x > 0; k++) {
+        json_t *both = json_object();
+        for (int by = 0; by < 2; by++) {
+            json_t *list = json_array();
+            for (int i = 0; i < d->all->n_x; i++)
+                rb_report_json_append(
+                    &list, rb_report_json_number(
+                               d->all->over_x[(2 * k + by) * d->all->n_x + i]));
+            rb_report_json_set(&both, by ? "mu" : "gap", list);
+        }
+        rb_report_json_set(&over_x, rb_case_over_x_names[k], both);
+    }
+    rb_report_json_set(root, "derivatives_over_x", over_x);
     snprintf(text, sizeof text, "%s; [left, right] where the two sides differ",
              elements_of(d));
     rb_report_json_set(root, "derivatives_are", json_string(text));

@@ -184,6 +184,10 @@ json_t *rb_report_json_schema(void)
                                        "[left, right] where the sides differ"));
     rb_report_json_set(&of, "without_derivatives",
                        typed("object", "inputs without, and why"));
+    rb_report_json_set(&of, "derivatives_over_x",
+                       typed("object",
+                             "of loads, approach and creepage by the gap and mu of "
+                             "every element, which stays"));
     rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
     rb_report_json_set(&of, "tolerances",
                        typed("object", "of --tolerance: standard deviations of results"));
