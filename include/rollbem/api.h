@@ -124,11 +124,10 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                solution, rows x (2 per input): for a falling and for a
  *                                growing input; NAN: none
  *   derivative.value             the inputs' values
- *   derivative.NAME.gap derivative.NAME.mu   of normal_load, tangential_load, approach and
- *                                creepage by the gap and mu of every element
- *   wear.way wear.worn ...       after rb_api_wear, an entry per step
- *   wear.profile.x wear.profile.depth       what is worn off at the end, over x
- *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
+ *   derivative.NAME.gap derivative.NAME.mu   of normal_load, tangential_load, approach
+ * and creepage by the gap and mu of every element wear.way wear.worn ...       after
+ * rb_api_wear, an entry per step wear.profile.x wear.profile.depth       what is worn off
+ * at the end, over x sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
