@@ -52,6 +52,20 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+const char *rb_report_large_number(double x, char text[40])
+{
+    const int power = x >= 1e5 ? (int)floor(log10(x) + 1e-9) : 0;
+    char digits[20];
+    snprintf(digits, sizeof digits, "%.5g", x / pow(10.0, power));
+    if (power == 0)
+        snprintf(text, 40, "%s", digits);
+    else if (strcmp(digits, "1") == 0)
+        snprintf(text, 40, "10^{%d}", power);
+    else
+        snprintf(text, 40, "%s·10^{%d}", digits, power);
+    return text;
+}
+
 double rb_report_labels_in(double height)
 {
     return fmax(2.0, 12.0 * height);

@@ -252,10 +252,10 @@ static int draws_carter(const view *v)
     return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
 }
 
-/* Carter's law on a finer grid than the curve; ratio and creepage are proportional. */
+/* Carter's law as markers; ratio and creepage are proportional. */
 static void write_carter(FILE *out, const view *v)
 {
-    enum { POINTS = 300 };
+    enum { POINTS = 24 };
     for (int k = 0; k < v->curves->n; k++) {
         const rb_rolling_curve *c = &v->curves->curve[k];
         const int last = c->n - 1;
@@ -300,12 +300,14 @@ static void write_label(FILE *out, const char *axis, const char *what, int expon
 static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
+    const int thick = rb_rolling_has_thickness(v->rc);
     if (titled) {
         fprintf(out,
-                "set label 1 '{/:Bold %s}   P = %.5g %s,  a = %.4g %s' "
+                "set label 1 '{/:Bold %s}   P = %.5g %s,  %s = %.4g %s' "
                 "at screen 0.54, 0.972 center\n",
                 v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-                c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"), c->half_width,
+                c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"),
+                thick ? "Hertz’s a of solid bodies" : "a", c->half_width,
                 rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
@@ -323,6 +325,28 @@ static void write_labels(FILE *out, const view *v, int titled)
     fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
             v->over_load ? "P" : "(μP)");
 }
+
+/* The way back, where it is another one to the eye. */
+static int comes_back_otherwise(const view *v)
+{
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        for (int i = c->rising; c->branch && i < c->n; i++) {
+            double nearest = INFINITY, there = NAN;
+            for (int j = 0; j < c->rising; j++)
+                if (fabs(c->creepage[j] - c->creepage[i]) < nearest) {
+                    nearest = fabs(c->creepage[j] - c->creepage[i]);
+                    there = c->force_ratio[j];
+                }
+            if (nearest <= 1e-9 * fabs(c->creepage[i]) &&
+                fabs(there - c->force_ratio[i]) > 2e-3)
+                return 1;
+        }
+    }
+    return 0;
+}
+
+enum { FEW = 16 }; /* points: markers show where the curve was computed */
 
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
@@ -349,12 +373,16 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 k, rb_report_colour(k), k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
-                "%s$curve%d using 1:2 every ::0::%d with lines linecolor rgb '%s' "
+                "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' "
                 "dashtype %s linewidth 2.6 title 'μ %s %g'",
-                k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1, rb_report_colour(k),
-                rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
-                scale_of(v, k));
-    for (int k = 0; k < v->curves->n && v->over != RB_OVER_SPEED; k++)
+                k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1,
+                v->curves->curve[k].rising <= FEW
+                    ? "linespoints pointtype 7 pointsize 0.7"
+                    : "lines",
+                rb_report_colour(k), rb_report_dashes(k),
+                v->curves->curve[k].branch ? "≤" : "=", scale_of(v, k));
+    const int back = v->over != RB_OVER_SPEED && comes_back_otherwise(v);
+    for (int k = 0; k < v->curves->n && back; k++)
         if (v->curves->curve[k].branch)
             fprintf(
                 out,
@@ -364,8 +392,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 k == 0 ? "title 'on the way back'" : "notitle");
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
-                ", $carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
-                "linewidth 1.1 %s",
+                ", $carter%d using 1:2 with points pointtype 6 pointsize 1.4 linecolor "
+                "rgb '#111111' linewidth 1.1 %s",
                 k, k == 0 ? "title 'law of Carter'" : "notitle");
     fputs("\n", out);
 }

@@ -91,6 +91,8 @@ rb_report_length rb_report_length_axis(rb_units units, double a);
 int rb_report_exponent(double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
+/* Five digits, 2·10^{5} from 1e5 on: no "2e+05" in a picture. */
+const char *rb_report_large_number(double x, char text[40]);
 /* As many labels as that part of the canvas takes without one touching the next. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */

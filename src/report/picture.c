@@ -75,6 +75,12 @@ static int is_shown(const view *v, int i)
     return x >= v->from && x <= v->to;
 }
 
+/* Slip is that of surfaces which touch. */
+static int has_slip(const view *v, int i)
+{
+    return v->s->zone[i] != RB_ZONE_SEPARATED || v->s->contact == 0;
+}
+
 /* Small numbers are shown in a power of ten, which the title names: their labels would
  * run into it. */
 static axis axis_between(double least, double most)
@@ -108,7 +114,7 @@ static void choose_slip_axis(view *v)
 {
     double least = 0.0, most = 0.0;
     for (int i = 0; i < v->s->n; i++)
-        if (is_shown(v, i)) {
+        if (is_shown(v, i) && has_slip(v, i)) {
             least = fmin(least, slip_of(v, i));
             most = fmax(most, slip_of(v, i));
         }
@@ -164,19 +170,23 @@ static double bound_of(const view *v, int i)
 static void write_data(FILE *out, const view *v)
 {
     const rb_rolling_solution *s = v->s;
-    fputs("$data << EOD\n", out);
-    for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->length.size,
+    fputs("set datafile missing '?'\n$data << EOD\n", out);
+    for (int i = 0; i < s->n; i++) {
+        char slip[40] = "?"; /* the line ends there */
+        if (has_slip(v, i))
+            snprintf(slip, sizeof slip, "%.9g", slip_of(v, i) / v->slip.unit);
+        fprintf(out, "%.9g %.9g %.9g %.9g %s %.9g %.9g\n", s->x[i] / v->length.size,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                bound_of(v, i) / v->stress_unit, slip_of(v, i) / v->slip.unit,
+                bound_of(v, i) / v->stress_unit, slip,
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
+    }
     fputs("EOD\n", out);
 }
 
 static void write_carter(FILE *out, const view *v)
 {
-    enum { POINTS = 400 };
+    enum { POINTS = 24 };
     const rb_rolling_solution *s = v->s;
     const double a = s->hertz_half_width;
     const double p0 = rb_closed_hertz_max_pressure(s->normal_load, a);
@@ -209,10 +219,11 @@ static stretch next_stretch(const view *v, int *i)
     return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
 }
 
+/* Pale shades of the colours that the page has for them. */
 static const char *zone_colour(int zone)
 {
-    static const char *const colours[] = {"#f3f3f3", "#d6e6f5", "#fde8cd",
-                                          "#f8dcdc", "#e9efc9", "#dfe3d2"};
+    static const char *const colours[] = {"#f3f3f3", "#d9ebe2", "#fae3d6",
+                                          "#ecdff1", "#f3edc4", "#e2e2ee"};
     return colours[zone];
 }
 
@@ -254,6 +265,25 @@ static void write_zones(FILE *out, const view *v, int labelled)
 
 /* ---- Panels ----------------------------------------------------------------------- */
 
+/* With the a and R of its formula where they are not those that the title shows. */
+static void write_creep_ratio(FILE *out, const view *v, rb_report_unit length)
+{
+    const rb_rolling_solution *s = v->s;
+    const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
+    const double own = rb_unit_shown(s->units, "mm", v->rc->a.radius);
+    const int other_a = fabs(s->hertz_half_width / s->half_width - 1.0) > 0.005;
+    const int other_radius = fabs(radius / own - 1.0) > 1e-6;
+    fprintf(out, ",  ξR/(μa%s) = %.3g", other_a ? "_H" : "", s->creep_ratio);
+    if (!other_a && !other_radius)
+        return;
+    fputs(":", out);
+    if (other_radius)
+        fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
+                other_a ? "," : "");
+    if (other_a)
+        fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size, length.name);
+}
+
 /* What the case came to, behind its name. */
 static void write_results(FILE *out, const view *v)
 {
@@ -269,8 +299,8 @@ static void write_results(FILE *out, const view *v)
     if (!isnan(s->creepage) && moves)
         fprintf(out, ",  ξ = %.4g", s->creepage);
     if (!isnan(s->creep_ratio) && moves)
-        fprintf(out, ",  ξR/(μa) = %.3g", s->creep_ratio);
-    if (!isnan(s->force_ratio))
+        write_creep_ratio(out, v, length);
+    if (!isnan(s->force_ratio) && s->tangential_load != 0.0)
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0));
 }
 
@@ -280,11 +310,16 @@ static void write_title(FILE *out, const view *v)
                                         "Transient rolling"};
     const rb_rolling_solution *s = v->s;
     const char *load = rb_unit_name(s->units, "N/mm");
-    fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %.5g %s,  Q = %.5g %s",
+    char large[40];
+    fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %.5g %s",
             kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
-            s->normal_load, load, rb_report_tidy(s->tangential_load, s->normal_load),
-            load);
-    fputs("' at screen 0.53, 0.977 center\nset label 2 '{/*0.95 ", out);
+            rb_report_large_number(s->normal_load, large), load,
+            rb_report_tidy(s->tangential_load, s->normal_load), load);
+    /* a longer line in smaller letters */
+    const int longer =
+        s->contact > 0 && fabs(s->hertz_half_width / s->half_width - 1.0) > 0.005;
+    fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%s ",
+            longer ? "0.85" : "0.95");
     write_results(out, v);
     fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
     rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
@@ -319,7 +354,8 @@ static void write_tractions(FILE *out, const view *v, double key_font)
     fprintf(out,
             "set key at screen 0.53, %g center horizontal maxrows 1 samplen %g width 0 "
             "font ',%.3g'\n",
-            0.866 + v->place.up, v->place.titled ? 2.2 : 1.2, key_font);
+            0.866 + v->place.up + (v->place.titled ? 0.0 : 0.02),
+            v->place.titled ? 2.2 : 1.2, key_font);
     write_zones(out, v, 1);
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
@@ -332,8 +368,8 @@ static void write_tractions(FILE *out, const view *v, double key_font)
             "linecolor rgb '#c0392b' linewidth 3 title 'friction q'",
             style, v->s->plastic ? "bounds" : "±μp", style, style, style);
     if (v->carter)
-        fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
-              "linewidth 1.4 title 'Carter'",
+        fputs(", $carter using 1:2 with points pointtype 6 pointsize 1.5 linecolor rgb "
+              "'#111111' linewidth 1.2 title 'Carter'",
               out);
     fputs("\n", out);
 }
@@ -354,7 +390,7 @@ static void write_slip(FILE *out, const view *v)
     if (lowest)
         write_x_label(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
-    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity (12)"
+    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V"
                                          : "set label 3 'slip",
           out);
     write_exponent(out, v->slip.exponent, "");
@@ -362,7 +398,7 @@ static void write_slip(FILE *out, const view *v)
     write_zones(out, v, 0);
     fprintf(out,
             "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
-            "$data using 1:5 with %s linecolor rgb '#6c3483' linewidth 1.8\n",
+            "$data using 1:($5) with %s linecolor rgb '#6c3483' linewidth 1.8\n",
             v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
 }
 

@@ -54,8 +54,8 @@ static void write_grid(FILE *out, const view *v)
 /* Where A touches: one line for each zone, drawn below the surface. */
 static void write_contact(FILE *out, const view *v)
 {
-    static const char *const colours[] = {"",        "#1f4e79", "#d35400",
-                                          "#c0392b", "#7d8b1f", "#5d6b3f"};
+    static const char *const colours[] = {"",        "#2c7a57", "#c4501b",
+                                          "#8a3fa0", "#b8a21a", "#5b5b9e"};
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;
@@ -118,8 +118,9 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     fprintf(
         out,
-        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin blue stick, thick "
-        "orange and red slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
+        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, "
+        "thick "
+        "orange and purple slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
         y);
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
@@ -173,6 +174,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
      * are cut off there, and so both sorts need the same levels */
     const double step = rb_report_round_step(
         m->value / v->stress_unit / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
+    fprintf(out, "set cbrange [0:%.9g]\n", step * ceil(m->value / v->stress_unit / step));
     fprintf(out,
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
