@@ -4,6 +4,7 @@
  *
  * Problem: Kwak's form (K4) of steady rolling on a half-plane, dissimilar bodies, equal
  * elements over 1.3 times the Hertz half-width; lengths in a, stresses in E* a/R. */
+#include "lcp_families.h"
 #include "rollbem/blas.h"
 #include "rollbem/lcp.h"
 
@@ -14,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #ifdef HAVE_SICONOS
@@ -385,15 +387,211 @@ static void compare(int nc, int runs)
     free(p.q);
 }
 
+/* ---- Families ---------------------------------------------------------------------- */
+
+/* Methods of others can go on for ever: each has a process of its own and so many
+ * seconds. */
+enum { PATIENCE = 10 };
+
+typedef struct {
+    double seconds; /* least of the runs; INFINITY: not solved */
+    const char *solver;
+} timing;
+
+static double *dense_of(const lcp_family *f)
+{
+    double *D = need((size_t)f->n, (size_t)f->n);
+    for (int j = 0; j < f->n; j++)
+        for (int k = f->M.p[j]; k < f->M.p[j + 1]; k++)
+            D[f->M.i[k] + (size_t)j * (size_t)f->n] = f->M.x[k];
+    return D;
+}
+
+static int goes_on(int runs, double since)
+{
+    return runs < 3 || (runs < 100 && cpu_seconds() - since < 0.05);
+}
+
+/* Of our own by name; dense: for the tableau, whose matrix is made before, or NULL. */
+static timing own(const char *name, const lcp_family *f, const double *dense)
+{
+    timing t = {INFINITY, name};
+    double *z = need((size_t)f->n, 1);
+    const double since = cpu_seconds();
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.seconds = PATIENCE;
+    for (int runs = 0; goes_on(runs, since); runs++) {
+        rb_lcp_info info = {0};
+        const double start = cpu_seconds();
+        const rb_status s =
+            dense
+                ? rb_lcp_lemke(&(rb_lcp_problem){f->n, dense, f->n, f->q}, &opt, z, &info)
+                : rb_lcp_solve(name, &(rb_lcp_mixed_problem){.M = &f->M, .q = f->q}, &opt,
+                               z, &info);
+        if (s != RB_OK)
+            break;
+        t.seconds = fmin(t.seconds, cpu_seconds() - start);
+        t.solver = info.solver;
+    }
+    free(z);
+    return t;
+}
+
+#ifdef HAVE_SICONOS
+typedef void siconos_solver(LinearComplementarityProblem *, double *, double *, int *,
+                            SolverOptions *);
+
+static const struct {
+    int id;
+    siconos_solver *solve;
+} theirs[] = {{SICONOS_LCP_LEMKE, lcp_lexicolemke},
+              {SICONOS_LCP_PATHSEARCH, lcp_pathsearch},
+              {SICONOS_LCP_NEWTONMIN, lcp_newton_min},
+              {SICONOS_LCP_NEWTON_FB_FBLSA, lcp_newton_FB}};
+
+/* Solved: to 1e-8 of the largest terms. */
+static double run_theirs(int k, const lcp_family *f, const double *dense)
+{
+    const size_t n = (size_t)f->n;
+    double best = INFINITY;
+    double *M = malloc(n * n * sizeof *M), *z = need(n, 1), *w = need(n, 1);
+    double *q = need(n, 1);
+    const double since = cpu_seconds();
+    for (int runs = 0; goes_on(runs, since); runs++) {
+        memcpy(M, dense, n * n * sizeof *M);
+        memcpy(q, f->q, n * sizeof *q);
+        memset(z, 0, n * sizeof *z);
+        LinearComplementarityProblem lcp = {
+            f->n, NM_create_from_data(NM_DENSE, f->n, f->n, M), q};
+        SolverOptions *options = solver_options_create(theirs[k].id);
+        options->iparam[SICONOS_IPARAM_MAX_ITER] = 100 * f->n;
+        options->dparam[SICONOS_DPARAM_TOL] = 1e-10;
+        int info = 0;
+        const double start = cpu_seconds();
+        theirs[k].solve(&lcp, z, w, &info, options);
+        const double seconds = cpu_seconds() - start;
+        const rb_lcp_mixed_problem p = {.M = &f->M, .q = f->q};
+        const double floor = rb_lcp_rounding_floor(&p, z, w);
+        if (!(rb_lcp_residual_mixed(&p, z, w) <= 1e6 * floor))
+            return INFINITY;
+        best = fmin(best, seconds);
+    }
+    return best;
+}
+
+static double other(int k, const lcp_family *f, const double *dense)
+{
+    int ends[2];
+    double seconds = INFINITY;
+    fflush(stdout);
+    if (pipe(ends) != 0)
+        return INFINITY;
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(PATIENCE);
+        if (freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr))
+            seconds = run_theirs(k, f, dense);
+        _exit(write(ends[1], &seconds, sizeof seconds) != sizeof seconds);
+    }
+    close(ends[1]);
+    if (read(ends[0], &seconds, sizeof seconds) != sizeof seconds)
+        seconds = INFINITY;
+    close(ends[0]);
+    waitpid(child, NULL, 0);
+    return seconds;
+}
+#endif
+
+static void cell(double seconds)
+{
+    if (isfinite(seconds))
+        printf(" %9.4g |", 1e6 * seconds);
+    else
+        printf("         . |");
+}
+
+/* A row: our own by name, auto over the best of them, and Siconos'. */
+static double family_row(const char *name, const lcp_family *f, const char *units)
+{
+    enum { LARGEST_DENSE = 3300, LARGEST_OTHER = 1700 };
+    double *dense = f->n <= LARGEST_DENSE ? dense_of(f) : NULL;
+    const timing tableau = dense ? own("lemke", f, dense) : (timing){INFINITY, NULL};
+    const timing sparse = own("lemke-sparse", f, NULL), newton = own("newton", f, NULL);
+    const timing chosen = own("auto", f, NULL);
+    const double best = fmin(tableau.seconds, fmin(sparse.seconds, newton.seconds));
+    printf("| %s%s | %d |", name, units, f->n);
+    cell(tableau.seconds);
+    cell(sparse.seconds);
+    cell(newton.seconds);
+    cell(chosen.seconds);
+    printf(" %s |", isfinite(chosen.seconds) ? chosen.solver : ".");
+    if (isfinite(best))
+        printf(" %.2g |", chosen.seconds / best);
+    else
+        printf(" . |");
+#ifdef HAVE_SICONOS
+    for (int k = 0; k < 4; k++)
+        cell(dense && f->n <= LARGEST_OTHER ? other(k, f, dense) : INFINITY);
+#endif
+    printf("\n");
+    fflush(stdout);
+    free(dense);
+    return isfinite(best) ? chosen.seconds / best : 0.0;
+}
+
+static lcp_family family_of(problem *p)
+{
+    lcp_family f = {.n = p->n, .q = p->q};
+    if (rb_sparse_from_dense(p->n, p->n, p->M, p->n, &f.M) != RB_OK)
+        exit(70);
+    free(p->M);
+    return f;
+}
+
+/* Microseconds of every solver on every family, and the largest ratio of auto to the
+ * best of our own. */
+static void families(void)
+{
+    static const int contacts[] = {20, 100, 400, 1066};
+    double worst = 0.0;
+    printf("Families, microseconds, `.`: not solved, or not taken.\n"
+           "| family | n | lemke | lemke-sparse | newton | auto | by | auto / best | "
+           "lexicolemke | pathsearch | newton min | FB |\n");
+    for (int kind = 0; kind < LCP_FAMILIES; kind++)
+        for (int k = 0; k < 4 && lcp_families[kind].n[k]; k++)
+            for (int scaled = 0; scaled < (k == 1 ? 2 : 1); scaled++) {
+                lcp_family f;
+                if (lcp_family_create(kind, lcp_families[kind].n[k], &f) != RB_OK)
+                    exit(70);
+                double *column = need((size_t)f.n, 1);
+                if (scaled)
+                    lcp_family_scale(&f, 12.0, column);
+                worst = fmax(worst, family_row(lcp_families[kind].name, &f,
+                                               scaled ? ", scaled" : ""));
+                free(column);
+                lcp_family_free(&f);
+            }
+    for (int k = 0; k < 4; k++) {
+        problem p = make_kwak(contacts[k], MU, CREEP_RATIO);
+        lcp_family f = family_of(&p);
+        worst = fmax(worst, family_row("kwak", &f, ""));
+        lcp_family_free(&f);
+    }
+    printf("auto / best of our own: %.2f at most\n", worst);
+}
+
+/* Alone with an argument: the families. */
 int main(int argc, char **argv)
 {
-    (void)argc;
     const char *core = rb_blas_better_core();
     if (core && !getenv("OPENBLAS_CORETYPE") && setenv("OPENBLAS_CORETYPE", core, 1) == 0)
         execv("/proc/self/exe", argv); /* read only while OpenBLAS is loaded */
     rb_blas_threads(1);
     printf("Lemke's method, one thread, OpenBLAS kernels: %s\n", rb_blas_core());
-    compare(200, 31);
-    compare(800, 3);
+    if (argc < 2) {
+        compare(200, 31);
+        compare(800, 3);
+    }
+    families();
     return 0;
 }
