@@ -610,6 +610,13 @@ static const struct {
     {RB_CASE_STUDY, "history", "a study has none"},
 };
 
+/* 0,3 is read as 0 and 3. */
+static int looks_like_decimal_comma(const rb_numbers *x)
+{
+    return x->n == 2 && x->value[0] == floor(x->value[0]) &&
+           x->value[1] == floor(x->value[1]);
+}
+
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
     const rb_rolling_formulation formulation = c->resolved.rc.formulation;
@@ -627,7 +634,10 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
                                  "a study is one of static or steady cases", why);
     if (s == RB_OK && !curve && c->resolved.mus.n > 1)
         s = rb_case_refuse_given(
-            c, "mu", "expected one number, with a decimal point; a curve takes several",
+            c, "mu",
+            looks_like_decimal_comma(&c->resolved.mus)
+                ? "expected one number, with a decimal point; a curve takes several"
+                : "expected one number; a curve takes several",
             why);
     if (s == RB_OK && rb_case_has_steps(&c->resolved))
         s = rb_case_refuse_given(c, "accuracy",
