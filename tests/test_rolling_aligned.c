@@ -180,7 +180,7 @@ static void what_cannot_be_aligned_is_refused(void **state)
     assert_non_null(strstr(why.text, "equal elements"));
 }
 
-/* Where the edges do not come to rest, the pressure at them is no square root; the edge
+/* Where an edge jumps between two meshes, the pressure at it is no square root; the edge
  * that is told still lies before the midpoint of the first open element. */
 static void edge_lies_before_the_first_open_midpoint(void **state)
 {
@@ -197,7 +197,6 @@ static void edge_lies_before_the_first_open_midpoint(void **state)
     rc.mu = 3.0;
     rc.approach = 0.04;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
-    assert_true(s.equal_instead);
     for (int i = 1; i + 1 < s.n; i++) {
         const int open = s.zone[i] == RB_ZONE_SEPARATED;
         if (open && s.zone[i + 1] != RB_ZONE_SEPARATED)

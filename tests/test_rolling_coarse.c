@@ -155,11 +155,11 @@ static void open_elements_inside_the_edges_join_their_neighbour(void **state)
     assert_int_equal(fine.zone[10], RB_ZONE_SLIP_POSITIVE);
 }
 
-static void a_quarter_of_the_elements_or_75_start(void **state)
+static void a_quarter_of_the_elements_or_40_start(void **state)
 {
     (void)state;
-    assert_int_equal(rb_rolling_coarse_elements(0), 75);
-    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS - 1), 75);
+    assert_int_equal(rb_rolling_coarse_elements(0), 40);
+    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS - 1), 40);
     assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS),
                      RB_ROLLING_TRANSFORMS);
     assert_int_equal(rb_rolling_coarse_elements(40000), 10000);
@@ -172,7 +172,7 @@ int main(void)
         cmocka_unit_test(zones_end_at_the_coarse_edges),
         cmocka_unit_test(nothing_is_known_beyond_the_coarse_line),
         cmocka_unit_test(open_elements_inside_the_edges_join_their_neighbour),
-        cmocka_unit_test(a_quarter_of_the_elements_or_75_start),
+        cmocka_unit_test(a_quarter_of_the_elements_or_40_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

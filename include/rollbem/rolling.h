@@ -30,7 +30,7 @@ typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
 /* From so many equal elements on half-planes no matrix exists: they are solved by Fourier
  * transforms; in steady rolling by Coulomb's law from fewer on, where a matrix can be
  * added (rb_rolling_model_add_matrix). */
-enum { RB_ROLLING_LARGE = 1500, RB_ROLLING_TRANSFORMS = 300 };
+enum { RB_ROLLING_LARGE = 1500, RB_ROLLING_TRANSFORMS = 150 };
 /* Close to a load a wheel answers by its boundary elements alone, as in *Addi*, or by the
  * exact strip on the half-plane with the boundary elements solving for the rest (B10). */
 typedef enum {

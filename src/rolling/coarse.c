@@ -4,7 +4,7 @@
 
 /* Elements of the coarsest mesh, which starts cold: fewer than any that starts from
  * another one. */
-enum { COARSEST = 75 };
+enum { COARSEST = 40 };
 
 int rb_rolling_coarse_elements(int n)
 {

@@ -164,9 +164,9 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
 {
     const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
-    /* on a line that has moved a little the zones hardly change */
+    /* the edges have been followed from another line to this one */
     const int near = model->state.p && model->state.status == RB_OK &&
-                     model->mesh.n == mesh->n && model->rc->mesh == RB_MESH_ALIGNED;
+                     model->rc->mesh == RB_MESH_ALIGNED;
     rb_rolling_mesh old_mesh = model->mesh;
     rb_contact_state old = model->state;
 
@@ -186,6 +186,11 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     rb_rolling_mesh_free(&old_mesh);
     if (s == RB_OK)
         s = meet_ratio(model, rb_rolling_model_resolve(model, large, why), why);
+    if (large && near && (s == RB_MAXITER || s == RB_SINGULAR)) {
+        s = start_from_coarse(model, why);
+        if (s == RB_OK)
+            s = meet_ratio(model, rb_rolling_model_resolve(model, 1, why), why);
+    }
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) ||
