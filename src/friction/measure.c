@@ -257,6 +257,11 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
     return 1e-14 * rb_friction_norm((size_t)m, y) / measure->scale;
 }
 
+double rb_friction_deciding(const rb_friction_info *info)
+{
+    return info->measure == RB_FRICTION_BY_ACARY ? info->residual : info->scaled;
+}
+
 rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
                             const double *v, double *u, rb_friction_errors *error)
 {

@@ -76,11 +76,6 @@ const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method
     return row;
 }
 
-double rb_friction_deciding(const rb_friction_info *info)
-{
-    return info->measure == RB_FRICTION_BY_ACARY ? info->residual : info->scaled;
-}
-
 const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
 {
     if (s == RB_OK && info && rb_friction_deciding(info) > tol)
