@@ -61,7 +61,7 @@ double fuzz_number(fuzz_bytes *b);
 fuzz_run fuzz_ini, fuzz_gap, fuzz_history, fuzz_table;                  /* cases.c */
 fuzz_run fuzz_siconos, fuzz_matrix_market, fuzz_lcp_text, fuzz_contact; /* readers.c */
 fuzz_run fuzz_fclib;                                                    /* readers.c */
-fuzz_run fuzz_options, fuzz_study, fuzz_resume;                         /* program.c */
+fuzz_run fuzz_options, fuzz_study, fuzz_resume, fuzz_check;             /* program.c */
 fuzz_run fuzz_lemke, fuzz_friction;                                     /* solvers.c */
 fuzz_run fuzz_handle;                                                   /* handle.c */
 

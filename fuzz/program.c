@@ -1,5 +1,6 @@
-/* What the program reads beyond the library: its command line, the rows of a study and
- * the file that a study goes on from.  src/cli is linked, but for main. */
+/* What the program reads beyond the library: its command line, the rows of a study, the
+ * file that a study goes on from, and results of anybody that it checks.  src/cli is
+ * linked, but for main. */
 #include "cli/case.h"
 #include "cli/cli.h"
 #include "fuzz.h"
@@ -9,10 +10,12 @@
 
 enum { WORDS_MAX = 40 };
 
+static const cli_command commands[] = {
+    {"sweep", cli_sweep, ""}, {"stress", cli_stress, ""}, {"", cli_solve, ""}};
+
 /* As main does, but results go to a file that nobody reads and failures are kept. */
 static void begin(void)
 {
-    static const cli_command commands[] = {{"sweep", cli_sweep, ""}, {"", cli_solve, ""}};
     static char *argv[] = {"rollbem", NULL};
     static int begun;
     if (!begun)
@@ -142,4 +145,100 @@ void fuzz_resume(const uint8_t *data, size_t size)
                      "a study that was cut ends as if it had not been");
     free(after);
     free(before);
+}
+
+/* Whether an option of the text asks for more than so much, which would only take long.
+ */
+static int asks_for_more(const char *text, const char *option, double most)
+{
+    for (const char *at = text; (at = strstr(at, option)) != NULL;) {
+        at += strlen(option);
+        at += strspn(at, "\": =");
+        if (!(strtod(at, NULL) <= most))
+            return 1;
+    }
+    return 0;
+}
+
+/* What the program writes of each kind of result, made once; kind: 0 ... 3. */
+static const char *result_of_kind(int kind, size_t *size)
+{
+    static char *text[4];
+    static size_t length[4];
+    static char *const lines[4][24] = {
+        {"--creep-ratio", "0.4", "--formulation", "steady", "--json"},
+        {"--shift", "1e-4", "--increments", "2", "--states", "--json"},
+        {"stress", "--shift", "1e-4", "--grid", "2x2", "--shakedown", "--json"},
+        {"--creep-ratio", "0.4", "--formulation", "steady", "--mesh", "uniform"}};
+    static char *const common[] = {
+        "--support", "halfplane",          "--load", "100",      "--mu",     "0.3",
+        "--quiet",   "--contact-elements", "5",      "--output", "reference"};
+    if (!text[kind]) {
+        char *argv[40] = {"rollbem"};
+        int argc = 1;
+        for (int k = 0; lines[kind][k]; k++)
+            argv[argc++] = lines[kind][k];
+        for (size_t k = 0; k < sizeof common / sizeof *common; k++)
+            argv[argc++] = common[k];
+        argv[argc] = NULL;
+        cli_end(); /* results quote this command line */
+        fuzz_require(cli_begin(commands, argc, argv) &&
+                         (kind == 2 ? cli_stress(argc - 1, argv + 1)
+                                    : cli_solve(argc, argv)) == CLI_OK,
+                     "the result is there");
+        text[kind] = fuzz_read("reference", &length[kind]);
+    }
+    *size = length[kind];
+    return text[kind];
+}
+
+/* Edits of a result: where, how many bytes go, how many others come. */
+static char *edited(fuzz_bytes *b, const char *text, size_t *size)
+{
+    char *now = calloc(*size + (size_t)(b->end - b->at) + 1, 1);
+    fuzz_require(now != NULL, "there is memory");
+    memcpy(now, text, *size);
+    while (b->at < b->end) {
+        const size_t where = (size_t)(fuzz_byte(b) + 256 * fuzz_byte(b)) % (*size + 1);
+        const size_t left = *size - where, wanted = (size_t)fuzz_choice(b, 32);
+        const size_t gone = wanted < left ? wanted : left;
+        size_t come = (size_t)fuzz_choice(b, 32);
+        if (come > (size_t)(b->end - b->at))
+            come = (size_t)(b->end - b->at);
+        memmove(now + where + come, now + where + gone, left - gone);
+        memcpy(now + where, b->at, come);
+        b->at += come;
+        *size += come - gone;
+        now[*size] = '\0';
+    }
+    return now;
+}
+
+/* A result or a table, edited (first byte: which), or any bytes behind a 4: valid,
+ * violated or refused with a reason. */
+void fuzz_check(const uint8_t *data, size_t size)
+{
+    fuzz_bytes b = {data, data + size};
+    char *argv[] = {"check", "result", NULL};
+    begin();
+    const int kind = fuzz_choice(&b, 5);
+    size_t n = (size_t)(b.end - b.at);
+    char *text;
+    if (kind == 4)
+        text = fuzz_text(b.at, n);
+    else {
+        const char *whole = result_of_kind(kind, &n);
+        text = edited(&b, whole, &n);
+    }
+    if (!asks_for_more(text, "outer-elements", 200.0) &&
+        !asks_for_more(text, "hub-ratio", 0.9)) {
+        fuzz_keep("result", text, n);
+        const int code = cli_check(2, argv);
+        fuzz_require(code == CLI_OK || code == CLI_UNSOLVED || code == CLI_DATA,
+                     "an exit code is a documented one");
+        fuzz_require(code < CLI_USAGE || cli_kept_failure()[0], "a refusal says why");
+        fuzz_require(code == CLI_OK || kind == 4 || size > 1,
+                     "what nobody edited is valid");
+    }
+    free(text);
 }

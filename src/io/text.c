@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700 /* realpath */
 /* Input files as text. */
 #include "io/tokens.h"
 #include "rollbem/io.h"

@@ -129,6 +129,14 @@ static void balance_exponents(const lcp_matrix *M, const double *q, double *r, d
     }
 }
 
+/* The nearest one whose products with the numbers of a problem neither vanish nor
+ * overflow where these are near 1. */
+static double power_of_two(double x)
+{
+    const double most = 1000.0;
+    return exp2(fmin(fmax(round(log2(x)), -most), most));
+}
+
 rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always,
                               lcp_scale *s)
 {
@@ -164,8 +172,8 @@ rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always,
             break;
     }
     for (int i = 0; s->needed && i < n; i++) {
-        r[i] = exp2(round(log2(r[i])));
-        c[i] = exp2(round(log2(c[i])));
+        r[i] = power_of_two(r[i]);
+        c[i] = power_of_two(c[i]);
     }
     return RB_OK;
 }
@@ -355,7 +363,7 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
             const double others = pass == 0 ? 0.0 : own <= plain ? most[i] : felt[i];
             const double size = fmax(terms[i] * r, FAINT * others);
             const double part = scaled == 0.0 ? 0.0 : scaled / size;
-            if (isnan(z[i]) || isnan(w[i]) || isnan(part)) {
+            if (isnan(z[i]) || !isfinite(terms[i]) || isnan(part)) {
                 info->res = info->scaled = NAN;
                 info->row = i;
                 break;

@@ -448,7 +448,8 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
 static double rounding_of(const rb_certificate *c, const char *key)
 {
     const rb_rolling_solution *s = &c->again;
-    const rb_certificate_scales scales = {.half_width = s->half_width,
+    const rb_certificate_scales scales = {.half_width = /* or nothing in contact */
+                                          isnan(s->half_width) ? 0.0 : s->half_width,
                                           .load = s->normal_load,
                                           .pressure = s->max_pressure,
                                           .radius =
