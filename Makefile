@@ -55,7 +55,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -70,6 +70,7 @@ help:
 	@echo "make coverage   lines and branches of src/ that the tests go through, and what is left"
 	@echo "make hostile    N=20000 cases at the ends of what is accepted, judged independently"
 	@echo "make endurance  KILLS=1000 kills of a study; memory over CASES=100000 and SOLVES=10000 cases"
+	@echo "make kernels    tests that compare digits under every kernel of OpenBLAS that the processor can run"
 	@echo "make platforms  the tests with other compilers, BLAS, threads; PLATFORMS=... some of them"
 	@echo "make analyse    gcc -fanalyzer and -Wconversion, clang-tidy, cppcheck on src/"
 	@echo "make check-format  names sources that clang-format would change"
@@ -105,7 +106,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) hostile N=2000
 	@$(MAKE) --no-print-directory B=$(B) endurance KILLS=100 CASES=5000 SOLVES=2000
 	@$(MAKE) --no-print-directory B=$(B) platforms PLATFORMS="clang two-threads reference-blas"
-	@$(MAKE) --no-print-directory B=$(B) platforms PLATFORMS="kernels-Haswell" PLATFORM_TESTS=check-tests
+	@$(MAKE) --no-print-directory B=$(B) kernels KERNEL_TESTS="$(filter-out $(KERNEL_BLIND),$(LONGEST) $(filter-out $(LONGEST),$(OTHERS)))"
 	@if command -v $(FUZZ_CC) >/dev/null; then $(MAKE) --no-print-directory B=$(B) fuzz FUZZ_TIME=20; else echo "fuzz: no $(FUZZ_CC)"; fi
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
@@ -116,6 +117,15 @@ OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard test
 # only the summary line comes last: continuous integration reads it
 check-tests: all page-where-possible $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
+
+# the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
+# can run; make test-all: all but those that compute nothing or build by themselves
+KERNELS ?= $(shell scripts/kernels)
+KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale lcp_accuracy lcp_mixed friction rolling_newton bem_system fem crack api)
+KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
+kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
+	@for kernel in $(KERNELS); do echo "== OPENBLAS_CORETYPE=$$kernel"; \
+		OPENBLAS_CORETYPE=$$kernel B=$(B) tests/run $(KERNEL_TESTS) || exit 1; done
 
 SANITIZED = B=build/asan PAGE=$(B)/page CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:
@@ -254,7 +264,7 @@ $(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/faul
 	$(Q)$(CC) $(STD) -O1 -Wall -Wextra -fPIC -shared -o $@ $< -ldl
 
 # the checker of the net shares nothing with the library; whoever builds a test that runs it gets it too
-$(B)/tests/test_net $(B)/tests/test_hostile: | $(B)/tests/checker $(B)/rollbem
+$(B)/tests/test_net $(B)/tests/test_hostile $(B)/tests/test_certificates: | $(B)/tests/checker $(B)/rollbem
 $(B)/tests/checker: tests/checker.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

@@ -1050,6 +1050,7 @@ static void check_energy(const contact *c, const table *t)
         size += fabs(x[i]) * p[i] * h[i] / c->radius;
         P_ += p[i] * h[i];
     }
+    const int relaxes = has_memory(c->inputs, "") || has_memory(c->inputs, "-b");
     /* of slopes of un */
     const double rounding = 1e-10 * (fabs(creepage) + size) +
                             1e-14 * P_ * largest(t->n, t->column[UN]) / smallest_step(t);
@@ -1058,15 +1059,19 @@ static void check_energy(const contact *c, const table *t)
     if (wheels) {
         /* of the elastic part, and of the edges, the error of the elements is left */
         const double bound = fmin(0.1, 0.02 + coarseness(c, t));
-        if (!(c->b.young > 0.0))
+        /* an arc is clamped: it does not turn with what rolls */
+        if (!(c->b.young > 0.0) && strcmp(word(c->inputs, "support"), "arc") != 0 &&
+            (relaxes || coarseness(c, t) < 0.1))
             expect("energy of a wheel", lost, creepage + surface + fed_by_levers(c, t),
                    bound * (size + fabs(creepage)) + rounding);
         return;
     }
-    expect("energy of the surfaces", lost, creepage + surface, rounding);
+    if (relaxes)
+        expect("energy of the surfaces", lost, creepage + surface, rounding);
     /* the edges of the contact are what is lost: of second order in the elements */
     const double edges = fmin(0.05, 3.0 * pow(coarseness(c, t), 2.0));
-    if (strcmp(word(c->inputs, "gap"), "parabola") == 0)
+    if (strcmp(word(c->inputs, "gap"), "parabola") == 0 &&
+        (relaxes || coarseness(c, t) < 0.1))
         expect("energy", lost, creepage + by_curvature, edges * size + rounding);
 }
 
@@ -1111,10 +1116,10 @@ static void check_resistance(const contact *c, const table *t)
     expect_same(c, "resistance_ratio", M / (P_ * c->radius), 1e-12);
     if (c->formulation != STEADY)
         return;
-    if (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"))
-        check_energy(c, t);
-    else if (lag != 0.0)
+    if (!has_memory(c->inputs, "") && !has_memory(c->inputs, "-b") && lag != 0.0)
         violated("hysteresis", "of elastic bodies is %g", lag);
+    if (strcmp(word(c->inputs, "yield-stress"), "none") == 0) /* plastic work is no slip */
+        check_energy(c, t);
     const json_t *axle = json_object_get(c->inputs, "free-axle");
     if (json_is_true(axle))
         expect("free axle", number(c->summary, "torque_a"), 0.0,

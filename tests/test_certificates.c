@@ -1,8 +1,18 @@
-/* Random right results over all options, and what rollbem check says of them: none is
- * rejected.  CERTIFICATES: how many (5000 by make test-all); CERTIFICATES_FROM: the first
- * one, to run some again. */
+/* Random results over all options, right by tests/checker.c, which shares no code with
+ * the library, and what rollbem check says of them: none is rejected.  CERTIFICATES: how
+ * many (5000 by make test-all); CERTIFICATES_FROM: the first one, to run some again. */
 #include "cli_run.h"
 #include "random_case.h"
+
+static char checker[700];
+
+static int enter(void **state)
+{
+    const int entered = enter_folder(state);
+    snprintf(checker, sizeof checker, "%.*s/tests/checker",
+             (int)(strrchr(program, '/') - program), program);
+    return entered;
+}
 
 static int asked(const char *name, int otherwise)
 {
@@ -31,10 +41,10 @@ static void right_results_are_valid(void **state)
 {
     (void)state;
     static random_case c;
-    char command[2000];
+    char command[1700], judge[800];
     const int from = asked("CERTIFICATES_FROM", 0),
               n = asked("CERTIFICATES", getenv("ROLLBEM_TEST_ALL") ? 5000 : 150);
-    int valid = 0, rejected = 0, refused = 0, unsolved = 0, unchecked = 0;
+    int valid = 0, rejected = 0, refused = 0, unsolved = 0, unchecked = 0, wrong = 0;
     for (int k = from; valid + rejected + unchecked < n; k++) {
         snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k),
                  c.line);
@@ -46,6 +56,12 @@ static void right_results_are_valid(void **state)
         assert_true(code == 0 || code == 64 || code == 1);
         if (code != 0)
             continue;
+        if (strstr(c.line, "--json")) {
+            snprintf(judge, sizeof judge, "%s r", checker);
+            wrong += shell(judge) != 0;
+            if (out[0])
+                print_error("case %d: rollbem %.1400s\n    %.400s", k, command, out);
+        }
         const int said = rollbem("check r");
         valid += said == 0;
         rejected += said == 1;
@@ -57,6 +73,7 @@ static void right_results_are_valid(void **state)
         "%d results: %d valid, %d rejected, %d not checked; %d cases refused, %d "
         "not solved\n",
         n, valid, rejected, unchecked, refused, unsolved);
+    assert_int_equal(wrong, 0);
     assert_int_equal(rejected, 0);
     assert_int_equal(unchecked, 0);
     assert_true(refused < n);
@@ -65,5 +82,5 @@ static void right_results_are_valid(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(right_results_are_valid)};
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, enter, leave_folder);
 }

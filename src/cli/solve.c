@@ -340,7 +340,8 @@ static const cli_case_command command = {
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files)
 {
     solved it = {.steps.every = 1};
-    return cli_case_inputs(&command, &it, argc, argv, words, case_files);
+    const cli_exit code = cli_case_inputs(&command, &it, argc, argv, words, case_files);
+    return code == CLI_CONTINUE && it.trace ? choose_pivots(words) : code;
 }
 
 int cli_solve(int argc, char **argv)

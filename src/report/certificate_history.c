@@ -29,7 +29,7 @@ static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to,
 {
     const size_t all = (size_t)to->n * (size_t)to->steps;
     for (size_t i = 0; i < all; i++) {
-        if (!(zone[i] >= 0.0 && zone[i] <= 3.0) || zone[i] != floor(zone[i]))
+        if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
             return rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
         to->zone[i] = (int)zone[i];
     }
