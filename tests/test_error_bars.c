@@ -438,12 +438,12 @@ static void bars_hold(void **state)
     CHECK_MAX(of_all.main.unsolved, 2, "unsolved");
 }
 
-/* Over all options: of 200 cases 5 at most (make test-all); make test runs a tenth. */
+/* Over all options: of 200 cases 5 at most (make test-all); make test runs eight. */
 static void bars_hold_over_all_options(void **state)
 {
     (void)state;
     const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
-    assert_true(study_of_all_options(all ? 200 : 20) <= (all ? 5 : 1));
+    assert_true(study_of_all_options(all ? 200 : 8) <= (all ? 5 : 1));
 }
 
 /* Full sliding on 50 equal elements, partial slip on fine ones, Q/(mu P) = 0.9996 by

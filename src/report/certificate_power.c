@@ -119,7 +119,7 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
     const rb_rolling_model *model = &c->model;
     const double *x = c->again.x, *h = c->again.h, k = m / b->radius;
     const double mirror = is_b ? -1.0 : 1.0;
-    const int turns = (is_b ? model->rc.b : model->rc.a).support == RB_BEM_HUB;
+    const int turns = (is_b ? model->rc->b : model->rc->a).support == RB_BEM_HUB;
     cplx p = 0.0, q = 0.0;
 
     for (int i = 0; i < c->again.n; i++) {
@@ -128,7 +128,7 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
         const double P = model->state.p[i], Q = mirror * model->state.q[i];
         const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
         const double at = turns ? b->radius * asin(sine) : x[i];
-        const int given = model->rc.normals == RB_BEM_NORMALS_SURFACE;
+        const int given = model->rc->normals == RB_BEM_NORMALS_SURFACE;
         const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine),
                      turned = given ? 0.0 : sine;
         const cplx wave =
