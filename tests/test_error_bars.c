@@ -438,14 +438,6 @@ static void bars_hold(void **state)
     CHECK_MAX(of_all.main.unsolved, 2, "unsolved");
 }
 
-/* Over all options: of 200 cases 5 at most (make test-all); make test runs eight. */
-static void bars_hold_over_all_options(void **state)
-{
-    (void)state;
-    const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
-    assert_true(study_of_all_options(all ? 200 : 8) <= (all ? 5 : 1));
-}
-
 /* Full sliding on 50 equal elements, partial slip on fine ones, Q/(mu P) = 0.9996 by
  * Carter: its bar was 5e-15. */
 static void an_element_that_slides_may_stick(void **state)
@@ -647,9 +639,8 @@ static void a_failed_coarser_run_leaves_the_solution(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bars_hold),
-        cmocka_unit_test(bars_hold_over_all_options),
         cmocka_unit_test(an_element_that_slides_may_stick),
+        cmocka_unit_test(bars_hold),
         cmocka_unit_test(bars_hold_on_a_thin_rim),
         cmocka_unit_test(a_narrow_stick_zone_widens_the_bars),
         cmocka_unit_test(given_outer_elements_have_bars),
