@@ -276,7 +276,8 @@ static inline void random_case_make(random_case *c, int k, int elements)
                                             RANDOM_STEADY, RANDOM_STEADY,
                                             RANDOM_STEPS,  RANDOM_TRANSIENT};
     *c = (random_case){.state = (uint64_t)(k + 1)};
-    c->state = random_bits(c); /* or the numbers of a case would be those of the next one */
+    c->state =
+        random_bits(c); /* or the numbers of a case would be those of the next one */
     c->regime = regimes[random_choice(c, 6)];
     c->radius = random_log(c, 1.0, 2000.0);
     c->half_width = c->radius * random_log(c, 1e-3, 0.15);

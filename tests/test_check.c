@@ -156,7 +156,8 @@ static void results_are_valid(void **state)
         "--support hub --history calm.txt --mu 3 --states --contact-elements 20 "
         "--relaxation-time 1e-3 --relaxation-ratio 1",           /* Q is rounding */
         "--support halfplane --load 0.25 --contact-elements 12", /* a load below 1 */
-        "--support halfplane --load 100 --contact-elements 12 --trace", /* by Lemke then */
+        "--support halfplane --load 100 --contact-elements 12 --trace", /* by Lemke then
+                                                                         */
         /* largest stresses in two places, on flat tops, next to other peaks, grids on the
          * ends of elements: a search ends elsewhere in the problem that is built again */
         "stress --support hub --load 100 --mu 0 --contact-elements 20 --grid 5x4",
@@ -180,9 +181,10 @@ static void results_are_valid(void **state)
                             : k < after            ? histories[k - CASES]
                             : k < after + STRESSES ? stresses[k - after]
                                                    : more[k - after - STRESSES];
-        snprintf(line, sizeof line,
-                 "\"$R\" %s --json --quiet --output r.json 2>trace && \"$R\" check r.json",
-                 given);
+        snprintf(
+            line, sizeof line,
+            "\"$R\" %s --json --quiet --output r.json 2>trace && \"$R\" check r.json",
+            given);
         if (shell(line) != 0)
             print_error("%s\n%s%s", given, out, err);
         int numbers = 0; /* at least p, q and the gap of twelve elements */
