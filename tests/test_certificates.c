@@ -42,8 +42,7 @@ static void right_results_are_valid(void **state)
     (void)state;
     static random_case c;
     char command[1700], judge[800];
-    const int from = asked("CERTIFICATES_FROM", 0),
-              n = asked("CERTIFICATES", getenv("ROLLBEM_TEST_ALL") ? 5000 : 150);
+    const int from = asked("CERTIFICATES_FROM", 0), n = asked("CERTIFICATES", 150);
     int valid = 0, rejected = 0, refused = 0, unsolved = 0, unchecked = 0, wrong = 0;
     for (int k = from; valid + rejected + unchecked < n; k++) {
         snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k),
