@@ -1118,7 +1118,8 @@ static void check_resistance(const contact *c, const table *t)
         return;
     if (!has_memory(c->inputs, "") && !has_memory(c->inputs, "-b") && lag != 0.0)
         violated("hysteresis", "of elastic bodies is %g", lag);
-    if (strcmp(word(c->inputs, "yield-stress"), "none") == 0) /* plastic work is no slip */
+    if (strcmp(word(c->inputs, "yield-stress"), "none") ==
+        0) /* plastic work is no slip */
         check_energy(c, t);
     const json_t *axle = json_object_get(c->inputs, "free-axle");
     if (json_is_true(axle))

@@ -1,6 +1,6 @@
 /* Random results over all options, right by tests/checker.c, which shares no code with
  * the library, and what rollbem check says of them: none is rejected.  CERTIFICATES: how
- * many (5000 by make test-all); CERTIFICATES_FROM: the first one, to run some again. */
+ * many; CERTIFICATES_FROM: the first one, to run some again. */
 #include "cli_run.h"
 #include "random_case.h"
 
