@@ -147,6 +147,7 @@ static void bad_growth(void **state)
                {{"paris", "grow-steps"}, {"1e-12,-3", "3"}, "paris"},
                {{"paris", "grow-to"}, {"1e-12,3", "0.5"}, "grow-to"},
                {{"threshold", "grow-steps"}, {"3", "3"}, "--paris"},
+               {{"growth", "grow-steps"}, {"tension", "3"}, "--paris"},
                {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
     (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");

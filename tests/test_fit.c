@@ -279,6 +279,16 @@ static void command_prints_derivatives(void **state)
     CHECK_REL(json_number_value(json_object_get(json_object_get(root, "tolerances"),
                                                 "tangential_load")),
               hypot(0.02 * by_mu, 1.0 * by_radius), 1e-9, "tolerance");
+    assert_int_equal(rollbem(BODIES " --formulation steady --creep -2e-3 "
+                                    "--tolerance mu=0.02,radius=1%"),
+                     0);
+    double load_is = 0.0, deviation = 0.0;
+    const char *row = strstr(err, "  tangential_load ");
+    assert_non_null(strstr(err, "standard deviations"));
+    assert_non_null(row); /* for people, above the summary */
+    assert_true(row < strstr(err, "steady: solved"));
+    assert_int_equal(sscanf(row, " tangential_load %lf +- %lf", &load_is, &deviation), 2);
+    CHECK_REL(deviation, hypot(0.02 * by_mu, 1.0 * by_radius), 0.02, "printed");
     assert_null(json_object_get(all_of, "stick_length"));
     json_decref(root);
     root = run_json("--derivatives p" BODIES " --formulation steady --creep -2e-3");
@@ -297,6 +307,10 @@ static void command_prints_derivatives(void **state)
         assert_int_equal(rollbem(words), 1);
     }
     assert_int_equal(rollbem("--tolerance mu=-1" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance mu" BODIES), 64);
+    assert_non_null(strstr(err, "expected mu=X"));
+    assert_int_equal(rollbem("--tolerance mu=0.1,mu=0.2" BODIES), 64);
+    assert_non_null(strstr(err, "mu: given twice"));
     assert_int_equal(rollbem("--tolerance zone=1" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --error" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --increments 3" BODIES), 64);

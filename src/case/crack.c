@@ -437,7 +437,12 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
              "stiffer than A.",
              0.0);
     else if (isfinite(c->rc.b.radius))
-        note(r, "Body B is a cylinder, in which the crack lies as in a half-plane.", 0.0);
+        note(r,
+             c->rc.b.radius < 0.0
+                 ? "Body B has a bore, below whose surface the crack lies as in a "
+                   "half-plane."
+                 : "Body B is a cylinder, in which the crack lies as in a half-plane.",
+             0.0);
 }
 
 /* One mesh: as many elements as times `finer` says, of crack and contact. */

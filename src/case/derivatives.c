@@ -301,6 +301,14 @@ static rb_status read_deviation(const rb_case_number *number, const char *text,
     return s;
 }
 
+static int is_among(const char *name, const rb_case_tolerances *t)
+{
+    int k = 0;
+    while (k < t->n && strcmp(t->name[k], name) != 0)
+        k++;
+    return k < t->n;
+}
+
 rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
                                   rb_case_tolerances *t, rb_message *why)
 {
@@ -324,12 +332,16 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
             k++;
         if (k == numbers || t->n == RB_CASE_TOLERANCES_MAX)
             s = rb_fail(why, RB_EINVAL, "'%s' is no number of this case", word);
-        else if (!value ||
-                 read_deviation(&number[k], value, &t->deviation[t->n], why) != RB_OK ||
+        else if (is_among(word, t))
+            s = rb_fail(why, RB_EINVAL, "%s: given twice", word);
+        else if (!value)
+            s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation",
+                        word, word);
+        else if (read_deviation(&number[k], value, &t->deviation[t->n], why) != RB_OK ||
                  !(t->deviation[t->n] >= 0.0))
             s = rb_fail(why, RB_EINVAL,
                         "%s: expected a standard deviation >= 0 or per cent, got '%s'",
-                        word, value ? value : "nothing");
+                        word, value);
         else {
             t->value[t->n] = number[k].input.value;
             memcpy(t->name[t->n++], number[k].name, sizeof number[k].name);

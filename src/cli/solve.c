@@ -174,6 +174,8 @@ static cli_exit show_behind(const cli_case_run *run)
 static void summarise(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
+    if (it->tolerance)
+        rb_report_tolerances(out, &it->r.solution, &it->shown);
     rb_report_summary(out, &it->r.solution, cli_terminal_width(STDERR_FILENO));
     if (it->r.has_errors)
         rb_report_errors(out, &it->r.solution, &it->r.errors);

@@ -276,7 +276,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set tmargin at screen 0.44\nset bmargin at screen 0.14\nset format x '%%g'\n"
             "set xlabel 'position of the contact / a' offset 0,0.3\nset offsets "
             "0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\nset key at screen "
-            "0.965, 0.035 samplen 1\n"
+            "0.965, 0.035 samplen 1 width -4\n"
             "set label 2 'along the crack / a' at screen 0.03, 0.29 center rotate\n"
             "plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
             "linecolor rgb variable notitle");

@@ -276,11 +276,17 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
 void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
                           const rb_report_derivatives *d)
 {
+    void *before = rb_locale_begin();
+    fputs("standard deviations from those of --tolerance, to first order\n", out);
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         const double deviation = rb_rolling_number(r, &d->deviation);
+        const char *unit = unit_of(d, r->unit);
+        const int plain = strcmp(unit, "1") == 0;
         if (rb_sensitivity_has(r) && deviation > 0.0)
-            fprintf(out, "  %-20s %.6g +- %.2g %s\n", r->name, rb_rolling_number(r, s),
-                    deviation, unit_of(d, r->unit));
+            fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name,
+                    rb_rolling_number(r, s) + 0.0, deviation, /* + 0.0: no -0 */
+                    plain ? "" : " ", plain ? "" : unit);
     }
+    rb_locale_end(before);
 }
