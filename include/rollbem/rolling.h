@@ -151,8 +151,8 @@ typedef struct {
     double fall[2], slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; m = 0: no term */
     /* Memory over the slid distance d: dmu/dt = -(max(v, s0)/d)(mu - mu(v)). */
     double memory, memory_slip; /* d [length], 0: none; s0 > 0 [length/s] */
-    /* Added: heat times the part of heat_range, 0 to 1, that the surface is warmer than
-     * heat_from. */
+    /* mu changes linearly by heat while the surface temperature rises from heat_from to
+     * heat_from + heat_range. */
     double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
     int follows_way; /* 1: the case's mu is that of each row of a history, see mu of
                         rb_rolling_program, which sets it */

@@ -182,8 +182,8 @@ class _Named:
 class Solution(_Named):
     """A solved case: numbers and columns of its table as attributes.
 
-    Arrays look into the library's memory and are read-only; they stay valid as long as they
-    are used.  A column hides a number of the same name; ``numbers`` has them all.
+    Arrays are read-only views of memory that the solution owns; they stay valid as long as
+    they are used.  A column hides a number of the same name; ``numbers`` has all numbers.
     """
 
     def __init__(self, case: Case, handle: Handle) -> None:

@@ -448,9 +448,8 @@ static rb_status resolve_heat(rb_case *c, rb_message *why)
     if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0)
         status = rb_case_refuse_given(
             c, "speed",
-            "for bodies that relax, for temperatures and friction that "
-            "falls only, see --relaxation-time, --conductivity and "
-            "--mu-fall",
+            "only for viscoelastic bodies, temperatures and velocity-dependent "
+            "friction; see --relaxation-time, --conductivity and --mu-fall",
             why);
     return status;
 }

@@ -7,7 +7,7 @@
 
 /* What a sequence of steps leaves on its way. */
 typedef struct {
-    int progress;              /* a line on standard error now and then */
+    int progress;              /* print progress on standard error */
     int terminal;              /* the line stays in its place */
     const char *snapshots;     /* folder for traction tables, or NULL */
     rb_report_style style;     /* of the snapshots */
