@@ -151,6 +151,12 @@ static void bad_growth(void **state)
                {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
     (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
+    /* a crack that turns has a piece an increment, and needs elements for each */
+    static const char *const names[] = {"paris", "growth", "grow-steps",
+                                        "crack-elements"},
+                             *const values[] = {"1e-12,3", "tension", "3", "4"};
+    assert_true(rb_api_crack(a, 4, names, values) < 0);
+    assert_non_null(strstr(rb_api_message(a), "4 elements on 3 straight pieces"));
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         assert_true(rb_api_crack(a, 2, bad[k].name, bad[k].value) < 0);
         if (!strstr(rb_api_message(a), bad[k].says))

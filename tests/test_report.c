@@ -282,7 +282,7 @@ static void a_terminal_gets_what_fits(void **state)
     assert_non_null(strstr(shown, "\n   0  "));
     assert_non_null(strstr(shown, "\n  99  "));
     assert_non_null(
-        strstr(shown, "\nnot shown: 7 of 8 rows,\n  gap, s;\n  all: rollbem"));
+        strstr(shown, "\nnot shown: 7 in 8 rows,\n  gap, s;\n  all: rollbem"));
     for (char *end; (end = strchr(line, '\n')) != NULL; line = end + 1, lines++)
         assert_true(end - line <= 26);
     assert_in_range(lines, 15, 20);

@@ -476,8 +476,8 @@ static void set_intervals(problem *p, const double *theta)
         for (int i = 0; i < j; i++)
             if (fabs(of->correlation[i]) > CORRELATED)
                 say(fit,
-                    "%s and %s are correlated by more than 0.95: the data tell a "
-                    "combination of them\n",
+                    "%s and %s are correlated by more than 0.95: the data determine "
+                    "only a combination of them\n",
                     fit->parameter[i].name, of->name);
     }
     /* the band of the fitted curve */

@@ -142,7 +142,7 @@ int cli_design(int argc, char **argv)
     if (!words)
         return CLI_INTERNAL;
     const cli_spec spec = {
-        "rollbem design --minimise RESULT --over NAME=A:B,... [OPTION...] [CASE.ini]",
+        "rollbem design --minimise RESULT --over NAME=A:B [OPTION...] [CASE.ini]",
         about,
         notes,
         {rb_case_options(words), {options, OPTIONS, &f, given, NULL}, cli_output_set(&o)},

@@ -41,9 +41,11 @@ static rb_status check_shape(const rb_crack_shape *shape, rb_message *why)
                        path->pieces, RB_CRACK_PIECES);
     if (shape->elements < GSL_MAX(LEAST_ELEMENTS, 2 * path->pieces) ||
         shape->elements > MOST_ELEMENTS)
-        return rb_fail(why, RB_EINVAL, "crack: %d elements, expected %d ... %d",
-                       shape->elements, GSL_MAX(LEAST_ELEMENTS, 2 * path->pieces),
-                       MOST_ELEMENTS);
+        return rb_fail(why, RB_EINVAL,
+                       "crack: %d elements on %d straight pieces, expected two a piece, "
+                       "%d ... %d; give more elements",
+                       shape->elements, path->pieces,
+                       GSL_MAX(LEAST_ELEMENTS, 2 * path->pieces), MOST_ELEMENTS);
     if (!(shape->friction >= 0.0) || !(shape->shear > 0.0) || !(shape->poisson > -1.0) ||
         !(shape->poisson <= 0.5))
         return rb_fail(why, RB_EINVAL,

@@ -230,7 +230,7 @@ static void print_rest(FILE *out, const grid *g, const column *all, const choice
     }
     fputs(same.at ? "\n" : "", out);
     if (rows->step > 1) {
-        snprintf(item, sizeof item, "%d of %d rows", rows->step - 1, rows->step);
+        snprintf(item, sizeof item, "%d in %d rows", rows->step - 1, rows->step);
         print_item(&missing, item);
     } else if (rows->from <= rows->to) {
         snprintf(item, sizeof item, "%d rows in the middle", rows->to - rows->from + 1);
