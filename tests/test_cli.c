@@ -990,6 +990,16 @@ static void pictures_are_written_or_not_there(void **state)
 /* ---- The run ----------------------------------------------------------------------- */
 
 /* What goes for one command that solves a case goes for all. */
+/* At half of full sliding the stick zone ends at 0 but for rounding. */
+static void rounding_about_0_is_0(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--support halfplane --similar --load 500 --creep-ratio 0.5 "
+                             "--formulation steady"),
+                     0);
+    assert_non_null(strstr(err, "; stick 0 ... 0.81"));
+}
+
 static void commands_on_a_case_offer_the_same(void **state)
 {
     (void)state;
@@ -1055,6 +1065,7 @@ int main(void)
         cmocka_unit_test(output_is_whole_or_not_there),
         cmocka_unit_test(full_device_is_73),
         cmocka_unit_test(closed_pipe_is_73),
+        cmocka_unit_test(rounding_about_0_is_0),
         cmocka_unit_test(commands_on_a_case_offer_the_same),
         cmocka_unit_test(pictures_are_written_or_not_there),
     };

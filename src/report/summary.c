@@ -154,7 +154,10 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
     if (s->stick > 0) {
         const double between = s->stick_to - s->stick_from;
         const char *mm = rb_unit_name(s->units, "mm");
-        fprintf(out, "; stick %.5g ... %.5g %s", s->stick_from, s->stick_to, mm);
+        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
+        fprintf(out, "; stick %.5g ... %.5g %s",
+                fabs(s->stick_from) > least ? s->stick_from : 0.0,
+                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
         if (s->stick_length < (1.0 - 1e-9) * between)
             fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
     }
