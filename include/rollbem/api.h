@@ -1,5 +1,5 @@
-/* The library for other languages: opaque handles, numbers, text and arrays of doubles,
- * no struct to mirror.  The page in a browser is made of it.
+/* The library for other languages: opaque handles, numbers, text and arrays of doubles.
+ * The caller needs no struct.  The page in the browser uses this interface.
  *
  *     rb_api *a = rb_api_create();
  *     rb_api_set(a, "load", "500");
@@ -30,22 +30,22 @@ rb_api *rb_api_create(void);
 rb_api *rb_api_create_for(const char *purpose);
 void rb_api_free(rb_api *a);
 
-/* The keys of a case file; what rb_api_set gave before keeps its value. */
+/* Reads the keys of a case file.  Options that rb_api_set has set keep their values. */
 int rb_api_read(rb_api *a, const char *path);
 
-/* One option by its name and the text of a case file.  A refused text changes no
- * option, and the case cannot be solved, with the same message, until that option is set
- * to what it takes (a file: read).
- * Whatever was solved before is forgotten; only where all options set since then are
- * friction, load, approach, shift, creepage or force, the next solve uses its flexibility
- * again. */
+/* Sets one option, with a text as in a case file.  A refused text changes no option; the
+ * case is then refused with the same message until the option is set to a valid value (a
+ * file: until it is read).
+ * The call discards the solution.  If only friction, load, approach, shift, creepage or
+ * force were set since the last solve, the next solve uses the same flexibility again. */
 int rb_api_set(rb_api *a, const char *name, const char *text);
 /* Whether the options agree with each other. */
 int rb_api_resolve(rb_api *a);
-/* Settles and solves; of a sequence of steps each one is kept. */
+/* Resolves and solves the case; of a sequence of steps every step is kept. */
 int rb_api_solve(rb_api *a);
-/* From another thread or a signal handler: what runs ends with RB_INTERRUPTED after the
- * step, the case of a sweep or the iterate of a friction solver at hand. */
+/* May be called from another thread or a signal handler.  The running call ends with
+ * RB_INTERRUPTED after its current step, case of a sweep or iterate of a friction solver.
+ */
 void rb_api_stop(rb_api *a);
 
 /* Of the last call that gave a status. */
@@ -125,9 +125,10 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                growing input; NAN: none
  *   derivative.value             the inputs' values
  *   derivative.NAME.gap derivative.NAME.mu   of normal_load, tangential_load, approach
- * and creepage by the gap and mu of every element wear.way wear.worn ...       after
- * rb_api_wear, an entry per step wear.profile.x wear.profile.depth       what is worn off
- * at the end, over x sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
+ *                                and creepage, with respect to gap and mu of each element
+ *   wear.way wear.worn ...       after rb_api_wear, an entry per step
+ *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
+ *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);

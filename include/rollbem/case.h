@@ -192,13 +192,13 @@ int rb_option_number(const char *text, double *value);
 
 typedef struct rb_case rb_case;
 
-/* What a case is for: some options mean nothing to some of them and are refused. */
+/* The purpose of a case.  Options that have no meaning for a purpose are refused. */
 typedef enum {
     RB_CASE_SINGLE,
     RB_CASE_CURVE,  /* a creep curve: steady by default, several mu */
     RB_CASE_SPEEDS, /* a curve over the speed: the same */
     RB_CASE_STRESS, /* the stress below the surface */
-    RB_CASE_WEAR,   /* what sliding, fretting or rolling takes off */
+    RB_CASE_WEAR,   /* the wear of sliding, fretting or rolling */
     RB_CASE_CRACK,  /* the load of a crack */
     RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
@@ -213,16 +213,16 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
 /* Solvers that the option `solver` may name beside those of contact.h; borrowed.  Without
  * this there are none. */
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers);
-/* For options that come from somebody else's file, such as a result to be checked: a file
- * that one of them names must be a regular one of at most 64 MB that lies, links
- * followed, below the folder (borrowed; NULL: anywhere), and no message quotes what it
- * holds. */
+/* For options from a file of somebody else, such as a result to be checked.  A file that
+ * such an option names must be a regular file of at most 64 MB below the folder, after
+ * links are followed (folder: borrowed; NULL: anywhere).  Messages do not quote what the
+ * file holds. */
 void rb_case_confine(rb_case *c, const char *folder);
-/* The text of a file that an option or the command line names, with a zero behind it;
- * owned by the caller.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* The text of a file that an option or the command line names, ended by a zero byte; the
+ * caller owns the text.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
                              size_t *size, rb_message *why);
-/* Borrows files and texts of c, which must live longer.  NULL: no memory. */
+/* The copy borrows files and texts of c, so that c must live longer.  NULL: no memory. */
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);
 
@@ -245,8 +245,8 @@ rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
 /* Options of numbers only. */
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
 
-/* Reads a case file; what an argument gave before keeps its value.  also: n further
- * tables whose keys the file may hold.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* Reads a case file.  Values that an argument has given stay.  also: n further tables
+ * whose keys the file may hold.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
                        rb_message *why);
 
@@ -254,9 +254,9 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
 rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
                             rb_message *why);
 
-/* What the words mean together: contradictions are refused, body B, the mesh and the
- * files of gap and history are resolved, the result is checked.  Again after every
- * further change. */
+/* Makes a case from the given values: refuses contradictions, resolves body B and the
+ * mesh, reads the files of gap and history, and checks the result.  Call it again after
+ * every further change. */
 rb_status rb_case_resolve(rb_case *c, rb_message *why);
 
 /* Relaxation as it is typed: the first number, and all of them. */
@@ -320,16 +320,17 @@ typedef struct {
     int elements; /* that the accuracy took; 0: not asked */
 } rb_case_result;
 
-/* Steady and static cases at once, transients and histories step by step, with the error
- * bars or the accuracy that the case asks for.  step: sees the model after each step; may
- * be NULL.  Free the result in any case. */
+/* Solves steady and static cases at once, transients and histories step by step, with the
+ * error bars or the accuracy that the case asks for.  step is called with the model after
+ * each step; it may be NULL.  Free the result in any case. */
 rb_status rb_case_solve(const rb_resolved_case *resolved, rb_rolling_step *step,
                         void *context, rb_case_result *result, rb_message *why);
 /* The same with the result of a case before it, or {0}, as rb_rolling_model_reuse takes
  * its model; steps and error bars begin anew. */
 rb_status rb_case_solve_again(const rb_resolved_case *resolved, rb_rolling_step *step,
                               void *context, rb_case_result *result, rb_message *why);
-/* From mm, N, MPa to the units of the case, for those who show it; the model stays. */
+/* Converts the result from mm, N, MPa to the units of the case, to show it; the model
+ * keeps mm, N, MPa. */
 void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
 
