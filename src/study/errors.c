@@ -56,16 +56,22 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
 /* ---- From their values to a bar ---------------------------------------------------- */
 
 /* Three times the spread over the contact meshes: three errors where they are of first
- * order, nine where of second.  Where they jump as the edges pass elements, finer meshes
- * have not come nearer yet, and it is five times. */
+ * order, nine where of second, and less where they jump as the edges pass elements. */
 double rb_rolling_contact_error(const double coarser[], double own)
 {
     const double most = fmax(own, fmax(coarser[0], coarser[1]));
     const double least = fmin(own, fmin(coarser[0], coarser[1]));
+
+    return 3.0 * (most - least) + 0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
+}
+
+/* Five times the spread where the meshes go to and fro: finer ones have not come nearer
+ * yet.  Steps of a history and points of a curve err each by another part. */
+static double solution_error(const double coarser[], double own)
+{
     const int turns = (coarser[1] - coarser[0]) * (own - coarser[1]) < 0.0;
 
-    return (turns ? 5.0 : 3.0) * (most - least) +
-           0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
+    return (turns ? 5.0 / 3.0 : 1.0) * rb_rolling_contact_error(coarser, own);
 }
 
 /* The boundary outside the contact is smooth and its error of second order: half the
@@ -269,7 +275,7 @@ static void estimate(const rb_rolling_case *rc, const sample run[], const sample
             for (int j = 0; j < runs; j++)
                 coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
             put(r, part_of_errors(&e->contact, t),
-                rb_rolling_contact_error(coarser, value) +
+                solution_error(coarser, value) +
                     least_error(rc, &own->solution, r->error_bar));
             put(r, part_of_errors(&e->boundary, t),
                 rb_rolling_boundary_error(runs, coarser, value));
