@@ -1,8 +1,8 @@
 /* The discrete frictional contact problem of two surfaces and its solvers: Lemke's
- * method, Newton's, or a cone solver that the caller hands in.  Knows no wheel and no
- * formulation: what tractions do is an operator, what moves the surfaces are given
- * arrays. Equation tags (K1) ... (K6): docs/theory.md.  One thread at a time per
- * operator. */
+ * method, Newton's method, or a cone solver of the caller.  This header knows no wheel
+ * and no formulation: an operator gives the displacements due to tractions, and arrays
+ * give the motion of the surfaces.  Equation tags (K1) ... (K6): docs/theory.md.  Only
+ * one thread at a time may use an operator. */
 #ifndef ROLLBEM_CONTACT_H
 #define ROLLBEM_CONTACT_H
 
@@ -11,11 +11,11 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- The operator: what tractions do ----------------------------------------------- */
+/* ---- The operator: displacements due to tractions ---------------------------------- */
 
-/* Gaps F_N r and slips S r, S = A F_T (K2), of tractions r = (r_N, r_T) on n elements. Of
- * two kinds: matrices, which every solver takes, or products alone, with which Newton's
- * method solves by GMRES. */
+/* Gaps F_N r and slips S r, S = A F_T (K2), of tractions r = (r_N, r_T) on n elements.
+ * There are two kinds: matrices, which every solver takes, and products without matrices,
+ * for Newton's method with GMRES. */
 typedef struct rb_contact_operator rb_contact_operator;
 
 /* Matrices.  F: gap rows 0 ... n-1 of 2n columns, ld = ldf, borrowed; S: n x 2n, taken
@@ -38,9 +38,9 @@ typedef struct {
 rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
                                        rb_contact_operator **op);
 
-/* Lets `dense` solve long systems by the products of the same operator, which it takes
- * over in place of those before (NULL: by its matrices alone), and by its matrices where
- * GMRES does not come to the end. */
+/* Gives `dense` the products of the same operator, to solve large systems with GMRES; if
+ * GMRES does not converge, it uses its matrices.  `dense` takes the products over and
+ * frees earlier ones.  NULL: matrices only. */
 void rb_contact_operator_add_products(rb_contact_operator *dense,
                                       rb_contact_operator *products);
 
@@ -115,11 +115,11 @@ typedef struct {
     void *trace_context;
 } rb_contact_problem;
 
-/* Arrays of zeros for the elements of the operator, which is taken over, also on failure.
- * RB_ENOMEM. */
+/* Makes arrays of zeros for the elements of the operator.  The problem takes the operator
+ * over, also on failure.  RB_ENOMEM. */
 rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *problem);
-/* The same with an operator that stays another's: set problem->op to NULL before the
- * problem is freed. */
+/* The same, but somebody else owns the operator: set problem->op to NULL before you free
+ * the problem. */
 rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *problem);
 void rb_contact_problem_free(rb_contact_problem *problem);
 
@@ -194,7 +194,8 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
 /* The scale of friction: the bound of the pressure p->stress under the largest
  * coefficient; without friction that pressure. */
 double rb_contact_friction_scale(const rb_contact_problem *problem);
-/* The most friction that the pressures of the state carry: mu P for one coefficient. */
+/* The largest friction force that the pressures of the state allow: mu P for one
+ * coefficient. */
 double rb_contact_capacity(const rb_contact_problem *problem,
                            const rb_contact_state *state);
 /* P, Q and M of the state. */
