@@ -186,7 +186,9 @@ static void surface_row_shows_the_tractions(void **state)
     for (size_t i = 0; i < 41; i++) {
         const double x = entry(grid, "x_mm", i) / a;
         const double p = fabs(x) < 1.0 ? p0 * sqrt(1.0 - x * x) : 0.0;
-        CHECK_ABS(-entry(grid, "syy_MPa", i), p, 0.02 * p0, "x = %g a", x);
+        /* linear between midpoints: half of the first one's pressure at an edge */
+        const double bound = fabs(fabs(x) - 1.0) < 0.005 ? 0.05 : 0.02;
+        CHECK_ABS(-entry(grid, "syy_MPa", i), p, bound * p0, "x = %g a", x);
         CHECK_ABS(entry(grid, "y_mm", i), 0.0, 0.0, "surface");
     }
     json_decref(root);
