@@ -1,7 +1,8 @@
 /* A crack in the half-plane y <= 0 (body B) under contact tractions that pass over it:
  * its faces open, stick and slip by the same complementarity problem as the contact of
- * two bodies.  Sees tractions on the surface, no wheel.  Any consistent units; stress
- * intensities are in stress x sqrt(length).  Equation tags (C1) ... (C9): docs/crack.md.
+ * two bodies.  This header knows tractions on the surface, but no wheel.  Any consistent
+ * units; stress intensities are in stress x sqrt(length).  Equation tags (C1) ... (C9):
+ * docs/crack.md.
  *
  * Frame of a straight crack: it runs from its upper end into the body along
  * t = (cos angle, -sin angle); n = t turned by +90 degrees, so that the + side lies

@@ -1,6 +1,6 @@
-/* The least or the largest of a result over numbers of a case within bounds, under
- * constraints on other results: sequential quadratic programming (NLopt's SLSQP) with the
- * exact gradients of sensitivity.h.  Not part of the core: it needs NLopt. */
+/* Minimises or maximises a result over numbers of a case within bounds, under constraints
+ * on other results, by sequential quadratic programming (NLopt's SLSQP) with the exact
+ * gradients of sensitivity.h.  This is not part of the core, because it needs NLopt. */
 #ifndef ROLLBEM_DESIGN_H
 #define ROLLBEM_DESIGN_H
 
@@ -21,7 +21,7 @@ typedef struct {
 } rb_design_variable;
 
 /* A result of a solution; NULL: the ripple of the pressure, which is the root mean square
- * of what it has more or less than its mean over the span, of that mean. */
+ * deviation of the pressure from its mean over the span, divided by this mean. */
 typedef struct {
     const rb_rolling_result *result;
     int at_least; /* 1: >= bound, 0: <= bound */

@@ -76,9 +76,9 @@ typedef struct {
     int trace_tableau; /* 1: hand the whole tableau to trace (slow) */
 } rb_lcp_options;
 
-/* Whoever hands one out takes NULL as well. */
+/* A function with an info argument takes NULL as well. */
 typedef struct {
-    const char *solver; /* that gave the answer: static text, NULL where nothing ran */
+    const char *solver; /* that found z: static text, NULL if no solver ran */
     int iters;          /* pivots; newton: linear systems; auto: of all methods */
     double res;         /* max |min(z, Mz + q)|, recomputed from z alone */
     double scaled;      /* the same with each row in its own scale; decides */
@@ -91,8 +91,8 @@ rb_lcp_options rb_lcp_defaults(void);
 
 /* Lemke's method.  z: n, written (the last basic point when not solved).  opt NULL:
  * defaults.  Where the largest entries of rows or columns differ by more than 1024, this
- * and the other solvers work on R M C, R q with powers of two R, C (Ruiz); covers of ones
- * are ones there.  The trace is told of the caller's units.
+ * and the other solvers work on R M C, R q with powers of two R, C (Ruiz); a cover of
+ * ones stays a cover of ones there.  The trace gets values in the caller's units.
  * RB_OK, RB_RAY, RB_MAXITER, RB_INTERRUPTED (time limit); RB_INACCURATE: rounding has
  * spoilt the solution, info->scaled above 1e-10; RB_EINVAL: n < 1, ldm < n, NaN or
  * infinity, no cover; RB_ENOMEM.
@@ -101,19 +101,20 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
                        rb_lcp_info *info);
 
 /* Block principal pivoting for sparse M: Newton's method on min(z, M z + q) = 0 with a
- * rule that ends for every P-matrix.  Of the options max_iters and start count.  RB_OK,
- * RB_MAXITER, RB_INACCURATE; RB_SINGULAR: a principal submatrix is, so M is no P-matrix;
+ * rule that ends for every P-matrix.  It uses the options max_iters and start.  RB_OK,
+ * RB_MAXITER, RB_INACCURATE; RB_SINGULAR: a principal submatrix is singular, so that M is
+ * not a P-matrix;
  * RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM. */
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                         double *z, rb_lcp_info *info);
 
 /* Lemke's method on a sparse LU, for boxes.  Ties are broken by a generic perturbation,
- * with RB_LCP_FIRST_INDEX by the row; trace_tableau counts for nothing.  A variable
+ * with RB_LCP_FIRST_INDEX by the row; trace_tableau has no effect.  A variable
  * without any bound is split: the other half of the k-th of them is variable n + k for
  * the trace, which sees a larger n then.  With opt->start the path begins at the basis of
- * that point, and once more at the bounds when it does not lead to a solution.  Statuses
- * as rb_lcp_lemke, and RB_SINGULAR: a basis is, to rounding; RB_EINVAL: crossed bounds,
- * too. */
+ * that point; if it does not lead to a solution, a second path begins at the bounds.
+ * Statuses as rb_lcp_lemke, and RB_SINGULAR: a basis is singular up to rounding;
+ * RB_EINVAL: crossed bounds, too. */
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 

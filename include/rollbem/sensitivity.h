@@ -1,15 +1,15 @@
 /* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4), by the
- * linear problem of the zones that the solution has: every result changes as tractions,
- * approach and creepage do along the tangent of that problem.  Elements that the program
- * has placed move with the contact, as they would in a solve of another value: between
- * elements that stay the slope of a contact that grows is wrong by a finite part, however
- * many they are (D6).  Elements that the case places stay.  Derivatives are exact but for
- * rounding;
- * differences are taken of the data of a problem (flexibility, gap, bounds, controls) and
- * of what results make of the tractions, never of a solution.
+ * linear problem with the zones of the solution: tractions, approach and creepage change
+ * along the tangent of this problem, and every result changes with them.  Elements that
+ * the program has placed move with the contact, as they do in a solve with another value.
+ * If the elements stay while the contact grows, the derivative has an error that does not
+ * vanish with more elements (D6); elements that the case places do stay.  Derivatives are
+ * exact up to rounding.  Differences are taken only of the data of a problem
+ * (flexibility, gap, bounds, controls) and of how results depend on the tractions, never
+ * of a solution.
  *
- * Where an element is at the border of two zones (both sides of a complementary pair are
- * 0) the solution has a derivative on either side, and both are given. */
+ * If an element is at the border of two zones (both sides of a complementary pair are 0),
+ * the solution has two derivatives, one on each side, and both are given. */
 #ifndef ROLLBEM_SENSITIVITY_H
 #define ROLLBEM_SENSITIVITY_H
 
