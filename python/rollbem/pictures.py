@@ -12,10 +12,10 @@ from ._library import OPTIONS, RESULTS, InvalidInput
 if TYPE_CHECKING:
     from ._case import Curve, History, Solution, Stress, Sweep, Wear
 
-PRESSURE, FRICTION, BOUND, SLIP, CARTER = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483", "#1e8449"
+PRESSURE, FRICTION, BOUND, SLIP = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483"
 CURVES = ["#1f4e79", "#c0392b", "#b9770e", "#6c3483", "#117864", "#5d6d7e", "#7b241c", "#2e86c1"]
-ZONES = {0: ("separated", "#f3f3f3"), 1: ("stick", "#d6e6f5"), 2: ("slip", "#fde8cd"), 3: ("slip", "#f8dcdc"),
-         4: ("yield", "#e9efc9"), 5: ("yield", "#dfe3d2")}
+ZONES = {0: ("separated", "#f3f3f3"), 1: ("stick", "#d9ebe2"), 2: ("slip →", "#fae3d6"), 3: ("← slip", "#ecdff1"),
+         4: ("yield →", "#f3ecd0"), 5: ("← yield", "#f6dde6")}
 STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#444444",
          "axes.linewidth": 0.7, "lines.linewidth": 1.8, "font.size": 9.5, "legend.frameon": False,
          "axes.titlesize": 10, "svg.fonttype": "none"}
@@ -88,7 +88,8 @@ def tractions(solution: "Solution", figure: Any = None) -> Any:
     upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} N/mm, "
                     f"Q = {s.tangential_load:.5g} N/mm")
     upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
-    lower.plot(s.x, s.slip, color=SLIP)
+    touches = s.zone != 0 if s.contact else np.full(len(s.x), True)
+    lower.plot(s.x, np.where(touches, s.slip, np.nan), color=SLIP)
     lower.set_ylabel("slip")
     lower.set_xlabel("x [mm]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
     lower.ticklabel_format(axis="y", scilimits=(-2, 3))
@@ -108,11 +109,11 @@ def curves(of: "Sequence[Curve]", figure: Any = None) -> Any:
                               color=colour, alpha=0.25, linewidth=0, label="error")
         axes.plot(x, -scale * curve.force_ratio, color=colour, label=f"μ = {curve.mu:g}")
         if curve.carter_holds:
-            ratio = np.linspace(curve.creep_ratio[0], curve.creep_ratio[-1], 301)
+            ratio = np.linspace(curve.creep_ratio[0], curve.creep_ratio[-1], 25)
             share = np.minimum(np.abs(ratio), 1.0)
             carter = np.sign(ratio) * share * (2.0 - share)
-            axes.plot(np.linspace(x[0], x[-1], 301), scale * carter, "--", color="#111111", linewidth=1.1,
-                      label="law of Carter" if curve is of[0] else None)
+            axes.plot(np.linspace(x[0], x[-1], 25), scale * carter, "o", markersize=4, markerfacecolor="none",
+                      color="#111111", label="Carter" if curve is of[0] else None)
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_xlabel("creepage ξ" if over_creep else "creepage ratio ξR/(μa)")
     axes.set_ylabel("braking force −Q/P" if several else "braking force −Q/(μP)")

@@ -131,20 +131,19 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
 static const char *raised(rb_units units, char text[32])
 {
     const char *name = rb_unit_name(units, "MPa.mm^0.5"), *power = strchr(name, '^');
-    snprintf(text, 32, "%.*s^{%s}", (int)(power - name), name, power + 1);
+    const int n = (int)(strchr(name, '.') - name); /* before the dot of the product */
+    snprintf(text, 32, "%.*s·%.*s^{%s}", n, name, (int)(power - name) - n - 1,
+             name + n + 1, strcmp(power + 1, "0.5") == 0 ? "1/2" : power + 1);
     return text;
 }
 
 /* ---- Picture: K over the position, zones below ---------------------------------------
  */
 
-/* Colours of zones in pictures: apart, stick, slip of either direction. */
+/* Where the crack is open: pale, beside the strong colours of faces that touch. */
 static const char *colour_of(int zone)
 {
-    return zone == RB_ZONE_SEPARATED       ? "#9ecae1"
-           : zone == RB_ZONE_STICK         ? "#1f4e79"
-           : zone == RB_ZONE_SLIP_NEGATIVE ? "#e67e22"
-                                           : "#f5b971";
+    return rb_report_zone_colour(zone, zone == RB_ZONE_SEPARATED);
 }
 
 /* Steps of the last pass. */
@@ -251,11 +250,15 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
             "0.08\nset zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
             "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
-            "',%.3g'\nset label 2 'stress intensity  [%s]' at screen 0.03, %g center "
+            "',%.3g'\nset label 2 '%s  [%s]' at screen 0.03, %g center "
             "rotate\n",
-            0.14 + place.right, wet ? 0.89 : 0.965, 0.88 + place.up, 0.48,
-            h->x[first_of(r)] / a, h->x[h->n - 1] / a, 0.925 + 1.4 * place.up,
-            rb_report_key_font(canvas), raised(r->units, unit), 0.68);
+            0.14 + place.right,
+            !wet           ? 0.965
+            : place.titled ? 0.89
+                           : 0.83,
+            0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
+            0.925 + 1.4 * place.up, rb_report_key_font(canvas),
+            place.titled ? "stress intensity" : "K", raised(r->units, unit), 0.68);
     if (wet)
         fprintf(out,
                 "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics "
@@ -271,27 +274,30 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "linewidth 1.6 title 'fluid'",
             out);
     fprintf(out,
-            "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nset ytics "
-            "mirror\n"
-            "set tmargin at screen 0.44\nset bmargin at screen 0.14\nset format x '%%g'\n"
-            "set xlabel 'position of the contact / a' offset 0,0.3\nset offsets "
-            "0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\nset key at screen "
-            "0.965, 0.035 samplen 1 width -4\n"
-            "set label 2 'along the crack / a' at screen 0.03, 0.29 center rotate\n"
-            "plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
-            "linecolor rgb variable notitle");
+            "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
+            "set ytics mirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
+            "set format x '%%g'\nset xlabel 'position of the contact / a' offset 0,0.3\n"
+            "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
+            "set ytics 0.2\n"
+            "set label 2 'along%s / a' at screen 0.03, %g center rotate\n",
+            0.16 + place.up, place.titled ? " the crack" : "", 0.3 + 0.5 * place.up);
     static const struct {
         int zone;
+        double x;
         const char *name;
-    } zones[] = {{RB_ZONE_SEPARATED, "open"},
-                 {RB_ZONE_STICK, "stick"},
-                 {RB_ZONE_SLIP_NEGATIVE, "slip to the tip"},
-                 {RB_ZONE_SLIP_POSITIVE, "slip back"}};
+    } zones[] = {{RB_ZONE_SEPARATED, 0.14, "□ open"},
+                 {RB_ZONE_STICK, 0.3, "■ stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, 0.46, "■ slip to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, 0.78, "■ slip back"}};
     for (size_t k = 0; k < sizeof zones / sizeof *zones; k++)
         fprintf(out,
-                ", NaN with points pointtype 5 pointsize 1.2 linecolor rgb '%s' title "
-                "'%s'",
-                colour_of(zones[k].zone), zones[k].name);
+                "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font "
+                "',%.3g'\n",
+                (int)k + 3, zones[k].name, zones[k].x,
+                rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
+    fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
+          "linecolor rgb variable notitle",
+          out);
     fputs("\nunset multiplot\n", out);
 }
 

@@ -204,6 +204,7 @@ typedef struct {
     int over_load;            /* y: -Q/P instead of -Q/(mu P) */
     int exponent;             /* of the axis of xi, or of M/(P R) */
     double from, to;
+    int corner; /* of the key: 1 left top, 0 right bottom */
 } view;
 
 /* The coefficient that Q/(mu P) refers to. */
@@ -235,17 +236,25 @@ static double error_of(const view *v, int k, int i)
                                  : 0.0;
 }
 
+static int has_heat(const view *v)
+{
+    return v->curves->curve[0].max_temperature != NULL;
+}
+
 static void write_data(FILE *out, const view *v)
 {
     for (int k = 0; k < v->curves->n; k++) {
         const rb_rolling_curve *c = &v->curves->curve[k];
         fprintf(out, "$curve%d << EOD\n", k);
         for (int i = 0; i < c->n; i++)
-            fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
-                    error_of(v, k, i));
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i),
+                    y_of(v, c, i, scale_of(v, k)), error_of(v, k, i),
+                    has_heat(v) ? c->max_temperature[i] : 0.0);
         fputs("EOD\n", out);
     }
 }
+
+enum { FEW = 16 }; /* points: markers show where the curve was computed */
 
 static int draws_carter(const view *v)
 {
@@ -290,6 +299,29 @@ static void choose_axes(view *v)
         }
 }
 
+/* The key stands right below, left above if the curves leave it no room there. */
+static void choose_corner(view *v, double line)
+{
+    const double wide = 0.5, high = 0.08 + line * (v->curves->n + 1.0);
+    double least = 0.0, most = -INFINITY;
+    int taken[2] = {0, 0};
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++) {
+            const double y = y_of(v, &v->curves->curve[k], i, scale_of(v, k));
+            least = fmin(least, y);
+            most = fmax(most, y);
+        }
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++) {
+            const rb_rolling_curve *c = &v->curves->curve[k];
+            const double x = (x_of(v, c, i) - v->from) / (v->to - v->from);
+            const double y = (y_of(v, c, i, scale_of(v, k)) - least) / (most - least);
+            taken[0] += x > 1.0 - wide && y < high;
+            taken[1] += x < wide && y > 1.0 - high;
+        }
+    v->corner = taken[0] > taken[1];
+}
+
 /* "creepage ξ  [10^{-3}]" */
 static void write_label(FILE *out, const char *axis, const char *what, int exponent)
 {
@@ -313,17 +345,51 @@ static void write_labels(FILE *out, const view *v, int titled)
     }
     if (v->over == RB_OVER_SPEED) {
         fputs("set logscale x\n", out);
-        char label[32];
-        snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(c->units, "mm/s"));
-        write_label(out, "x", label, 0);
         write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
-        return;
-    }
-    const int creep = v->over == RB_OVER_CREEP;
-    write_label(out, "x", creep ? "creepage ξ" : "creepage ratio  ξR/(μa)",
-                creep ? v->exponent : 0);
-    fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
-            v->over_load ? "P" : "(μP)");
+    } else
+        fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
+                v->over_load ? "P" : "(μP)");
+}
+
+static void write_x_label(FILE *out, const view *v)
+{
+    char label[32];
+    snprintf(label, sizeof label, "speed  [%s]",
+             rb_unit_name(v->curves->curve[0].units, "mm/s"));
+    write_label(out, "x",
+                v->over == RB_OVER_SPEED   ? label
+                : v->over == RB_OVER_CREEP ? "creepage ξ"
+                                           : "creepage ratio  ξR/(μa)",
+                v->over == RB_OVER_CREEP ? v->exponent : 0);
+}
+
+/* The panel below: how hot the surfaces become at each point. */
+static void write_heat(FILE *out, const view *v, rb_report_place place)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++) {
+            least = fmin(least, v->curves->curve[k].max_temperature[i]);
+            most = fmax(most, v->curves->curve[k].max_temperature[i]);
+        }
+    fprintf(out,
+            "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen "
+            "%g\nset format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
+            "set offsets 0,0,graph 0.08,graph 0.08\n",
+            0.345 + place.up, 0.14 + place.up);
+    if (most > least)
+        fprintf(out, "set ytics %.9g\n", rb_report_round_step((most - least) / 4.0));
+    write_x_label(out, v);
+    fputs("plot ", out);
+    for (int k = 0; k < v->curves->n; k++)
+        fprintf(
+            out,
+            "%s$curve%d using 1:4 with %s linecolor rgb '%s' dashtype %s linewidth 2.6",
+            k > 0 ? ", " : "", k,
+            v->curves->curve[k].n <= FEW ? "linespoints pointtype 7 pointsize 0.7"
+                                         : "lines",
+            rb_report_colour(k), rb_report_dashes(k));
+    fputs("\nunset multiplot\n", out);
 }
 
 /* The way back, where it is another one to the eye. */
@@ -346,8 +412,6 @@ static int comes_back_otherwise(const view *v)
     return 0;
 }
 
-enum { FEW = 16 }; /* points: markers show where the curve was computed */
-
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
@@ -360,11 +424,16 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
             "set offsets 0,0,graph 0.05,0\n"
             "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-            0.13 + place.right, 0.14 + place.up, 0.9 + place.up);
-    fprintf(out, "set key right bottom samplen 2.2 font ',%.3g'\n",
+            0.13 + place.right, (has_heat(v) ? 0.39 : 0.14) + place.up, 0.9 + place.up);
+    if (has_heat(v))
+        fputs("set multiplot\nset format x ''\n", out);
+    fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
+            v->corner ? "left top Left reverse" : "right bottom",
             rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     write_labels(out, v, place.titled);
+    if (!has_heat(v))
+        write_x_label(out, v);
     fputs("plot ", out);
     for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
         fprintf(out,
@@ -392,10 +461,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 k == 0 ? "title 'on the way back'" : "notitle");
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
-                ", $carter%d using 1:2 with points pointtype 6 pointsize 1.4 linecolor "
+                ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor "
                 "rgb '#111111' linewidth 1.1 %s",
-                k, k == 0 ? "title 'law of Carter'" : "notitle");
+                k, 1.7 * rb_report_marker_scale(canvas),
+                k == 0 ? "title 'Carter'" : "notitle");
     fputs("\n", out);
+    if (has_heat(v))
+        write_heat(out, v, place);
 }
 
 rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
@@ -411,5 +483,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
         if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
     choose_axes(&v);
+    const double line = canvas.size == RB_REPORT_85MM ? 0.05 : 0.035;
+    choose_corner(&v, has_heat(&v) ? 1.6 * line : line);
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

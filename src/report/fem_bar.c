@@ -68,7 +68,7 @@ static void write_reactions(FILE *out, const bar_view *v)
 /* Stretches of equal state, half-way between the nodes. */
 static void write_zones(FILE *out, const bar_view *v)
 {
-    static const char *const colour[] = {"#f0f0f0", "#d6e6f5", "#fde8cd"};
+    static const int zone[] = {RB_ZONE_SEPARATED, RB_ZONE_STICK, RB_ZONE_SLIP_NEGATIVE};
     static const char *const name[] = {"separated", "stick", "slip"};
     const double h = v->length / v->nx;
     for (int i = 0, first = 0; i <= v->nx; i++) {
@@ -80,7 +80,7 @@ static void write_zones(FILE *out, const bar_view *v)
         fprintf(out,
                 "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
                 "fillcolor rgb '%s' fillstyle solid noborder behind\n",
-                from, to, colour[state]);
+                from, to, rb_report_zone_colour(zone[state], 1));
         const int wide = to - from > 0.1 * v->length;
         fprintf(
             out,

@@ -154,11 +154,13 @@ static void write_curves(FILE *out, int contacts, int column)
     if (column)
         fputs("set xtics 0.2\nset ytics 10\n", out);
     open_panel(out, panel_of(column, FORCES));
-    fputs("set ylabel 'force [kN]' offset -0.7,0\n"
-          "set key bottom right Left reverse samplen 2\n"
-          "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
-          "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n",
-          out);
+    fputs(
+        "set ylabel 'force [kN]' offset -0.7,0\n"
+        "set key bottom right Left reverse samplen 2\n"
+        "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title "
+        "'compression', "
+        "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
+        out);
     if (column)
         fprintf(out, "set ytics %g\n", rb_report_round_step(contacts / 4.0));
     open_panel(out, panel_of(column, CONTACTS));
@@ -167,9 +169,11 @@ static void write_curves(FILE *out, int contacts, int column)
           out);
     fputs("set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\nset key center left "
           "Left reverse\n"
-          "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
-          "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
-          "$step using 1:6 with lines linecolor rgb '#777777' title 'separated'\n"
+          "plot $step using 1:4 with lines linewidth 2 linecolor rgb '#2c7a57' title "
+          "'stick', "
+          "$step using 1:5 with lines linewidth 2 linecolor rgb '#c4501b' title 'slip', "
+          "$step using 1:6 with lines linewidth 2 linecolor rgb '#9a9a9a' title "
+          "'separated'\n"
           "unset multiplot\n",
           out);
 }

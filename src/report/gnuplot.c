@@ -276,6 +276,23 @@ const char *rb_report_colour(int k)
     return colours[k % 8];
 }
 
+double rb_report_marker_scale(rb_report_canvas canvas)
+{
+    return canvas.kind == RB_REPORT_SVG ? 0.45 : 1.0;
+}
+
+const char *rb_report_zone_colour(int zone, int pale)
+{
+    static const char *const colours[][2] = {
+        [RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
+        [RB_ZONE_STICK] = {"#2c7a57", "#d9ebe2"},
+        [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
+        [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
+        [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
+        [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"}};
+    return colours[zone][pale != 0];
+}
+
 const char *rb_report_dashes(int k)
 {
     static const char *const types[] = {"solid",     "(9,4)",  "(3,3)",

@@ -70,6 +70,10 @@ void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units un
 #define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
 /* The colour of curve k of several, as gnuplot's rgb. */
 const char *rb_report_colour(int k);
+/* Markers of a size are drawn larger by gnuplot's svg: what to multiply it by. */
+double rb_report_marker_scale(rb_report_canvas canvas);
+/* The colour of a zone as the page has it, strong or a pale shade of it. */
+const char *rb_report_zone_colour(int zone, int pale);
 /* The dash type of curve k of several, which print in grey tells apart. */
 const char *rb_report_dashes(int k);
 /* A unit of an axis: values divided by `size` are in units of `name`. */

@@ -167,23 +167,36 @@ static double bound_of(const view *v, int i)
     return fmin(limit, rb_unit_shown(s->units, "MPa", yield));
 }
 
+enum { STEPS_UP_TO = 16 };
+
+/* Curves of the tractions fall to zero where the contact ends; slip just ends. */
 static void write_data(FILE *out, const view *v)
 {
     const rb_rolling_solution *s = v->s;
+    const int steps = s->n <= STEPS_UP_TO || s->contact == 0;
     fputs("set datafile missing '?'\n$data << EOD\n", out);
     for (int i = 0; i < s->n; i++) {
-        char slip[40] = "?"; /* the line ends there */
+        const int ends = i > 0 && has_slip(v, i) != has_slip(v, i - 1);
+        if (!steps && ends)
+            fprintf(out, "%.9g 0 0 0 ? ? ?\n", (s->x[i] - s->h[i] / 2) / v->length.size);
+        fprintf(out, "%.9g", s->x[i] / v->length.size);
+        if (steps || has_slip(v, i))
+            fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit,
+                    s->q[i] / v->stress_unit, bound_of(v, i) / v->stress_unit);
+        else
+            fputs(" ? ? ?", out);
         if (has_slip(v, i))
-            snprintf(slip, sizeof slip, "%.9g", slip_of(v, i) / v->slip.unit);
-        fprintf(out, "%.9g %.9g %.9g %.9g %s %.9g %.9g\n", s->x[i] / v->length.size,
-                s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                bound_of(v, i) / v->stress_unit, slip,
+            fprintf(out, " %.9g", slip_of(v, i) / v->slip.unit);
+        else
+            fputs(" ?", out);
+        fprintf(out, " %.9g %.9g\n",
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     }
     fputs("EOD\n", out);
 }
 
+/* x, Carter's friction, Hertz's pressure. */
 static void write_carter(FILE *out, const view *v)
 {
     enum { POINTS = 24 };
@@ -195,7 +208,8 @@ static void write_carter(FILE *out, const view *v)
     for (int k = 0; k <= POINTS; k++) {
         const double x = -a * cos(3.14159265358979 * k / POINTS);
         const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
-        fprintf(out, "%.9g %.9g\n", x / v->length.size, q / v->stress_unit);
+        fprintf(out, "%.9g %.9g %.9g\n", x / v->length.size, q / v->stress_unit,
+                p0 * sqrt(fmax(1.0 - x / a * (x / a), 0.0)) / v->stress_unit);
     }
     fputs("EOD\n", out);
 }
@@ -217,14 +231,6 @@ static stretch next_stretch(const view *v, int *i)
     const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
     const double to = (s->x[*i - 1] + s->h[*i - 1] / 2) / v->length.size;
     return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
-}
-
-/* Pale shades of the colours that the page has for them. */
-static const char *zone_colour(int zone)
-{
-    static const char *const colours[] = {"#f3f3f3", "#d9ebe2", "#fae3d6",
-                                          "#ecdff1", "#f3edc4", "#e2e2ee"};
-    return colours[zone];
 }
 
 static const char *zone_name(int zone)
@@ -257,7 +263,7 @@ static void write_zones(FILE *out, const view *v, int labelled)
         fprintf(out,
                 "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
                 "fillcolor rgb '%s' fillstyle solid noborder behind\n",
-                st.from, st.to, zone_colour(st.zone));
+                st.from, st.to, rb_report_zone_colour(st.zone, 1));
         if (labelled)
             write_zone_label(out, v, &st);
     }
@@ -265,22 +271,29 @@ static void write_zones(FILE *out, const view *v, int labelled)
 
 /* ---- Panels ----------------------------------------------------------------------- */
 
+static int other_a(const view *v)
+{
+    return fabs(v->s->hertz_half_width / v->s->half_width - 1.0) > 0.005;
+}
+
+static int other_radius(const view *v)
+{
+    return fabs(rb_rolling_derive(v->rc).radius / v->rc->a.radius - 1.0) > 1e-6;
+}
+
 /* With the a and R of its formula where they are not those that the title shows. */
 static void write_creep_ratio(FILE *out, const view *v, rb_report_unit length)
 {
     const rb_rolling_solution *s = v->s;
     const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
-    const double own = rb_unit_shown(s->units, "mm", v->rc->a.radius);
-    const int other_a = fabs(s->hertz_half_width / s->half_width - 1.0) > 0.005;
-    const int other_radius = fabs(radius / own - 1.0) > 1e-6;
-    fprintf(out, ",  ξR/(μa%s) = %.3g", other_a ? "_H" : "", s->creep_ratio);
-    if (!other_a && !other_radius)
+    fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
+    if (!other_a(v) && !other_radius(v))
         return;
     fputs(":", out);
-    if (other_radius)
+    if (other_radius(v))
         fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
-                other_a ? "," : "");
-    if (other_a)
+                other_a(v) ? "," : "");
+    if (other_a(v))
         fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size, length.name);
 }
 
@@ -316,10 +329,9 @@ static void write_title(FILE *out, const view *v)
             rb_report_large_number(s->normal_load, large), load,
             rb_report_tidy(s->tangential_load, s->normal_load), load);
     /* a longer line in smaller letters */
-    const int longer =
-        s->contact > 0 && fabs(s->hertz_half_width / s->half_width - 1.0) > 0.005;
-    fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%s ",
-            longer ? "0.85" : "0.95");
+    const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;
+    fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%g ",
+            0.95 - 0.1 * longer);
     write_results(out, v);
     fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
     rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
@@ -343,19 +355,17 @@ static void write_stress_range(FILE *out, const view *v)
             above / v->stress_unit);
 }
 
-enum { STEPS_UP_TO = 16 };
-
-static void write_tractions(FILE *out, const view *v, double key_font)
+static void write_tractions(FILE *out, const view *v, double key_font, double marker)
 {
     write_stress_range(out, v);
     open_panel(out, v, TRACTIONS, 0);
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
             v->stress_label, middle_of(v, TRACTIONS));
     fprintf(out,
-            "set key at screen 0.53, %g center horizontal maxrows 1 samplen %g width 0 "
+            "set key at screen 0.53, %g center horizontal maxrows 1 samplen 1.2 width %d "
             "font ',%.3g'\n",
             0.866 + v->place.up + (v->place.titled ? 0.0 : 0.02),
-            v->place.titled ? 2.2 : 1.2, key_font);
+            v->carter && v->place.titled ? -2 : 0, key_font);
     write_zones(out, v, 1);
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
@@ -365,12 +375,15 @@ static void write_tractions(FILE *out, const view *v, double key_font)
             "title '%s', $data using 1:(-$4) with %s dashtype (6,4) linecolor rgb "
             "'#7a7a7a' linewidth 0.9 notitle, $data using 1:2 with %s linecolor rgb "
             "'#1f4e79' linewidth 1.8 title 'pressure p', $data using 1:3 with %s "
-            "linecolor rgb '#c0392b' linewidth 3 title 'friction q'",
+            "linecolor rgb '#c0392b' linewidth 2.2 title 'friction q'",
             style, v->s->plastic ? "bounds" : "±μp", style, style, style);
     if (v->carter)
-        fputs(", $carter using 1:2 with points pointtype 6 pointsize 1.5 linecolor rgb "
-              "'#111111' linewidth 1.2 title 'Carter'",
-              out);
+        fprintf(out,
+                ", $carter using 1:3 with points pointtype 6 pointsize %g linecolor rgb "
+                "'#111111' linewidth 1.2 notitle, $carter using 1:2 with points "
+                "pointtype 6 pointsize %g linecolor rgb '#111111' linewidth 1.2 title "
+                "'Hertz, Carter'",
+                marker, marker);
     fputs("\n", out);
 }
 
@@ -386,7 +399,7 @@ static void write_slip(FILE *out, const view *v)
     fputs("unset label\nunset key\nunset object\n", out);
     open_panel(out, v, SLIP, lowest);
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip.from, v->slip.to,
-            rb_report_round_step((v->slip.to - v->slip.from) / 4.0));
+            rb_report_round_step((v->slip.to - v->slip.from) / 5.0));
     if (lowest)
         write_x_label(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
@@ -464,7 +477,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     if (v->place.titled)
         write_title(out, v);
-    write_tractions(out, v, rb_report_key_font(canvas));
+    write_tractions(out, v, rb_report_key_font(canvas),
+                    1.7 * rb_report_marker_scale(canvas));
     write_slip(out, v);
     if (v->s->temperature)
         write_temperature(out, v);

@@ -54,8 +54,6 @@ static void write_grid(FILE *out, const view *v)
 /* Where A touches: one line for each zone, drawn below the surface. */
 static void write_contact(FILE *out, const view *v)
 {
-    static const char *const colours[] = {"",        "#2c7a57", "#c4501b",
-                                          "#8a3fa0", "#b8a21a", "#5b5b9e"};
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;
@@ -68,7 +66,8 @@ static void write_contact(FILE *out, const view *v)
                 "linewidth %d linecolor rgb '%s' front\n",
                 (s->x[first] - s->h[first] / 2) / v->length.size,
                 (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size,
-                s->zone[first] == RB_ZONE_STICK ? 2 : 6, colours[s->zone[first]]);
+                s->zone[first] == RB_ZONE_STICK ? 2 : 6,
+                rb_report_zone_colour(s->zone[first], 0));
     }
 }
 

@@ -274,7 +274,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(
             out,
             "set key outside right center samplen 2 font ',%.3g' title \"%s%s%s%s\"\n",
-            0.9 * rb_report_key_font(canvas), plain(s->y.name, name),
+            rb_report_key_font(canvas), plain(s->y.name, name),
             s->y.unit[0] ? "\\n[" : "", s->y.unit, s->y.unit[0] ? "]" : "");
     else
         fputs("unset key\n", out);
