@@ -88,7 +88,7 @@ def tractions(solution: "Solution", figure: Any = None) -> Any:
     upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} N/mm, "
                     f"Q = {s.tangential_load:.5g} N/mm")
     upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
-    touches = s.zone != 0 if s.contact else np.full(len(s.x), True)
+    touches = np.asarray(s.zone) != 0 if s.contact else np.full(len(s.x), True)
     lower.plot(s.x, np.where(touches, s.slip, np.nan), color=SLIP)
     lower.set_ylabel("slip")
     lower.set_xlabel("x [mm]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
