@@ -54,7 +54,8 @@ double rb_report_round_step(double step)
 
 const char *rb_report_large_number(double x, char text[40])
 {
-    const int power = x >= 1e5 ? (int)floor(log10(x) + 1e-9) : 0;
+    /* what is a power of ten when it is rounded to five digits is one */
+    const int power = x >= 99999.5 ? (int)floor(log10(x) + 2.2e-6) : 0;
     char digits[20];
     snprintf(digits, sizeof digits, "%.5g", x / pow(10.0, power));
     if (power == 0)
