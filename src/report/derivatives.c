@@ -107,8 +107,8 @@ static const char *elements_of(const rb_report_derivatives *d)
             "on the elements of the solution, which stay where they are",
         [RB_SENSITIVITY_HERTZ] =
             "on elements that grow with Hertz's half-width, as the automatic zone does",
-        [RB_SENSITIVITY_EDGES] = "on elements that move with the edges of the contact, "
-                                 "to which they are fitted"};
+        [RB_SENSITIVITY_EDGES] = ("on elements that move with the edges of the contact, "
+                                  "to which they are fitted")};
     return text[d->all->elements];
 }
 
