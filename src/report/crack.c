@@ -240,7 +240,10 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     const double a = r->half_width;
     char unit[32];
     const int wet = r->summary.fluid_pressure_max > 0.0;
+    double along = 0.0; /* the whole crack, in half-widths */
 
+    for (int j = 0; j < h->nodes; j++)
+        along += v->hat[j] / rb_unit_stored(r->units, "mm", a);
     write_steps(out, r, a);
     write_zones(out, r, v->hat, a);
     write_title(out, v, place);
@@ -278,9 +281,10 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set ytics mirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
             "set format x '%%g'\nset xlabel 'position of the contact / a' offset 0,0.3\n"
             "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
-            "set ytics 0.2\n"
+            "set ytics %g\n"
             "set label 2 'along%s / a' at screen 0.03, %g center rotate\n",
-            0.16 + place.up, place.titled ? " the crack" : "", 0.3 + 0.5 * place.up);
+            0.16 + place.up, rb_report_round_step(along / 4.0),
+            place.titled ? " the crack" : "", 0.3 + 0.5 * place.up);
     static const struct {
         int zone;
         double x;
