@@ -363,6 +363,8 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
 {
     const rb_rolling_mesh *mesh = &model->mesh;
     const double tolerance = NEGLIGIBLE * hertz_edge_gap(model, state);
+    const double h = shortest(mesh);
+    double from, to;
     double *w = x + scratch, *gap = w + scratch, least;
     int places;
     rb_status status = unseen_places(model, state, &places, x, gap);
@@ -380,10 +382,9 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
         status = displacement(model, state, s, &(targets){places + 2, x, w});
     for (int i = 0; i < places && status == RB_OK; i++)
         if (gap[i] - state->delta + w[i] < -tolerance)
-            add_place(x, places, i, shortest(mesh), o);
+            add_place(x, places, i, h, o);
+    rb_rolling_extent(model->rc, &from, &to);
     for (int k = 0; k < o->count; k++) {
-        double from, to;
-        rb_rolling_extent(model->rc, &from, &to);
         o->from[k] = fmax(o->from[k], from);
         o->to[k] = fmin(o->to[k], to);
     }
