@@ -190,6 +190,23 @@ static void below_sliding(rb_verify *v)
     rb_verify_absolute(v, b.max.max_shear.x / b.a, 0.625, 1e-2, "full sliding: its side");
 }
 
+/* p0/k at the shakedown limit of a case; no finite number where there is none. */
+static double shakedown_limit(rb_verify *v, const rb_rolling_case *rc)
+{
+    rb_rolling_model model = {0};
+    rb_rolling_solution s = {0};
+    rb_rolling_shakedown limit = {0};
+    rb_message why = {""};
+    rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
+    if (status == RB_OK)
+        status = rb_rolling_shakedown_find(&model, &limit, &why);
+    rb_verify_note(v, status, &why);
+    const double p0 = rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+    return p0 / limit.shear_yield;
+}
+
 /* Johnson's shakedown map (S1): k/p0 without friction, and at full sliding with friction
  * on A towards +x, by McEwen's stresses on a grid of 1e-3 a; from mu = 0.367 on the
  * surface, 1/mu. */
@@ -198,27 +215,14 @@ static void shakedown(rb_verify *v)
     static const double mu[] = {0.0, 0.1, 0.2, 0.3, 0.5},
                         wanted[] = {4.0, 3.564233, 3.202365, 2.899578, 2.0};
     for (int k = 0; k < 5; k++) {
-        rb_rolling_model model = {0};
-        rb_rolling_solution s = {0};
-        rb_rolling_shakedown limit = {0};
-        rb_message why = {""};
         rb_rolling_case rc = rb_verify_uncoupled();
         rc.a.poisson = 0.3;
         rb_verify_on_same(&rc);
         rc.mu = mu[k];
         rc.formulation = RB_STEADY;
         rc.creep = -1.0;
-        rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
-        if (status == RB_OK)
-            status = rb_rolling_shakedown_find(&model, &limit, &why);
-        rb_verify_note(v, status, &why);
-        rb_verify_relative(
-            v,
-            rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width) /
-                limit.shear_yield,
-            wanted[k], 0.01, "shakedown: p0/k at full sliding, mu = %g", mu[k]);
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
+        rb_verify_relative(v, shakedown_limit(v, &rc), wanted[k], 0.01,
+                           "shakedown: p0/k at full sliding, mu = %g", mu[k]);
     }
 }
 
@@ -226,24 +230,12 @@ static void shakedown(rb_verify *v)
  * and none acts across the disc. */
 static void shakedown_of_disc(rb_verify *v)
 {
-    rb_rolling_model model = {0};
-    rb_rolling_solution s = {0};
-    rb_rolling_shakedown limit = {0};
-    rb_message why = {""};
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.a.poisson = 0.3;
     rc.plane = RB_PLANE_STRESS;
     rc.mu = 0.0;
-    rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
-    if (status == RB_OK)
-        status = rb_rolling_shakedown_find(&model, &limit, &why);
-    rb_verify_note(v, status, &why);
-    rb_verify_relative(v,
-                       rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width) /
-                           limit.shear_yield,
-                       2.0, 0.01, "shakedown, plane stress: p0/k, mu = 0");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
+    rb_verify_relative(v, shakedown_limit(v, &rc), 2.0, 0.01,
+                       "shakedown, plane stress: p0/k, mu = 0");
 }
 
 void rb_verify_bodies(rb_verify *v)
