@@ -179,11 +179,6 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     return changed_displacement(of, rc, moved.scale, w0);
 }
 
-static int borrows_bodies(const rb_rolling_model *of, const rb_rolling_model *v)
-{
-    return v->bodies.f.m && v->bodies.f.data == of->bodies.f.data;
-}
-
 /* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
  * only where all results stay right. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
@@ -244,7 +239,7 @@ void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
     if (v->problem.op == of->problem.op)
         v->problem.op = NULL;
-    if (borrows_bodies(of, v)) {
+    if (v->bodies.f.m && v->bodies.f.data == of->bodies.f.data) { /* borrowed */
         if (v->bodies.f.w0 != of->bodies.f.w0)
             free(v->bodies.f.w0);
         if (v->bodies.f.x != of->bodies.f.x)
