@@ -3,6 +3,7 @@ import { card, html, show, show_notes, width_of } from "./draw.js";
 import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
+import { slip_share } from "./hero.js";
 import { say } from "./words.js";
 
 const FREE = { ...PRESETS.rail, "creep-ratio": "0" };
@@ -352,7 +353,7 @@ export function brake_view(words, page) {
     /* What the middles of the cells do, as solved. */
     function solved_cells({ columns: c, numbers: n }) {
         return painted.map((_, k) => {
-            const x = n.contact_from + ((k + 0.5) / CELLS) * (n.contact_to - n.contact_from);
+            const x = n.contact_from + ((k + 0.5) / CELLS) * n.nip_width;
             let i = 0;
             while (i < c.x.length - 1 && c.x[i] + c.h[i] / 2 < x) i++;
             return c.zone[i] > 1 ? 1 : 0;
@@ -397,7 +398,7 @@ export function brake_view(words, page) {
             hits = right.filter((zone, k) => zone === painted[k]).length,
             focused = curve_host.contains(document.activeElement),
             used = Math.abs(n.force_ratio),
-            slips = n.contact ? 1 - n.stick_length / (n.contact_to - n.contact_from) || 0 : 0;
+            slips = slip_share(a) || 0;
         if (!solved_row.firstChild) {
             solved_row.hidden = false;
             solved_row.style.gridTemplateColumns = `repeat(${CELLS},minmax(0,1fr))`;

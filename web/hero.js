@@ -12,7 +12,7 @@ const TURN_FOR_FULL = 1.1; /* radians by hand for a creep ratio of 1 */
 
 /* What of the contact slips, from 0 to 1; NaN: nothing touches or nothing rolls. */
 export function slip_share({ numbers: n }) {
-    const wide = n.contact_to - n.contact_from;
+    const wide = n.nip_width;
     if (!(wide > 0)) return NaN;
     if (n.stick === 0) return 1;
     return Math.min(
@@ -545,7 +545,7 @@ export function hero_view(words, page) {
             "aria-label",
             say(w.alt, {
                 headline: text,
-                wide: show(n.contact_to - n.contact_from, 3),
+                wide: show(n.nip_width, 3),
                 p0: show(n.max_pressure, 3),
                 slips: Math.round(100 * (slip_share(a) || 0)),
             }),
@@ -554,7 +554,7 @@ export function hero_view(words, page) {
             html("div", {}, html("dt", {}, label), html("dd", {}, value, " ", html("small", {}, unit)));
         facts.replaceChildren(
             fact(w.facts.pressed, show(n.normal_load, 3), "N/mm"),
-            fact(w.facts.wide, show(n.contact_to - n.contact_from, 3), "mm"),
+            fact(w.facts.wide, show(n.nip_width, 3), "mm"),
             fact(w.facts.pressure, show(n.max_pressure, 3), "MPa"),
             fact(
                 w.facts.used,

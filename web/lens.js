@@ -35,7 +35,7 @@ export function round_125(x) {
 /* Whether a scale is still good enough to keep: nothing jumps without need. */
 export function lens_still_fits(fit, { columns, numbers }) {
     const wide = fit.window[1] - fit.window[0],
-        contact = numbers.contact_to - numbers.contact_from;
+        contact = numbers.nip_width;
     const inside =
         numbers.contact_from > fit.window[0] + 0.06 * wide && numbers.contact_to < fit.window[1] - 0.06 * wide;
     const way = offsets_of({ columns, numbers }),
