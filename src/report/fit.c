@@ -116,14 +116,24 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
 /* ---- Words ---------------------------------------------------------------------------
  */
 
+/* Behind a number: a blank and its unit, or nothing. */
+static const char *unit_behind(const rb_report_fit *f, const char *unit, char text[20])
+{
+    const int has = strcmp(unit, "-") != 0;
+
+    snprintf(text, 20, "%s%s", has ? " " : "", has ? unit_name(f, unit) : "");
+    return text;
+}
+
 static void write_parameter(char *text, size_t size, const rb_report_fit *f, int j)
 {
     const rb_case_parameter *p = &f->fit->parameter[j];
+    char unit[20];
 
     if (p->identified)
-        snprintf(text, size, "%-22s %12.6g   %.4g ... %.4g %s", p->name,
+        snprintf(text, size, "%-22s %12.6g   %.4g ... %.4g%s", p->name,
                  in_units(f, p->unit, p->value), in_units(f, p->unit, p->interval[0]),
-                 in_units(f, p->unit, p->interval[1]), unit_name(f, p->unit));
+                 in_units(f, p->unit, p->interval[1]), unit_behind(f, p->unit, unit));
     else
         snprintf(text, size, "%-22s not identified", p->name);
 }
@@ -146,8 +156,9 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
         rb_report_comment(&c, "%.*s", (int)n, at);
         at += n + (at[n] == '\n');
     }
-    rb_report_comment(&c, "forces in %s; intervals and band of %g %%",
-                      unit_name(f, force_unit(f)), 100.0 * f->fit->level);
+    if (f->data->measure == RB_CASE_FORCE)
+        rb_report_comment(&c, "forces in %s", unit_name(f, "N/mm"));
+    rb_report_comment(&c, "intervals and band of %g %%", 100.0 * f->fit->level);
     for (int k = 0; k < f->data->n; k++) {
         const char *unit = force_unit(f);
         rb_report_cell_number(&c, f->data->creep[k]);
@@ -163,7 +174,7 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
 
 void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
 {
-    char line[200];
+    char line[200], unit[20];
 
     fprintf(out,
             "fit of %d points, %d steps, %d degrees of freedom, intervals of %g %%\n",
@@ -177,8 +188,9 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
         fprintf(out, "  residuals are %.3g of their standard deviations\n",
                 f->fit->noise);
     else
-        fprintf(out, "  residuals have a standard deviation of %.3g %s\n",
-                in_units(f, force_unit(f), f->fit->noise), unit_name(f, force_unit(f)));
+        fprintf(out, "  residuals have a standard deviation of %.3g%s\n",
+                in_units(f, force_unit(f), f->fit->noise),
+                unit_behind(f, force_unit(f), unit));
     fputs(f->fit->sentences, out);
 }
 
