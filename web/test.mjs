@@ -568,7 +568,7 @@ async function crawled(browser, page) {
     const all = Boolean(process.env.ROLLBEM_TEST_ALL);
     await test(`crawled: choices, sliders' ends, views in ${browser}`, async () => {
         const { states, wrong } = await page.run(
-            `(${crawl})(${JSON.stringify({ stride: all ? 1 : 331, from: 5, views: VIEWS, seconds: all ? 5000 : 8 })})`,
+            `(${crawl})(${JSON.stringify({ stride: all ? 1 : 331, from: 5, views: VIEWS, seconds: all ? 5000 : 3 })})`,
         );
         check(states >= 1, `${states} states`);
         check(!wrong.length, `${wrong.length} of ${states} states: ${wrong.slice(0, 8).join("; ")}`);
