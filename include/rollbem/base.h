@@ -1,12 +1,13 @@
-/* Status codes, messages, memory and time: what every room of rollbem shares. */
+/* Status codes, messages, memory and time: the part that all folders of rollbem share. */
 #ifndef ROLLBEM_BASE_H
 #define ROLLBEM_BASE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Around the declarations of every public header: for C++ too, and the only names that
- * the shared library exports. */
+/* These macros enclose the declarations of every public header.  They give the functions
+ * C linkage in C++ and export them from the shared library, which exports nothing
+ * else. */
 #ifdef __cplusplus
 #define RB_EXTERN_C_BEGIN extern "C" {
 #define RB_EXTERN_C_END }
@@ -25,7 +26,8 @@
 RB_PUBLIC_BEGIN
 
 #define RB_VERSION "0.1.0"
-/* Of the library that runs, which need not be that of the header. */
+/* Version of the library that is linked or loaded; it may differ from RB_VERSION of the
+ * header. */
 const char *rb_version(void);
 
 /* Negative: the call did not run (misuse, memory, files).
@@ -35,12 +37,12 @@ typedef enum {
     RB_EINVAL = -1,  /* an argument out of its range */
     RB_ENOMEM = -2,  /* no memory */
     RB_ENOENT = -3,  /* no such input file */
-    RB_EFORMAT = -4, /* a file that does not say what it should */
+    RB_EFORMAT = -4, /* a file whose content is not in the expected format */
     RB_EWRITE = -5,  /* an output that cannot be written */
-    RB_EHELPER = -6, /* another program that is missing or fails */
+    RB_EHELPER = -6, /* another program is missing or has failed */
     RB_MAXITER = 1,  /* iteration limit */
     RB_RAY = 2,      /* Lemke: secondary ray */
-    RB_SINGULAR = 3, /* a matrix without inverse */
+    RB_SINGULAR = 3, /* the matrix is singular */
     RB_NO_CONTACT = 4,
     RB_ZONE = 5,       /* potential contact too small: it fills completely */
     RB_INACCURATE = 6, /* residual above the tolerance */
@@ -52,21 +54,21 @@ typedef struct {
     char text[640];
 } rb_message;
 
-/* A word and what it stands for, of an option with a list of them. */
+/* One allowed word of an option, and the value (of an enum) that the word stands for. */
 typedef struct {
     const char *name;
     int value;
 } rb_choice;
 
-/* Writes the formatted line into why (if any) and returns s, so that a refusal is
- * one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
+/* Writes the formatted line into why (unless it is NULL) and returns s.  An error return
+ * is then one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 rb_status
 rb_fail(rb_message *why, rb_status s, const char *format, ...);
 
-/* Writes behind the text, which has room for size bytes in all; what is more is cut. */
+/* Appends to text, a buffer of size bytes in all; whatever does not fit is cut off. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
@@ -75,13 +77,14 @@ rb_append(char *text, size_t size, const char *format, ...);
 
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
-/* What why says, or the text of s where it says nothing. */
+/* The text of why, or that of s if why is NULL or empty. */
 const char *rb_status_reason(rb_status s, const rb_message *why);
-/* What LAPACK's info means where it can be only three things: solved, no memory, or a
- * matrix without inverse.  (LAPACKE refuses NaN with a small negative number.) */
+/* The status for LAPACK's info: RB_OK, RB_ENOMEM or RB_SINGULAR.  (LAPACKE refuses NaN
+ * with a small negative number.) */
 rb_status rb_lapack_status(int info);
 
-/* The candidate nearest to a misspelt word.  Start with {.word = word}. */
+/* Searches for the candidate nearest to a misspelt word.  Start with {.word = word} and
+ * pass each candidate to rb_guess_try. */
 typedef struct {
     const char *word, *best;
     int distance;
@@ -89,21 +92,22 @@ typedef struct {
 } rb_guess;
 
 void rb_guess_try(rb_guess *guess, const char *candidate);
-/* " (did you mean '...'?)", or "" when nothing is near; prefix is put before the word.
- * Returns guess->text. */
+/* " (did you mean '...'?)", or "" if no candidate is similar; prefix is put before the
+ * word. Returns guess->text. */
 const char *rb_guess_text(rb_guess *guess, const char *prefix);
 
-/* What a file name or an argument looks like in print: bytes that are not UTF-8 and
- * control characters become \xHH.  At most size - 1 bytes, whole characters; returns to.
- * 4 times the length holds any text. */
+/* Makes a file name or an argument safe to print: bytes that are not UTF-8 and control
+ * characters become \xHH.  Writes at most size - 1 bytes and never a part of a character;
+ * 4 strlen(text) + 1 bytes are always enough.  Returns to. */
 char *rb_printable(const char *text, char *to, size_t size);
 
-/* A finite number in the fewest digits that read back equal: 0.3, 1e-09.  Returns text.
- */
+/* Writes a finite number with the fewest digits from which the same double is read again:
+ * 0.3, 1e-09.  Returns text. */
 enum { RB_NUMBER_TEXT = 32 };
 char *rb_number_text(double x, char text[RB_NUMBER_TEXT]);
-/* Between the two calls this thread reads and writes numbers in the C locale, with
- * points, whatever the host program has set; before: what rb_locale_begin returned. */
+/* Between the two calls this thread reads and writes numbers in the C locale, with a
+ * decimal point, whatever locale the calling program has set.  before: the value that
+ * rb_locale_begin returned. */
 void *rb_locale_begin(void);
 void rb_locale_end(void *before);
 /* strtod and snprintf in the C locale. */
@@ -114,34 +118,36 @@ __attribute__((format(printf, 3, 4)))
 int
 rb_format(char *text, size_t size, const char *format, ...);
 
-/* What takes long, for people who wait: static text, the last that a thread of this
- * process has said; NULL: nothing yet. */
+/* For progress displays: rb_phase records the name of the computation that now runs
+ * (static text), rb_phase_now returns the name recorded last by any thread of the
+ * process, or NULL if there is none. */
 void rb_phase(const char *what);
 const char *rb_phase_now(void);
 
-/* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
- * product overflows.  Released with free(). */
+/* rows x cols doubles, or n ints, all zero; NULL when memory is short or the product
+ * overflows.  Released with free(). */
 double *rb_alloc(size_t rows, size_t cols);
 int *rb_alloc_int(size_t n);
 /* n doubles with the values of x; NULL when memory is short.  Released with free(). */
 double *rb_copy(size_t n, const double *x);
 
-/* RB_EINVAL, with the memory that `what` needs and the machine's in why, where it has not
- * that much: to be asked before allocating. */
+/* Call it before a large allocation.  RB_EINVAL: the machine has less memory than bytes;
+ * why then says how much `what` needs and how much there is. */
 rb_status rb_memory_check(double bytes, const char *what, rb_message *why);
 
 /* Seconds on a clock that only moves forward. */
 double rb_seconds(void);
 
-/* FNV-1a: begin with RB_HASH_START, go on with what came out. */
+/* FNV-1a hash: start with RB_HASH_START and pass the returned value to the next call. */
 #define RB_HASH_START UINT64_C(14695981039346656037)
 uint64_t rb_hash(uint64_t hash, const void *data, size_t size);
 
 /* max |x_i| over n; NaN if any entry is NaN. */
 double rb_norm_inf(size_t n, const double *x);
 
-/* sum |x_i| over n entries, stride apart.  cblas_dasum is not used: with AVX-512 its last
- * digits depend on the address of x, so that two runs would differ. */
+/* sum |x_i| over n entries, each stride places after the one before.  cblas_dasum is not
+ * used: with AVX-512 its last digits depend on the address of x, so that two runs would
+ * differ. */
 double rb_norm_1(size_t n, const double *x, size_t stride);
 
 RB_PUBLIC_END

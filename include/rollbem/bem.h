@@ -1,6 +1,6 @@
 /* Plane-strain boundary elements: constant elements on straight lines, closed-form
- * integrals, condensation to the contact.  Knows no friction.
- * Equation tags (B1) ... (B9): docs/theory.md. */
+ * integrals, condensation to the contact.  Friction does not appear here.  Equation tags
+ * (B1) ... (B9): docs/theory.md. */
 #ifndef ROLLBEM_BEM_H
 #define ROLLBEM_BEM_H
 
@@ -13,15 +13,15 @@ RB_PUBLIC_BEGIN
 /* Long bodies, loads per unit length, or thin discs, loads per unit thickness. */
 typedef enum { RB_PLANE_STRAIN, RB_PLANE_STRESS } rb_bem_plane;
 
-/* Isotropic, with the constants that the formulas of plane strain take. */
+/* An isotropic material, with the constants that enter the formulas of plane strain. */
 typedef struct {
     double shear;   /* G > 0 [stress] */
     double poisson; /* nu in (-1, 0.5]; in plane stress nu/(1 + nu) */
 } rb_bem_material;
 
 rb_bem_material rb_bem_material_from_young(double young, double poisson);
-/* The one place where plane stress is turned into plane strain (B2): poisson in
- * (-0.5, 0.5] of the material itself. */
+/* Converts plane stress to plane strain (B2); nowhere else is this done.  young, poisson:
+ * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
 rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young,
                                          double poisson);
 
@@ -30,14 +30,16 @@ rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young,
 typedef enum {
     RB_BEM_TRACTION,     /* traction given, displacement unknown */
     RB_BEM_DISPLACEMENT, /* displacement given, traction unknown */
-    RB_BEM_CONTACT       /* both kept: traction is an input of the condensed system */
+    RB_BEM_CONTACT /* traction and displacement are kept: the traction is an input of the
+                      condensed system */
 } rb_bem_condition;
 
-/* Any number of closed polygons, each with the body on its left (outer contours
- * counter-clockwise, holes clockwise).  Element j runs from (x0, y0)[j] to (x1, y1)[j].
- * The contact elements, if any, are contiguous, contact_first ... + contact_n - 1, in the
- * order of increasing x, and both their directions are RB_BEM_CONTACT.  The element after
- * them is the upstream one (theory.md 4.2): traction-free, its displacement is kept. */
+/* A mesh of any number of closed polygons.  The body lies on the left of each polygon
+ * (outer contours counter-clockwise, holes clockwise).  Element j runs from (x0, y0)[j]
+ * to (x1, y1)[j]. The contact elements, if any, are contiguous (numbers contact_first to
+ * contact_first + contact_n - 1) and ordered by increasing x; their condition is
+ * RB_BEM_CONTACT in both directions.  The element after them is the upstream element
+ * (theory.md 4.2); it is free of traction, and its displacement is kept. */
 typedef struct {
     int n;
     double *x0, *y0, *x1, *y1;   /* n each [length]; owned */
@@ -48,11 +50,11 @@ typedef struct {
 
 rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh); /* all traction-free */
 void rb_bem_mesh_free(rb_bem_mesh *mesh);
-/* Of element j. */
+/* Length of element j. */
 double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j);
 
-/* Appends nothing itself: checks that every contour closes, no element has zero length,
- * contact elements are contiguous.  RB_EINVAL with the element's number in why. */
+/* Checks that every contour closes, that no element has zero length and that the contact
+ * elements are contiguous.  RB_EINVAL: why names the element. */
 rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why);
 
 typedef enum {
@@ -61,36 +63,37 @@ typedef enum {
     RB_BEM_HALFPLANE /* no cylinder boundary: Flamant (B6) */
 } rb_bem_support;
 
-/* A cylinder whose lowest point is the origin, its centre (0, R) (B7, B9). */
+/* A cylinder whose lowest point is the origin and whose centre is (0, R) (B7, B9). */
 typedef struct {
     double radius;
     rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
     double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
     double hub_ratio;       /* in (0, 1) */
-    double cover;           /* RB_BEM_HUB: thickness of a cover [length]; the mesh is the
-                               cover's, held where it is bonded to its core; 0: none */
-    int outer_elements;     /* so many on the outer circle outside the contact, with the
-                               upstream one; one more for an odd number where the mesh
-                               is symmetric; 0: chosen so that neighbours differ by at
-                               most a fifth */
-    double refinement;      /* so many times the elements outside the contact and on the
-                               hub; 0: 1 */
+    double cover; /* RB_BEM_HUB: thickness of a cover [length]; only the cover is meshed,
+                     and it is fixed where it is bonded to its core; 0: no cover */
+    int outer_elements; /* number of elements on the outer circle outside the contact,
+                           including the upstream one; a symmetric mesh gets one more if
+                           the number is odd; 0: chosen so that neighbours differ in
+                           length by at most a fifth */
+    double refinement;  /* factor on the number of elements outside the contact and on the
+                           hub; 0: 1 */
 } rb_bem_cylinder;
 
-/* R - sqrt(R^2 - x^2) without cancellation (B9): height of a circle above its lowest
- * point, |x| <= R. */
+/* Height of a circle above its lowest point, R - sqrt(R^2 - x^2), |x| <= R, without
+ * cancellation (B9). */
 double rb_bem_circle_height(double radius, double x);
 
-/* ends: n_c + 2 increasing abscissae |x| < R: the ends of n_c contact elements and of the
- * upstream element after them.  Geometric grading outside; symmetric ends make a
- * symmetric mesh. RB_EINVAL: zone reaching the support, ends not increasing, counts
- * absurd. */
+/* Meshes a cylinder.  ends: n_c + 2 increasing abscissae |x| < R, the ends of n_c contact
+ * elements and of the upstream element after them.  Outside the contact the elements grow
+ * geometrically; symmetric ends give a symmetric mesh.  RB_EINVAL: the contact elements
+ * reach the support, the ends do not increase, or the numbers of elements are out of
+ * range. */
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                                const double *ends, rb_bem_mesh *mesh, rb_message *why);
 
-/* The core of a covered cylinder, a ring between the inner contour of its cover's mesh,
- * run backwards, and a rigid hub of hub_ratio R (B11).  RB_EINVAL: the hub reaches the
- * cover. */
+/* Meshes the core of a covered cylinder (B11): a ring between the inner contour of the
+ * cover's mesh, in reversed order, and a rigid hub of radius hub_ratio R.  RB_EINVAL: the
+ * hub reaches the cover. */
 rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
                            rb_bem_mesh *core, rb_message *why);
 
@@ -101,54 +104,57 @@ typedef struct {
     double x0, y0, x1, y1;
 } rb_bem_segment;
 
-/* Blocks 2 x 2, column-major: row = unit load direction at p, column = component on the
- * element. */
+/* 2 x 2 blocks, column-major.  Row: direction of the unit load at p; column: component of
+ * displacement (H) or traction (G) on the element. */
 typedef struct {
     double H[4], G[4];
 } rb_bem_blocks;
 
-/* Integrals over one element seen from p = (px, py).  self: p is the element's own
- * midpoint; then H holds the free term 1/2. */
+/* Integrals over one element for the source point p = (px, py).  self: p is the midpoint
+ * of this element; H then includes the free term 1/2. */
 rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py,
                                        int self, rb_bem_material material);
 
 /* H u = G t (B1).  2n x 2n, column-major, ld >= 2n; dofs x0, y0, x1, y1, ...  G may be
- * NULL.  H [-], G [length/stress].  G's logarithm is that of r over the diagonal of the
- * box around the mesh: tractions in equilibrium do not feel the choice, and no result
- * depends on the unit of length.  Uses every processor. */
+ * NULL.  H [-], G [length/stress].  The logarithm in G is that of r divided by the
+ * diagonal of the bounding box of the mesh: the choice does not matter for tractions in
+ * equilibrium, and no result then depends on the unit of length.  Uses all processors. */
 rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H,
                           double *G, int ld, rb_message *why);
 
 /* ---- Mixed problems and condensation (B4-B6) -------------------------------------- */
 
-/* The factored system A x = b of *Addi* (14); opaque. */
+/* The factorised system A x = b of *Addi* (14); opaque. */
 typedef struct rb_bem_system rb_bem_system;
 
-/* Bytes that the system and its condensation take, to refuse absurd sizes beforehand. */
+/* Bytes that the system and its condensation need; serves to refuse sizes that are too
+ * large. */
 double rb_bem_system_bytes(int n, int n_c);
 
-/* "AVX-512", "AVX2" or "plain": what the integrals run on here. */
+/* The instruction set that the integrals use on this processor: "AVX-512", "AVX2" or
+ * "plain". */
 const char *rb_bem_vector_name(void);
 
-/* From so many elements on the matrix is hierarchical: the same flexibility to 1e-8,
- * about n log n work, memory of order n. */
+/* With this number of elements or more the matrix is hierarchical: the flexibility agrees
+ * to 1e-8, the work is about n log n, the memory of order n. */
 enum { RB_BEM_HIERARCHICAL = 1500 };
 
-/* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
- * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
+/* Assembles and factorises the system once (LU).  The mesh is copied.  RB_EINVAL: the
+ * body has no support, so that three rigid motions remain (the message says so), or the
+ * material or the mesh is invalid; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
-/* A cover bonded to an elastic core (B11): its inner contour, the last elements of the
- * mesh, moves as the core answers to the tractions there.  The matrix is dense at any
- * size. RB_EINVAL also where the two do not fit together, or the cover is incompressible.
- */
+/* A cover bonded to an elastic core (B11).  The inner contour of the cover (the last
+ * elements of its mesh) has the displacement that the tractions there cause in the core.
+ * The matrix is dense at any size.  RB_EINVAL also if the two meshes do not match, or if
+ * the cover is incompressible. */
 rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
                                       const rb_bem_mesh *core,
                                       rb_bem_material core_material,
                                       rb_bem_system **system, rb_message *why);
 void rb_bem_system_free(rb_bem_system *system);
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
-/* Reciprocal condition (1-norm, estimated) of the scaled matrix A; NAN where it is
+/* Estimated reciprocal condition number (1-norm) of the scaled matrix A; NAN if A is
  * hierarchical. */
 double rb_bem_system_rcond(const rb_bem_system *system);
 /* Seconds spent in assembly and in the LU. */
@@ -161,52 +167,55 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
 
 /* ---- Flexibility of the contact (B5) ---------------------------------------------- */
 
-/* Normal n into the body (A: +y) and tangent t (+x): of the flat obstacle, or of each
- * element as *Addi* (18) has it (4.3). */
+/* Whose normal n (into the body; A: +y) and tangent t (+x) the contact uses: those of the
+ * flat obstacle, or those of each element as in *Addi* (18) (theory.md 4.3). */
 typedef enum { RB_BEM_NORMALS_OBSTACLE, RB_BEM_NORMALS_SURFACE } rb_bem_normals;
 
 /* w = w0 + F r: r = (r_N, r_T), 2n tractions on A along n and t, one per contact element;
  * w = (w_N, w_T), 2m displacements, m = n + 1: the n contact midpoints and the midpoint
- * of the upstream element, which carries no traction. A dense matrix or a
- * Toeplitz operator stands behind the same calls. */
+ * of the upstream element, which carries no traction. F is stored as a dense matrix or as
+ * a Toeplitz operator; the calls are the same for both. */
 typedef struct rb_bem_flexibility rb_bem_flexibility;
 struct rb_bem_flexibility {
     int n, m;
     double *x;          /* m midpoints [length]; owned */
     double *h;          /* m element lengths; owned */
     double *w0;         /* 2m [length]; owned */
-    double *compliance; /* 2n [length/stress]: of an interface on the elements, normal,
-                           then tangential; NULL where there is none or F has it; owned */
+    double *compliance; /* 2n [length/stress]: compliance of an interface on the elements,
+                           n normal, then n tangential values; NULL: no interface, or F
+                           includes it; owned */
     void (*apply)(const rb_bem_flexibility *f, const double *r, double *w); /* w = F r */
     rb_status (*matrix)(const rb_bem_flexibility *f, double *F, int ldf);   /* 2m x 2n */
-    /* Adds b, the mirror image, to a (but w0) where both are of this kind; 0: they are
-     * not.  NULL: no two of this kind become one. */
+    /* Adds the mirror image of b to a, without w0, and returns 1 if both are of this
+     * kind; returns 0 if not.  NULL: two operators of this kind cannot be added. */
     int (*add_mirrored)(rb_bem_flexibility *a, const rb_bem_flexibility *b);
     void (*free_data)(void *data);
-    void *data; /* owned, of the kind that these functions know */
+    void *data; /* private data of these functions; owned */
 };
 
 /* Condenses a cylinder's system to its contact: one solve with 2n right-hand sides. */
 rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
                           rb_bem_flexibility *f, rb_message *why);
 
-/* The same flexibility, more accurate close to the load (B10): each load is given the
- * exact solution of the half-plane on its element, and the boundary elements solve for
- * the smooth rest.  RB_EINVAL also where the body does not lie on the inner side of every
+/* The same flexibility, more accurate close to the load (B10): the exact half-plane
+ * solution of each loaded element is subtracted, and the boundary elements solve for the
+ * smooth remainder.  RB_EINVAL also if the body does not lie on the inner side of every
  * contact element. */
 rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
                                      rb_bem_flexibility *f, rb_message *why);
 
-/* A body whose surface answers alike everywhere, unlike a wheel's: displacement and
- * traction depend on distance alone.  A half-plane (kernels of theory.md, Flamant),
- * elastic or with fading memory in steady rolling towards +x, or a layer of that material
- * bonded to a rigid or elastic base.  All borrowed. */
+/* A body whose influence function depends on the distance alone (a wheel's does not).  It
+ * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
+ * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
+ * pointers are borrowed. */
 typedef struct {
-    rb_bem_material material; /* of the half-plane or layer; the glassy one with memory */
+    rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
+                                 (instantaneous) constants */
     double datum; /* depth of zero displacement of the half-plane or elastic base */
-    double datum_tangential; /* the same along the surface, of a homogeneous half-plane
-                                that forms a matrix; 0: datum */
-    int terms; /* of the memory: creep compliance 1 + sum f_k (1 - exp(-t/tau_k)) */
+    double datum_tangential; /* the same for tangential displacement; only for a
+                                homogeneous half-plane stored as a matrix; 0: datum */
+    int terms; /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
+                  exp(-t/tau_k)) */
     const double *ratio;  /* terms: f_k >= 0 */
     const double *length; /* terms: rolling speed times tau_k [length], >= 0 */
     double thickness;     /* of the layer; 0: half-plane */
@@ -214,39 +223,41 @@ typedef struct {
     rb_bem_material base;
 } rb_bem_surface;
 
-/* Elastic, displacement zero at depth datum > 0 under the point. */
+/* An elastic half-plane with zero displacement at the depth datum > 0 below the loaded
+ * point. */
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
 
-/* ends as in rb_bem_mesh_cylinder, any real numbers. */
+/* ends as in rb_bem_mesh_cylinder, but without the bound R. */
 rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
                                      const rb_bem_surface *body, rb_bem_flexibility *f,
                                      rb_message *why);
 
-/* The same on equal elements as a Toeplitz operator: products by Fourier transforms,
- * n log n work, memory of a few n.  A pair of two such is again one.  apply serves one
- * thread at a time.  RB_EINVAL: as above, and elements of different lengths. */
+/* The same for equal elements, as a Toeplitz operator: products by Fourier transforms
+ * take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
+ * operators (rb_bem_flexibility_pair) is a Toeplitz operator.  Only one thread at a time
+ * may call apply.  RB_EINVAL: as above, or elements of different lengths. */
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                                       const rb_bem_surface *body, rb_bem_flexibility *f,
                                       rb_message *why);
 
-/* A whole disc, held at its centre. */
+/* A full disc, fixed at its centre. */
 typedef struct {
     double radius;
     rb_bem_material material;
 } rb_bem_disc;
 
-/* The disc in closed form, without elements elsewhere on its boundary: equal arcs at the
- * lowest point, ends as in rb_bem_mesh_cylinder.  Its load is carried by a force and a
- * moment at the centre; displacements are those relative to the centre, less the
- * translation that a point force makes infinite there, and without mean rotation.
- * Toeplitz in the frames of the surface.  RB_EINVAL: as above, and arcs of different
- * lengths. */
+/* The flexibility of a disc in closed form.  Only the contact, at the lowest point, has
+ * elements (equal arcs; ends as in rb_bem_mesh_cylinder).  A force and a moment at the
+ * centre carry the load.  Displacements are relative to the centre, without the infinite
+ * translation of a point force and without mean rotation.  The operator is Toeplitz in
+ * the directions of the surface.  RB_EINVAL: as above, or arcs of different lengths. */
 rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
                                   rb_bem_normals normals, rb_bem_flexibility *f,
                                   rb_message *why);
 
-/* The body seen at any points x of its surface: w = W r, W: 2 points x 2n column-major,
- * rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, body; RB_ENOMEM. */
+/* Matrix W of the displacements w = W r at any points x of the surface, for tractions r
+ * constant on n strips with the n + 1 ends.  W: 2 points x 2n, column-major, rows (w_N,
+ * w_T).  RB_EINVAL: invalid sizes or body; RB_ENOMEM. */
 rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
                                       const double *ends, int points, const double *x,
                                       double *W);
@@ -258,66 +269,69 @@ typedef struct {
     const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
 } rb_bem_edge_load;
 
-/* Adds w_N under constant strips to w, for points x: no matrix is formed.  As above. */
+/* Adds to w the normal displacements w_N at the points x under tractions that are
+ * constant on strips, without forming a matrix.  Errors as above. */
 rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
                                     const rb_bem_edge_load *load, int points,
                                     const double *x, double *w);
 
-/* A body with memory whose load is linear in time over a step, or whose past is linear
- * over a length (V6): what is remembered after it is kept * (what was before it) + before
- * * (load before) + after * (load after). */
+/* Weights of one step of a viscoelastic body (V6), for a load linear in time over the
+ * step (or linear along a length): filtered load after the step = kept * (filtered load
+ * before) + before * (load before) + after * (load after). */
 typedef struct {
     double kept, before, after;
 } rb_bem_fading;
-/* time: of the memory; step > 0, in the same unit. */
+/* time: relaxation time; step > 0, in the same unit. */
 rb_bem_fading rb_bem_fading_over(double time, double step);
 
-/* A wheel with fading memory in steady rolling towards +x, which is alike at every angle:
- * a ring of one material, or a cover on a core that is rigid or a ring on a rigid hub.
- * Borrowed as in rb_bem_surface. */
+/* A viscoelastic wheel in steady rolling towards +x, with rotational symmetry: a ring of
+ * one material, or a cover on a core that is rigid or is a ring on a rigid hub.  Pointers
+ * are borrowed. */
 typedef struct {
-    double radius, inner;     /* of the material that remembers, bonded at `inner` */
-    rb_bem_material material; /* the glassy one */
+    double radius, inner; /* outer and inner radius of the viscoelastic material, bonded
+                             at `inner` */
+    rb_bem_material material; /* its glassy (instantaneous) constants */
     int terms;
     const double *ratio, *length;
     double hub; /* radius of the rigid hub below an elastic core; 0: rigid at `inner` */
     rb_bem_material core;
 } rb_bem_wheel;
 
-/* Adds to the flexibility of the glassy wheel, condensed with these normals, what its
- * memory makes of it (V8).  ends: of the contact elements, as in rb_bem_mesh_cylinder.
- * f becomes a dense matrix.  RB_EINVAL: radii, materials, terms; RB_ENOMEM. */
+/* Adds the viscoelastic part (V8) to the flexibility of the glassy wheel, which was
+ * condensed with these normals.  ends: of the contact elements, as in
+ * rb_bem_mesh_cylinder.  f becomes a dense matrix.  RB_EINVAL: invalid radii, materials
+ * or relaxation terms; RB_ENOMEM. */
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
                                         const double *ends, rb_bem_flexibility *f,
                                         rb_message *why);
 
-/* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
- * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
- * left empty), also on failure.  RB_EINVAL: their points differ. */
+/* Two bodies in contact (4.5): F_A + F_B.  B is computed as an upper body and mirrored,
+ * so its coupling blocks enter with the opposite sign.  Takes ownership of a and b and
+ * leaves both empty, also on failure.  RB_EINVAL: the points of a and b differ. */
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why);
 
-/* Adds an interface that yields under each element by its own traction alone: its normal
- * and tangential compliance on the diagonal of F_NN and F_TT [length/stress], n values
- * each,
- * >= 0.  After bodies are paired.  RB_EINVAL, RB_ENOMEM. */
+/* Adds a compliant interface whose deformation at an element depends only on the traction
+ * of this element: normal and tangential compliance on the diagonals of F_NN and F_TT
+ * [length/stress], n values each, >= 0.  Call it after rb_bem_flexibility_pair.
+ * RB_EINVAL, RB_ENOMEM. */
 rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
                                             const double *tangential);
 
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
 /* F: 2m x 2n column-major, ldf >= 2m. */
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
-/* The dense matrix behind f, ld = 2m, borrowed; NULL where there is none. */
+/* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
-/* Puts a dense matrix behind f, whatever has been there.  RB_ENOMEM leaves f as it is. */
+/* Converts f to a dense matrix.  RB_ENOMEM leaves f unchanged. */
 rb_status rb_bem_flexibility_store(rb_bem_flexibility *f);
 void rb_bem_flexibility_free(rb_bem_flexibility *f);
 
-/* Approximate inverses for iterative solvers, on a line of equal elements: of F_NN or
- * F_TT (apply), and of A F_TT, (A w)_i = sum over k of stencil_k w_{i-1+k}
- * (apply_difference; stencil (0, 1, -1, 0): the difference to the element upstream,
- * towards +x).  local: the stencil that A has on the compliance added to f.  w and r: n
- * each, may be the same.  One thread at a time. */
+/* Circulant preconditioners for a line of equal elements: approximate inverses of F_NN or
+ * F_TT (apply) and of A F_TT (apply_difference), where (A w)_i = sum over k of stencil_k
+ * w_{i-1+k}.  The stencil (0, 1, -1, 0) is the difference to the upstream element,
+ * towards +x.  local: the stencil of A for the compliance that was added to f.  w and r
+ * have n entries each and may be the same array.  One thread at a time. */
 typedef struct rb_bem_circulant rb_bem_circulant;
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
                                   const double local[4], rb_bem_circulant **circulant);
@@ -328,13 +342,13 @@ void rb_bem_circulant_free(rb_bem_circulant *circulant);
 
 /* ---- Interior (B8) ---------------------------------------------------------------- */
 
-/* Points at which a field is asked for. */
+/* Points at which a field is evaluated. */
 typedef struct {
     int n;
     const double *xy; /* x0, y0, x1, y1, ...; borrowed */
 } rb_bem_points;
 
-/* A body with all values on its boundary; borrowed. */
+/* A body and the complete solution on its boundary; all pointers are borrowed. */
 typedef struct {
     const rb_bem_mesh *mesh;
     rb_bem_material material;
@@ -342,16 +356,17 @@ typedef struct {
 } rb_bem_boundary;
 
 /* Displacement (2 per point) and stress (sxx, syy, sxy per point) at points inside the
- * body.  Either output may be NULL.  Constant u jumps at element ends; here u is linear
- * between midpoints, so that stress stays accurate close to the boundary.  Points on the
- * surface itself use the tractions, the tangential strain and Hooke's law. */
+ * body.  Either output may be NULL.  Element-wise constant u would jump at the ends of
+ * elements; u is therefore interpolated linearly between midpoints, so that the stress
+ * stays accurate close to the boundary.  At points on the surface the stress follows from
+ * the tractions, the tangential strain and Hooke's law. */
 rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
                           double *displacement, double *stress, rb_message *why);
 
-/* The same stress of a body under contact tractions, accurate right up to the loaded
- * surface: tractions linear between the midpoints, their strips in closed form (B10).
- * t_contact: 2 contact_n, global.  The field borrows the system.  RB_EINVAL: the body
- * does not lie on the inner side of every contact element. */
+/* Stress of a body under contact tractions, accurate up to the loaded surface: the
+ * tractions are linear between the midpoints, and their near field is in closed form
+ * (B10). t_contact: 2 contact_n, global.  The field borrows the system.  RB_EINVAL: the
+ * body does not lie on the inner side of every contact element. */
 typedef struct rb_bem_field rb_bem_field;
 rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
                               rb_bem_field **field, rb_message *why);
@@ -364,33 +379,36 @@ void rb_bem_field_free(rb_bem_field *field);
 rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points points,
                                   double *stress);
 
-/* The same below tractions that are linear between n nodes and zero at the first and the
- * last: sxx is finite everywhere.  For points within some widths of the load: digits go
- * with the distance over that of the nodes. */
+/* The same for tractions that are linear between n nodes and zero at the first and the
+ * last node; sxx is then finite everywhere.  Use it for points within a few contact
+ * widths: rounding errors grow with the ratio of their distance to the spacing of the
+ * nodes. */
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
                                          rb_bem_points points, double *stress);
 
-/* The stress that a layer, or what lies below it, has under given tractions (L5).  body,
- * load: of nodes; what they borrow stays until the field is freed.  The first call for
- * points further apart than three times the load makes the waves of the field anew.
- * RB_EINVAL: no layer, points outside, places too far apart for so thin a layer. */
+/* Stress in a layer or in the base below it under given tractions (L5).  load: tractions
+ * at nodes.  The arrays of body and load must exist until the field is freed.  The first
+ * call whose points extend over more than three times the width of the load computes the
+ * Fourier components of the field again.  RB_EINVAL: body is no layer, a point lies
+ * outside, or the points extend too far for so thin a layer. */
 typedef struct rb_bem_layer_field rb_bem_layer_field;
 rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
                                     const rb_bem_edge_load *load,
                                     rb_bem_layer_field **field, rb_message *why);
-/* stress: 3 points, sxx, syy, sxy of the half-plane of the layer's material: what the
- * layer has beside them is added; of points below the layer all of it is written. */
+/* stress: 3 per point.  On input it holds sxx, syy, sxy of a half-plane of the layer's
+ * material.  For points in the layer the difference between layer and half-plane is
+ * added; for points below the layer the stress is overwritten. */
 rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points,
                                  double *stress, rb_message *why);
 void rb_bem_layer_field_free(rb_bem_layer_field *field);
 
 /* ---- A reference ------------------------------------------------------------------- */
 
-/* Exact elastic disc: displacement of its rim (u_r outwards, u_t counter-clockwise) at
- * `angle` counter-clockwise from the middle of an arc of width h, 0 < h < 2 pi, under
- * uniform tractions (p_r, p_t); up to a rigid motion; the resultant is balanced by a
- * force and a couple at the centre.  response [length/stress]: 2 x 2 column-major, rows
- * (u_r, u_t), columns (p_r, p_t). */
+/* Exact solution of an elastic disc whose rim carries uniform tractions (p_r, p_t) on an
+ * arc of angular width h, 0 < h < 2 pi: displacement of the rim (u_r outwards, u_t
+ * counter-clockwise) at `angle`, counter-clockwise from the middle of the arc, up to a
+ * rigid motion.  A force and a couple at the centre balance the resultant.  response
+ * [length/stress]: 2 x 2 column-major, rows (u_r, u_t), columns (p_r, p_t). */
 rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
                                double response[4]);
 

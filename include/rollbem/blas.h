@@ -1,5 +1,6 @@
-/* Which of OpenBLAS' kernels run: a library older than the processor may not know it and
- * take slow ones (0.3.21 takes those of 2004 for a server of 2023: four times slower). */
+/* Which kernels OpenBLAS uses.  A version of OpenBLAS that is older than the processor
+ * may not recognise it and choose slow kernels (0.3.21 chooses kernels of 2004 on a
+ * server of 2023, which are four times slower). */
 #ifndef ROLLBEM_BLAS_H
 #define ROLLBEM_BLAS_H
 
@@ -7,26 +8,28 @@
 
 RB_PUBLIC_BEGIN
 
-/* "SkylakeX", "Haswell", ...: what is in use. */
+/* The name of the kernels in use: "SkylakeX", "Haswell", ... */
 const char *rb_blas_core(void);
 
-/* The kernels that this processor could run and OpenBLAS did not choose, as a value of
- * the environment variable OPENBLAS_CORETYPE, which it reads when it is loaded; NULL:
- * none. */
+/* The name of faster kernels that this processor can run although OpenBLAS did not choose
+ * them; NULL: there are none.  The name is a value for the environment variable
+ * OPENBLAS_CORETYPE, which OpenBLAS reads when it is loaded. */
 const char *rb_blas_better_core(void);
 
-/* Lets BLAS use that many threads (0: one per processor, or
- * what OPENBLAS_NUM_THREADS says) and returns how many it used
- * before.  Threads cost the small products of Lemke and Newton more than they bring. */
+/* Sets the number of BLAS threads (0: one per processor, or the value of
+ * OPENBLAS_NUM_THREADS) and returns the number before.  The small matrix products of
+ * Lemke's and Newton's methods are faster with one thread. */
 int rb_blas_threads(int threads);
 
-/* Threads of a loop that the library runs by OpenMP: as many as OMP_NUM_THREADS says, but
- * four a processor at most.  Tens of thousands of them end the process by a signal. */
+/* Number of OpenMP threads that the library uses in a loop: the value of OMP_NUM_THREADS,
+ * but at most four per processor, because tens of thousands of threads would crash the
+ * process. */
 int rb_blas_loop_threads(void);
 
-/* Under a limit of address space (ulimit -v) a thread of OpenBLAS that gets no buffer
- * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP
- * is reduced to one too if need be. */
+/* Under a limit of address space (ulimit -v) an OpenBLAS thread that gets no buffer waits
+ * for it forever.  Returns 1 if there is enough address space for all threads.  If
+ * OpenBLAS has one thread only, the function reduces OpenMP to one thread where
+ * necessary. */
 int rb_blas_has_room(void);
 
 RB_PUBLIC_END

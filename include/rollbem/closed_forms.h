@@ -1,7 +1,7 @@
-/* Closed forms of plane contact on half-planes (theory.md 6): what verify, the tests and
- * the pictures compare with.  1/E* = sum (1 - nu^2)/E; loads per unit length.
- * References: Johnson, Contact Mechanics (1985), chapters 4, 7, 8; Bentall and Johnson,
- * Int. J. Mech. Sci. 9 (1967) 389-404. */
+/* Closed forms of plane contact on half-planes (theory.md 6): `rollbem verify`, the tests
+ * and the pictures compare results with them.  1/E* = sum (1 - nu^2)/E; loads per unit
+ * length. References: Johnson, Contact Mechanics (1985), chapters 4, 7, 8; Bentall and
+ * Johnson, Int. J. Mech. Sci. 9 (1967) 389-404. */
 #ifndef ROLLBEM_CLOSED_FORMS_H
 #define ROLLBEM_CLOSED_FORMS_H
 
@@ -11,19 +11,19 @@ RB_PUBLIC_BEGIN
 
 /* ---- Hertz ------------------------------------------------------------------------ */
 
-/* a of P = pi E* a^2/(4R) [length]. */
+/* Half-width a of Hertz's contact, from P = pi E* a^2/(4R) [length]. */
 double rb_closed_hertz_half_width(double load, double radius, double modulus);
 double rb_closed_hertz_load(double half_width, double radius, double modulus);
-/* The same under a circle instead of its parabola: E* R (K(a/R) - E(a/R)), complete
- * elliptic integrals of the modulus a/R <= 1.  Odd in R; of a cylinder in a bore the sum
- * of both, R > 0 and R < 0. */
+/* The load of a circular profile instead of the parabola: E* R (K(a/R) - E(a/R)), with
+ * complete elliptic integrals of the modulus a/R <= 1.  The function is odd in R.  For a
+ * cylinder in a bore add the values of both radii, R > 0 and R < 0. */
 double rb_closed_circle_load(double half_width, double radius, double modulus);
 /* p0 = 2P/(pi a) [stress]. */
 double rb_closed_hertz_max_pressure(double load, double half_width);
 /* p0 sqrt(1 - x^2/a^2), 0 outside. */
 double rb_closed_hertz_pressure(double max_pressure, double half_width, double x);
-/* Approach of a half-cylinder of plane-strain modulus E/(1 - nu^2), as a Hertz load
- * presses it: P(1-nu^2)/(pi E) [2 ln(4R/a) - 1] [length]. */
+/* Approach of a half-cylinder of plane-strain modulus E/(1 - nu^2) under a Hertzian
+ * pressure: P(1-nu^2)/(pi E) [2 ln(4R/a) - 1] [length]. */
 double rb_closed_half_cylinder_approach(double load, double radius, double plane_modulus,
                                         double half_width);
 
@@ -32,13 +32,13 @@ double rb_closed_half_cylinder_approach(double load, double radius, double plane
 /* s = xi R/(mu a) with the sign of xi; Q/(mu P) = -sgn(s) |s| (2 - |s|), -sgn(s) beyond
  * full sliding. */
 double rb_closed_carter_force_ratio(double s);
-/* The creep ratio of a given Q/(mu P) in [-1, 1]. */
+/* The creep ratio s at a given Q/(mu P) in [-1, 1]. */
 double rb_closed_carter_creep_ratio(double force_ratio);
 /* Traction on A at x; the stick strip adjoins the leading edge +a [stress]. */
 double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
                                  double s, double x);
 
-/* Highest rise of the surfaces under the heat H0 sqrt(1 - x^2/a^2) per area and time at a
+/* Maximum temperature rise of the surfaces for the heat flux H0 sqrt(1 - x^2/a^2) at a
  * high Peclet number, 2.1883067 H0 sqrt(a)/((e1 + e2) sqrt(pi V)), at x = -0.65223 a;
  * effusivity: e1 + e2, e = sqrt(conductivity heat capacity). */
 double rb_closed_flash_temperature(double heat, double half_width, double speed,
@@ -57,9 +57,10 @@ double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_w
 
 /* ---- Dissimilar cylinders under a growing load (Spence) ---------------------------- */
 
-/* mu at which the part c/a = `stick`, in (0, 1), of the contact sticks at every load:
- * beta/mu = K(sqrt(1 - c^2/a^2))/K(c/a), K the complete elliptic integral, for small beta
- * and mu (friction that does not change the pressure).  NAN beyond (0, 1). */
+/* The mu for which the fraction c/a = `stick`, in (0, 1), of the contact sticks at every
+ * load: beta/mu = K(sqrt(1 - c^2/a^2))/K(c/a), K the complete elliptic integral, for
+ * small beta and mu, where friction does not change the pressure.  NAN if stick is
+ * outside (0, 1). */
 double rb_closed_spence_friction(double beta, double stick);
 
 /* ---- Free rolling of dissimilar cylinders (Bentall, Johnson) ----------------------- */
@@ -67,7 +68,7 @@ double rb_closed_spence_friction(double beta, double stick);
 /* |xi| at Q = 0 for mu -> 0: 2 beta (a/R) k, k = 0.457386; a: Hertz's half-width. */
 double rb_closed_bentall_johnson_slip(double beta, double half_width, double radius);
 
-/* mu -> infinity, all in stick. */
+/* Free rolling for mu -> infinity, where the whole contact sticks. */
 typedef struct {
     double eta;          /* ln((1+beta)/(1-beta))/(2 pi) */
     double half_width;   /* [length] */

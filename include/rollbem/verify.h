@@ -1,5 +1,5 @@
-/* The references that the program holds itself against (theory.md 6): closed forms,
- * published values. */
+/* Comparison of the program with reference values (theory.md 6): closed forms and
+ * published results. */
 #ifndef ROLLBEM_VERIFY_H
 #define ROLLBEM_VERIFY_H
 
@@ -7,19 +7,20 @@
 
 RB_PUBLIC_BEGIN
 
-/* One reference value against the program's. */
+/* One reference value and the value that the program computes. */
 typedef struct {
     char what[80];
     double wanted, got;
-    double error, bound; /* |got - wanted|, over |wanted| where relative */
+    double error, bound; /* |got - wanted|, divided by |wanted| if relative */
     int relative;
     int holds;
-    const char *why; /* of a solution that failed; NULL otherwise */
+    const char *why; /* reason why the solution failed; NULL if it did not */
 } rb_verify_check;
 
 typedef void rb_verify_each_check(const rb_verify_check *check, void *context);
 
-/* Every reference, one call of each per value.  The number of those that do not hold. */
+/* Computes all references and calls `each` once per value.  Returns the number of checks
+ * that do not hold. */
 int rb_verify_run(rb_verify_each_check *each, void *context);
 
 RB_PUBLIC_END

@@ -626,15 +626,15 @@ double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, dou
     return worst;
 }
 
-double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *room)
+double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *work)
 {
     const rb_sparse *M = p->M;
     for (int i = 0; i < M->rows; i++)
-        room[i] = fabs(p->q[i]);
+        work[i] = fabs(p->q[i]);
     for (int j = 0; j < M->cols; j++)
         for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            room[M->i[k]] += fabs(M->x[k] * z[j]);
-    return 1e-14 * rb_norm_inf((size_t)M->rows, room);
+            work[M->i[k]] += fabs(M->x[k] * z[j]);
+    return 1e-14 * rb_norm_inf((size_t)M->rows, work);
 }
 
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
