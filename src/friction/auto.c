@@ -214,15 +214,6 @@ static double cost_of(const rb_friction_task *task, const rb_friction_solver *so
     return 20.0 * order * fmin(order * order, 1e4);
 }
 
-static void load_stage(rb_friction_task *t, stage_origin from)
-{
-    if (from == FROM_BEST && isfinite(t->best->error)) {
-        memcpy(t->r, t->best->r, (size_t)t->m * sizeof(double));
-        memcpy(t->v, t->best->r + t->m, (size_t)t->n * sizeof(double));
-    } else
-        rb_friction_task_start(t);
-}
-
 /* The solver of the member's stage, or of the next one that fits; NULL: none is left. */
 static const rb_friction_solver *next_that_fits(member *a)
 {
@@ -245,7 +236,12 @@ static rb_status begin_stage(member *a)
     a->info.solver = a->solver->name;
     a->stage_end = s->limit ? a->info.iters + s->limit : 0;
     a->task.opt.max_iters = a->stage_end;
-    load_stage(&a->task, s->from);
+    if (s->from == FROM_BEST && isfinite(a->task.best->error)) {
+        memcpy(a->task.r, a->task.best->r, (size_t)a->task.m * sizeof(double));
+        memcpy(a->task.v, a->task.best->r + a->task.m,
+               (size_t)a->task.n * sizeof(double));
+    } else
+        rb_friction_task_start(&a->task);
     const rb_friction_method *method = a->solver->run;
     if (method->run)
         return RB_OK;
@@ -339,33 +335,6 @@ static rb_status play(portfolio *p, const plan *plans, member **winner)
     return s;
 }
 
-/* The answer is the winner's; operations and iterations are those of all. */
-static void conclude(const portfolio *p, const member *winner, rb_friction_task *task)
-{
-    rb_friction_info *info = task->info;
-    const rb_friction_info *proof = &winner->info;
-    const rb_friction_task *from = &winner->task;
-    for (int k = 0; k < p->members; k++) {
-        info->iters += p->member[k].info.iters;
-        info->flops += p->member[k].info.flops;
-    }
-    task->proved = from->proved;
-    if (!task->proved) {
-        rb_friction_task_start(task);
-        return;
-    }
-    if (from->r != task->r) {
-        memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
-        memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
-        memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
-    }
-    info->solver = proof->solver;
-    info->residual = proof->residual;
-    info->scaled = proof->scaled;
-    info->floor = proof->floor;
-    info->measure = proof->measure;
-}
-
 static rb_status run_auto(rb_friction_task *task, int variant)
 {
     (void)variant;
@@ -379,7 +348,29 @@ static rb_status run_auto(rb_friction_task *task, int variant)
     p.members = 0;
     p.memory = NULL;
     s = play(&p, plans, &winner);
-    conclude(&p, winner, task);
+    /* The answer is the winner's; operations and iterations are those of all. */
+    rb_friction_info *info = task->info;
+    const rb_friction_info *proof = &winner->info;
+    const rb_friction_task *from = &winner->task;
+    for (int k = 0; k < p.members; k++) {
+        info->iters += p.member[k].info.iters;
+        info->flops += p.member[k].info.flops;
+    }
+    task->proved = from->proved;
+    if (!task->proved) {
+        rb_friction_task_start(task);
+    } else {
+        if (from->r != task->r) {
+            memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
+            memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
+            memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
+        }
+        info->solver = proof->solver;
+        info->residual = proof->residual;
+        info->scaled = proof->scaled;
+        info->floor = proof->floor;
+        info->measure = proof->measure;
+    }
     portfolio_free(&p);
     return s;
 }

@@ -63,17 +63,6 @@ static double find_pivot(const equations *e, int first, int *row, int *col)
     return most;
 }
 
-/* Row i -= what makes its entry in this column 0, exactly, as the pivot is 1. */
-static void subtract(equations *e, int i, int pivot, int col)
-{
-    double *to = row_of(e, i);
-    const double *from = row_of(e, pivot), factor = to[col];
-    for (int j = 0; factor != 0.0 && j < e->width; j++) {
-        const double change = factor * from[j], left = to[j] - change;
-        to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
-    }
-}
-
 /* Rows of size 1 first, so that units of single constraints do not matter. */
 static void solve_equations(equations *e)
 {
@@ -98,8 +87,16 @@ static void solve_equations(equations *e)
         a[col] = 1.0;
         e->at[e->rank] = col;
         for (int i = 0; i < e->rows; i++)
-            if (i != e->rank)
-                subtract(e, i, e->rank, col);
+            if (i != e->rank) {
+                /* Row i -= what makes its entry in this column 0, exactly, as the pivot
+                 * is 1. */
+                double *to = row_of(e, i);
+                const double *from = row_of(e, e->rank), factor = to[col];
+                for (int j = 0; factor != 0.0 && j < e->width; j++) {
+                    const double change = factor * from[j], left = to[j] - change;
+                    to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
+                }
+            }
     }
 }
 
@@ -210,17 +207,6 @@ static rb_status reduce(rb_friction_problem *p, const motions *m)
     return RB_OK;
 }
 
-/* Row by row of G': the motions it couples, and b. */
-static void load_constraints(const rb_sparse *G, const double *b, const int *number,
-                             equations *e)
-{
-    for (int c = 0; c < G->cols; c++) {
-        for (int k = G->p[c]; k < G->p[c + 1]; k++)
-            row_of(e, c)[number[G->i[k]]] = G->x[k];
-        row_of(e, c)[e->unknowns] = b[c];
-    }
-}
-
 rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
                                 const double *b, rb_message *why)
 {
@@ -243,7 +229,13 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         s = make_equations(G->cols, count, count + 1, &e);
     }
     if (s == RB_OK) {
-        load_constraints(G, b, touched + n, &e);
+        /* Row by row of G': the motions it couples, and b. */
+        const int *number = touched + n;
+        for (int c = 0; c < G->cols; c++) {
+            for (int k = G->p[c]; k < G->p[c + 1]; k++)
+                row_of(&e, c)[number[G->i[k]]] = G->x[k];
+            row_of(&e, c)[e.unknowns] = b[c];
+        }
         solve_equations(&e);
         if (contradicts(&e, e.unknowns, e.width))
             s = rb_fail(why, RB_EINVAL,
@@ -262,20 +254,6 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
 }
 
 /* ---- Local form -------------------------------------------------------------------- */
-
-/* [R, V', s] (l, r, 1) = 0 */
-static void load_local(const rb_sparse *V, const rb_sparse *R, const double *s,
-                       equations *e)
-{
-    const int c = R->cols;
-    for (int j = 0; j < c; j++) {
-        for (int k = R->p[j]; k < R->p[j + 1]; k++)
-            row_of(e, R->i[k])[j] = R->x[k];
-        for (int k = V->p[j]; k < V->p[j + 1]; k++)
-            row_of(e, j)[c + V->i[k]] = V->x[k];
-        row_of(e, j)[e->width - 1] = s[j];
-    }
-}
 
 /* -L, of which row at[k] is the r part of row k: l = l0 - L r. */
 static rb_status form_forces(const equations *e, int m, rb_sparse *minus_L)
@@ -347,7 +325,14 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
         return st;
     st = make_equations(c, c, c + m + 1, &e);
     if (st == RB_OK) {
-        load_local(V, R, s, &e);
+        /* [R, V', s] (l, r, 1) = 0 */
+        for (int j = 0; j < c; j++) {
+            for (int k = R->p[j]; k < R->p[j + 1]; k++)
+                row_of(&e, R->i[k])[j] = R->x[k];
+            for (int k = V->p[j]; k < V->p[j + 1]; k++)
+                row_of(&e, j)[c + V->i[k]] = V->x[k];
+            row_of(&e, j)[e.width - 1] = s[j];
+        }
         solve_equations(&e);
         if (contradicts(&e, c, c + m) || contradicts(&e, c + m, e.width))
             st = rb_fail(why, RB_EINVAL,

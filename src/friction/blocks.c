@@ -102,21 +102,6 @@ static size_t count_blocks(const rb_friction_problem *local)
     return total;
 }
 
-static void fill_column(const rb_friction_problem *local, int contact,
-                        rb_friction_blocks *b)
-{
-    const size_t dd = (size_t)(b->d * b->d);
-    int k = b->p[contact];
-    reader from;
-    reader_start(local, contact, &from);
-    while ((b->i[k] = next_block(&from, b->x + (size_t)k * dd)) >= 0) {
-        if (b->i[k] == contact)
-            b->diag[contact] = k;
-        k++;
-    }
-    b->p[contact + 1] = k;
-}
-
 rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_blocks *b)
 {
     const size_t nc = (size_t)local->contacts, d = (size_t)local->dimension;
@@ -129,8 +114,18 @@ rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_
     b->p = (int *)(b->x + total * d * d);
     b->diag = b->p + nc + 1;
     b->i = b->diag + nc;
-    for (int c = 0; c < local->contacts; c++)
-        fill_column(local, c, b);
+    for (int c = 0; c < local->contacts; c++) {
+        const size_t dd = (size_t)(b->d * b->d);
+        int k = b->p[c];
+        reader from;
+        reader_start(local, c, &from);
+        while ((b->i[k] = next_block(&from, b->x + (size_t)k * dd)) >= 0) {
+            if (b->i[k] == c)
+                b->diag[c] = k;
+            k++;
+        }
+        b->p[c + 1] = k;
+    }
     return RB_OK;
 }
 

@@ -217,59 +217,43 @@ static rb_status list_columns(condenser *c)
     return s;
 }
 
-/* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body follow
- * each other and touch the same columns: they become one, block-diagonal. */
-static rb_status join_bodies(condenser *c)
-{
-    int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
-    if (!joined)
-        return RB_ENOMEM;
-    for (int i = 0; i < c->p->dofs; i++)
-        dofs[c->body[i]]++;
-    int count = 0, size = 0; /* of the joined one that grows */
-    for (int b = 0; b < c->bodies; b++) {
-        const int *from = c->columns_of + b, n = from[1] - from[0];
-        const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
-                         size + dofs[b] <= MOST_DOFS &&
-                         !memcmp(c->column + from[0], c->column + from[-1],
-                                 (size_t)n * sizeof *c->column);
-        size = same ? size + dofs[b] : dofs[b];
-        count += !same;
-        joined[b] = count - 1;
-    }
-    for (int i = 0; i < c->p->dofs; i++)
-        c->body[i] = joined[c->body[i]];
-    c->bodies = count;
-    free(joined);
-    return RB_OK;
-}
-
 static rb_status list_bodies(condenser *c)
 {
     rb_status s = list_columns(c);
-    if (s == RB_OK)
-        s = join_bodies(c);
+    if (s == RB_OK) {
+        /* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body
+         * follow each other and touch the same columns: they become one, block-diagonal.
+         */
+        int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
+        if (!joined)
+            s = RB_ENOMEM;
+        else {
+            for (int i = 0; i < c->p->dofs; i++)
+                dofs[c->body[i]]++;
+            int count = 0, size = 0; /* of the joined one that grows */
+            for (int b = 0; b < c->bodies; b++) {
+                const int *from = c->columns_of + b, n = from[1] - from[0];
+                const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
+                                 size + dofs[b] <= MOST_DOFS &&
+                                 !memcmp(c->column + from[0], c->column + from[-1],
+                                         (size_t)n * sizeof *c->column);
+                size = same ? size + dofs[b] : dofs[b];
+                count += !same;
+                joined[b] = count - 1;
+            }
+            for (int i = 0; i < c->p->dofs; i++)
+                c->body[i] = joined[c->body[i]];
+            c->bodies = count;
+            free(joined);
+            s = RB_OK;
+        }
+    }
     free(c->column);
     free(c->columns_of);
     c->column = c->columns_of = NULL;
     if (s == RB_OK)
         s = list_columns(c);
     return s == RB_OK ? list_dofs(c) : s;
-}
-
-static rb_status condense_bodies(condenser *c, double *q)
-{
-    rb_status s = list_bodies(c);
-    const size_t bodies = c->bodies > 0 ? (size_t)c->bodies : 1;
-    c->Y = calloc(bodies, sizeof *c->Y);
-    c->W = calloc(bodies, sizeof *c->W);
-    if (s == RB_OK && !(c->Y && c->W))
-        s = RB_ENOMEM;
-    for (int body = 0; s == RB_OK && body < c->bodies; body++)
-        s = c->dofs_of[body + 1] - c->dofs_of[body] <= MOST_DOFS
-                ? condense_small(c, body, q)
-                : condense_large(c, body, q);
-    return s;
 }
 
 /* ---- W column by column ------------------------------------------------------------ */
@@ -425,8 +409,18 @@ static rb_status condense(condenser *c, rb_friction_problem *local)
     rb_status s = c->body && c->number && c->f && c->v ? RB_OK : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_sparse_components(&c->p->K, &c->bodies, c->body);
-    if (s == RB_OK)
-        s = condense_bodies(c, local->q);
+    if (s == RB_OK) {
+        s = list_bodies(c);
+        const size_t bodies = c->bodies > 0 ? (size_t)c->bodies : 1;
+        c->Y = calloc(bodies, sizeof *c->Y);
+        c->W = calloc(bodies, sizeof *c->W);
+        if (s == RB_OK && !(c->Y && c->W))
+            s = RB_ENOMEM;
+        for (int body = 0; s == RB_OK && body < c->bodies; body++)
+            s = c->dofs_of[body + 1] - c->dofs_of[body] <= MOST_DOFS
+                    ? condense_small(c, body, local->q)
+                    : condense_large(c, body, local->q);
+    }
     if (s == RB_OK)
         s = assemble(c, (int)m, &local->Ws);
     for (int b = 0; b < c->bodies; b++) {

@@ -7,25 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Moves what a problem without constraints has of the file. */
-static void adopt_fclib(rb_io_fclib *file, rb_friction_problem *p)
-{
-    *p = (rb_friction_problem){.form = file->global ? RB_FRICTION_GLOBAL
-                                                    : RB_FRICTION_LOCAL_SPARSE,
-                               .dimension = file->spacedim,
-                               .contacts = file->contacts,
-                               .mu = file->mu,
-                               .Ws = file->W,
-                               .q = file->q,
-                               .dofs = file->global ? file->M.rows : 0,
-                               .K = file->M,
-                               .H = file->H,
-                               .f = file->f,
-                               .w = file->w};
-    file->W = file->M = file->H = (rb_sparse){0};
-    file->mu = file->q = file->f = file->w = NULL;
-}
-
 static rb_status read_fclib(const char *path, rb_friction_problem *problem,
                             rb_message *why)
 {
@@ -34,7 +15,22 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem,
     rb_status s = rb_io_fclib_read(path, &file, why);
     if (s != RB_OK)
         return s;
-    adopt_fclib(&file, problem);
+    /* Moves what a problem without constraints has of the file. */
+    rb_friction_problem *p = problem;
+    *p = (rb_friction_problem){.form = file.global ? RB_FRICTION_GLOBAL
+                                                   : RB_FRICTION_LOCAL_SPARSE,
+                               .dimension = file.spacedim,
+                               .contacts = file.contacts,
+                               .mu = file.mu,
+                               .Ws = file.W,
+                               .q = file.q,
+                               .dofs = file.global ? file.M.rows : 0,
+                               .K = file.M,
+                               .H = file.H,
+                               .f = file.f,
+                               .w = file.w};
+    file.W = file.M = file.H = (rb_sparse){0};
+    file.mu = file.q = file.f = file.w = NULL;
     if (file.rolling)
         s = rb_friction_split_rolling(problem, file.mu_r, &detail);
     if (s == RB_OK && file.rolling)
@@ -77,17 +73,6 @@ static rb_status adopt_siconos(rb_io_friction *file, rb_friction_problem *p)
     return s;
 }
 
-static rb_status read_siconos(const char *path, rb_friction_problem *problem,
-                              rb_message *why)
-{
-    rb_io_friction file = {0};
-    rb_status s = rb_io_siconos_read_friction(path, &file, why);
-    if (s == RB_OK)
-        s = adopt_siconos(&file, problem);
-    rb_io_friction_free(&file);
-    return s;
-}
-
 /* Takes over the vectors of the file. */
 static rb_status adopt_global(rb_io_friction_global *file, rb_friction_problem *p)
 {
@@ -120,7 +105,11 @@ static rb_status read_text(const char *path, rb_friction_problem *problem,
                            rb_message *why)
 {
     rb_message other = {""};
-    const rb_status s = read_siconos(path, problem, why);
+    rb_io_friction file = {0};
+    rb_status s = rb_io_siconos_read_friction(path, &file, why);
+    if (s == RB_OK)
+        s = adopt_siconos(&file, problem);
+    rb_io_friction_free(&file);
     const rb_status t = s == RB_EFORMAT ? read_global(path, problem, &other) : s;
     if (t == RB_ENOMEM && s == RB_EFORMAT)
         return rb_fail(why, t, "%s", rb_status_reason(t, &other));
@@ -188,24 +177,6 @@ void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data)
     *data = (rb_friction_soclcp_data){0};
 }
 
-/* S^-1 M S^-1 and S^-1 q, S = tau on the first entry of every cone */
-static void to_slope_one(rb_friction_soclcp_data *d, const rb_io_soclcp *file)
-{
-    const size_t n = (size_t)file->n;
-    for (int c = 0; c < file->cones; c++) {
-        const size_t first = (size_t)file->start[c];
-        d->size[c] = file->start[c + 1] - file->start[c];
-        if (d->size[c] == 1) /* a half-line has no slope */
-            d->tau[c] = 1.0;
-        for (size_t i = 0; i < n; i++)
-            d->M[i + first * n] /= d->tau[c];
-        for (size_t j = 0; j < n; j++)
-            d->M[first + j * n] /= d->tau[c];
-        d->q[first] /= d->tau[c];
-    }
-    d->problem = (rb_friction_soclcp_problem){file->n, d->M, d->q, file->cones, d->size};
-}
-
 static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file,
                               rb_friction_soclcp_data *d, rb_message *why)
 {
@@ -221,7 +192,20 @@ static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file,
     d->q = file->q;
     d->tau = file->tau;
     file->M.dense = file->q = file->tau = NULL;
-    to_slope_one(d, file);
+    /* S^-1 M S^-1 and S^-1 q, S = tau on the first entry of every cone */
+    const size_t n = (size_t)file->n;
+    for (int c = 0; c < file->cones; c++) {
+        const size_t first = (size_t)file->start[c];
+        d->size[c] = file->start[c + 1] - file->start[c];
+        if (d->size[c] == 1) /* a half-line has no slope */
+            d->tau[c] = 1.0;
+        for (size_t i = 0; i < n; i++)
+            d->M[i + first * n] /= d->tau[c];
+        for (size_t j = 0; j < n; j++)
+            d->M[first + j * n] /= d->tau[c];
+        d->q[first] /= d->tau[c];
+    }
+    d->problem = (rb_friction_soclcp_problem){file->n, d->M, d->q, file->cones, d->size};
     return RB_OK;
 }
 

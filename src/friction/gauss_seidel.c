@@ -36,14 +36,6 @@ typedef struct {
     rb_status failed;
 } sweeper;
 
-/* u = W r + q of the task is kept up with every change of r. */
-static void start_velocities(sweeper *s)
-{
-    const rb_friction_task *t = s->task;
-    memcpy(t->u, t->shared->local->q, (size_t)t->m * sizeof(double));
-    s->touched += rb_friction_blocks_add_all(s->blocks, t->r, t->u);
-}
-
 static rb_status wanted_rho(sweeper *s)
 {
     const size_t nc = (size_t)s->task->contacts;
@@ -77,7 +69,10 @@ static rb_status start_sweeps(rb_friction_task *task, int flags, void *state)
         return RB_ENOMEM;
     for (int c = 0; c < task->contacts; c++)
         s->lambda[c] = 0.0;
-    start_velocities(s);
+    /* u = W r + q of the task is kept up with every change of r. */
+    const rb_friction_task *t = s->task;
+    memcpy(t->u, t->shared->local->q, (size_t)t->m * sizeof(double));
+    s->touched += rb_friction_blocks_add_all(s->blocks, t->r, t->u);
     return RB_OK;
 }
 
@@ -93,30 +88,6 @@ static void finish_sweeps(void *state)
     free(s->rho);
 }
 
-static const rb_friction_contact *wanted_contact(sweeper *s, int c)
-{
-    const int d = s->task->d;
-    if (!s->contact[c].W)
-        rb_friction_contact_init(
-            d, s->task->shared->local->mu[c],
-            s->blocks->x + (size_t)s->blocks->diag[c] * (size_t)(d * d), &s->contact[c]);
-    return &s->contact[c];
-}
-
-/* The new force of contact c where q is its velocity without it; steps taken. */
-static int solve_contact(sweeper *s, int c, const rb_friction_contact *contact,
-                         const double *q, double *r)
-{
-    if (s->flags & RB_FRICTION_SWEEP_PROJECTION)
-        return rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
-    const int steps = rb_friction_contact_exact(contact, &s->lambda[c], q, r);
-    if (steps)
-        return steps;
-    s->failed = wanted_rho(s);
-    return s->failed == RB_OK ? rb_friction_contact_newton(contact, s->rho + 2 * c, q, r)
-                              : 1;
-}
-
 /* One contact with the others held; returns ||change||^2.  Inline, so that its short
  * loops are compiled for each dimension. */
 static inline double relax(int d, sweeper *s, int c)
@@ -124,7 +95,12 @@ static inline double relax(int d, sweeper *s, int c)
     double *r = s->task->r + c * d, *u = s->task->u + c * d;
     if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
         return 0.0; /* it stays open */
-    const rb_friction_contact *contact = wanted_contact(s, c);
+    if (!s->contact[c].W)
+        rb_friction_contact_init(s->task->d, s->task->shared->local->mu[c],
+                                 s->blocks->x + (size_t)s->blocks->diag[c] *
+                                                    (size_t)(s->task->d * s->task->d),
+                                 &s->contact[c]);
+    const rb_friction_contact *contact = &s->contact[c];
     const double *W = contact->W;
     double dr[3], q[3], change = 0.0;
     for (int a = 0; a < d; a++) {
@@ -133,7 +109,20 @@ static inline double relax(int d, sweeper *s, int c)
         for (int b = 0; b < d; b++)
             q[a] -= W[a + b * d] * r[b];
     }
-    s->steps += solve_contact(s, c, contact, q, r);
+    /* The new force of contact c where q is its velocity without it; steps taken. */
+    if (s->flags & RB_FRICTION_SWEEP_PROJECTION)
+        s->steps += rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
+    else {
+        const int steps = rb_friction_contact_exact(contact, &s->lambda[c], q, r);
+        if (steps)
+            s->steps += steps;
+        else {
+            s->failed = wanted_rho(s);
+            s->steps += s->failed == RB_OK
+                            ? rb_friction_contact_newton(contact, s->rho + 2 * c, q, r)
+                            : 1;
+        }
+    }
     for (int a = 0; a < d; a++) {
         dr[a] += r[a];
         change += dr[a] * dr[a];
@@ -161,12 +150,6 @@ static double sweep(sweeper *s)
     s->touched = s->steps = 0.0;
     const double norm = rb_friction_norm((size_t)t->m, t->r);
     return norm > 0.0 ? sqrt(change) / norm : sqrt(change);
-}
-
-/* Early on, where a few sweeps may do, it looks at every power of two. */
-static int looks_now(int k, int limit)
-{
-    return k % LOOK_EVERY == 0 || k == limit || (k < LOOK_EVERY && (k & (k - 1)) == 0);
 }
 
 /* What rounding of the velocities kept up cannot reach. */
@@ -258,16 +241,6 @@ static rb_status accelerate(sweeper *s, double change)
 #define STALL_FROM 16
 #define STALL 0.85
 
-/* The measure has hardly fallen while the number of sweeps doubled. */
-static int stalls(sweeper *s, double error)
-{
-    if (s->k < STALL_FROM / 2 || (s->k & (s->k - 1)) != 0)
-        return 0;
-    const double before = s->before;
-    s->before = error;
-    return s->k >= STALL_FROM && error > STALL * before;
-}
-
 /* After a sweep, which changed r by `change` (14); RB_MAXITER: it goes on. */
 static rb_status assess(sweeper *s, double change, int *stalled)
 {
@@ -277,7 +250,9 @@ static rb_status assess(sweeper *s, double change, int *stalled)
         return s->failed;
     if (rb_friction_task_late(t))
         return RB_INTERRUPTED;
-    if (change > s->tau && !looks_now(s->k, s->limit))
+    /* Early on, where a few sweeps may do, it looks at every power of two. */
+    if (change > s->tau && !(s->k % LOOK_EVERY == 0 || s->k == s->limit ||
+                             (s->k < LOOK_EVERY && (s->k & (s->k - 1)) == 0)))
         return RB_MAXITER;
     const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
     if (rb_friction_task_accepts(t, error))
@@ -286,7 +261,14 @@ static rb_status assess(sweeper *s, double change, int *stalled)
         return RB_SINGULAR;
     if (change <= LEAST_CHANGE)
         return RB_INACCURATE;
-    *stalled = stalls(s, error);
+    /* The measure has hardly fallen while the number of sweeps doubled. */
+    if (s->k < STALL_FROM / 2 || (s->k & (s->k - 1)) != 0)
+        *stalled = 0;
+    else {
+        const double before = s->before;
+        s->before = error;
+        *stalled = s->k >= STALL_FROM && error > STALL * before;
+    }
     s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     return RB_MAXITER;
 }

@@ -25,22 +25,6 @@ typedef struct {
     double length;              /* of a gradient step */
 } search;
 
-/* y and half of |y|^2 at x. */
-static double closing(search *s, const double *x, double *y)
-{
-    const int d = s->local->dimension;
-    double sum = 0.0;
-    for (int c = 0; c < s->local->contacts; c++)
-        for (int a = 0; a < d; a++)
-            s->gradient[c * d + a] = s->rho[2 * c] * x[c * d + a];
-    rb_friction_blocks_apply(&s->blocks, s->gradient, s->w);
-    for (int c = 0; c < s->local->contacts; c++) {
-        y[c] = fmax(0.0, -(s->w[c * d] + s->local->q[c * d]));
-        sum += 0.5 * y[c] * y[c];
-    }
-    return sum;
-}
-
 /* gradient = -A'y: block (c, e) of W takes the forces of e to the velocities of c. */
 static void transposed(search *s, const double *y)
 {
@@ -90,7 +74,16 @@ static void minimise(search *s, double *y)
     const double work = 4.0 * s->blocks.p[s->blocks.contacts] * d * d;
     double t = 1.0, last = INFINITY;
     for (int k = 0; k < STEPS && k * work < OPERATIONS; k++) {
-        const double value = closing(s, s->z, y);
+        /* y and half of |y|^2 at x. */
+        double value = 0.0;
+        for (int c = 0; c < s->local->contacts; c++)
+            for (int a = 0; a < d; a++)
+                s->gradient[c * d + a] = s->rho[2 * c] * s->z[c * d + a];
+        rb_friction_blocks_apply(&s->blocks, s->gradient, s->w);
+        for (int c = 0; c < s->local->contacts; c++) {
+            y[c] = fmax(0.0, -(s->w[c * d] + s->local->q[c * d]));
+            value += 0.5 * y[c] * y[c];
+        }
         const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
         const int grows = value > last;
         double change = 0.0, size = 0.0;
@@ -115,23 +108,6 @@ static void minimise(search *s, double *y)
     }
 }
 
-/* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at most
- * `miss`, so that 0 <= y'(A x + q_N) <= y'q_N + miss sum x_N.  0: y proves nothing. */
-static double proved(search *s, const double *y)
-{
-    const int d = s->local->dimension;
-    double load = 0.0, miss = 0.0;
-    transposed(s, y);
-    for (int c = 0; c < s->local->contacts; c++) {
-        const double *h = s->gradient + c * d;
-        load += y[c] * s->local->q[c * d];
-        miss = fmax(miss, s->local->mu[c] * rb_friction_tangential(d, h) - h[0]);
-    }
-    if (!(load < 0.0))
-        return 0.0;
-    return miss > 0.0 ? -load / miss : INFINITY;
-}
-
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
                                  double *least)
 {
@@ -153,7 +129,21 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
         s.length = step_length(&s, y);
         memset(s.z, 0, m * sizeof *s.z);
         minimise(&s, y);
-        *least = proved(&s, y);
+        /* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at
+         * most `miss`, so that 0 <= y'(A x + q_N) <= y'q_N + miss sum x_N.  0: y proves
+         * nothing. */
+        const int d = s.local->dimension;
+        double load = 0.0, miss = 0.0;
+        transposed(&s, y);
+        for (int c = 0; c < s.local->contacts; c++) {
+            const double *h = s.gradient + c * d;
+            load += y[c] * s.local->q[c * d];
+            miss = fmax(miss, s.local->mu[c] * rb_friction_tangential(d, h) - h[0]);
+        }
+        if (!(load < 0.0))
+            *least = 0.0;
+        else
+            *least = miss > 0.0 ? -load / miss : INFINITY;
     }
     rb_friction_blocks_free(&s.blocks);
     free(s.x);

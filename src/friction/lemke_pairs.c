@@ -14,17 +14,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* W's mean diagonal: with W and q divided by it all unknowns but lambda are forces. */
-static double mean_diagonal(const rb_friction_blocks *w)
-{
-    double sum = 0.0;
-    for (int c = 0; c < w->contacts; c++) {
-        const double *x = w->x + 4 * (size_t)w->diag[c];
-        sum += fabs(x[0]) + fabs(x[3]);
-    }
-    return sum > 0.0 ? sum / (2.0 * w->contacts) : 1.0;
-}
-
 static void put(rb_triplets *t, int row, int col, double x)
 {
     if (x != 0.0)
@@ -64,16 +53,6 @@ double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots
     return pivots * (4.5 * entries + 100.0 * m);
 }
 
-static void forces(const rb_friction_task *task, const double *z)
-{
-    const int nc = task->contacts;
-    for (int c = 0; c < nc; c++) {
-        const double limit = task->problem->mu[c] * z[c];
-        task->r[2 * c] = z[c];
-        task->r[2 * c + 1] = fmin(fmax(z[nc + c] - z[2 * nc + c], -limit), limit);
-    }
-}
-
 rb_status rb_friction_lemke_pairs(rb_friction_task *task)
 {
     const rb_friction_problem *local = task->shared->local;
@@ -86,7 +65,14 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
     if (s != RB_OK || !left)
         return s != RB_OK ? s : RB_MAXITER;
     double *q = rb_alloc(4 * (size_t)nc, 2), *z = q ? q + 4 * (size_t)nc : NULL;
-    const double unit = mean_diagonal(w);
+    /* W's mean diagonal: with W and q divided by it all unknowns but lambda are forces.
+     */
+    double sum = 0.0;
+    for (int c = 0; c < w->contacts; c++) {
+        const double *x = w->x + 4 * (size_t)w->diag[c];
+        sum += fabs(x[0]) + fabs(x[3]);
+    }
+    const double unit = sum > 0.0 ? sum / (2.0 * w->contacts) : 1.0;
     s = q ? form_matrix(w, local->mu, unit, &M) : RB_ENOMEM;
     for (int c = 0; s == RB_OK && c < nc; c++) {
         q[c] = local->q[2 * c] / unit;
@@ -102,7 +88,11 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
         task->info->flops += rb_friction_lemke_pairs_flops(task, info.iters);
     }
     if (s == RB_OK) {
-        forces(task, z);
+        for (int c = 0; c < nc; c++) {
+            const double limit = task->problem->mu[c] * z[c];
+            task->r[2 * c] = z[c];
+            task->r[2 * c + 1] = fmin(fmax(z[nc + c] - z[2 * nc + c], -limit), limit);
+        }
         if (!rb_friction_task_accepts(task, rb_friction_task_error(task)))
             s = RB_INACCURATE;
     }

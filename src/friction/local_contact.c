@@ -120,14 +120,6 @@ static int slide(const rb_friction_contact *c, double qn, const double *b, doubl
     return k;
 }
 
-/* In 2D the force keeps the side of the stuck one, t on entry, and ||t|| = mu r_N is
- * linear in ||t||: positive at 0 and negative for the stuck force. */
-static void slide_in_plane(const rb_friction_contact *c, double qn, double *t)
-{
-    const double slope = t[0] < 0.0 ? -c->mu : c->mu;
-    t[0] = -slope * qn * c->normal / (1.0 + slope * c->row[0]);
-}
-
 int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
                               const double *q, double *r)
 {
@@ -147,9 +139,14 @@ int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
         tangential_force(c, 0.0, b, t);
         const double most = c->mu * normal_force(c, q[0], t);
         if (!(most >= 0.0 && t[0] * t[0] + t[1] * t[1] <= most * most)) {
-            if (d == 2)
-                slide_in_plane(c, q[0], t);
-            else
+            if (d == 2) {
+                /* In 2D the force keeps the side of the stuck one, t on entry, and ||t||
+                 * = mu r_N is linear in ||t||: positive at 0 and negative for the stuck
+                 * force. */
+                const double qn = q[0];
+                const double slope = t[0] < 0.0 ? -c->mu : c->mu;
+                t[0] = -slope * qn * c->normal / (1.0 + slope * c->row[0]);
+            } else
                 steps += slide(c, q[0], b, lambda, t);
         }
     }
@@ -189,15 +186,6 @@ static double contact_size(const rb_friction_contact *c, double rho, const doubl
     return size;
 }
 
-static void project_step(const rb_friction_contact *c, double rho, const double *r,
-                         const double *uhat, double *p)
-{
-    double z[3];
-    for (int a = 0; a < c->d; a++)
-        z[a] = r[a] - rho * uhat[a];
-    rb_friction_project(c->d, c->mu, z, p);
-}
-
 static void contact_uhat(const rb_friction_contact *c, const double *q, const double *r,
                          double *uhat)
 {
@@ -214,7 +202,10 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho,
     int k = 0;
     for (; k < PROJECTIONS; k++) {
         double step = 0.0, change = 0.0, size = 0.0;
-        project_step(c, *rho, r, uhat, p);
+        double z[3];
+        for (int a = 0; a < c->d; a++)
+            z[a] = r[a] - *rho * uhat[a];
+        rb_friction_project(c->d, c->mu, z, p);
         contact_uhat(c, q, p, up);
         for (int a = 0; a < d; a++) {
             step += (p[a] - r[a]) * (p[a] - r[a]);
@@ -234,12 +225,6 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho,
             *rho /= RB_FRICTION_UPK_SHRINK;
     }
     return k + 1;
-}
-
-/* ||r_T|| <= mu r_N */
-static int inside(const rb_friction_contact *c, const double *r)
-{
-    return rb_friction_tangential(c->d, r) <= c->mu * r[0];
 }
 
 /* 2D: r_T = side mu r_N and u_N = 0, when u_T then opposes r_T */
@@ -265,7 +250,8 @@ static int closed_form(const rb_friction_contact *c, const double *q, double *r)
     if (solve_small(d, c->W, q, stuck)) {
         for (int a = 0; a < d; a++)
             stuck[a] = -stuck[a];
-        if (inside(c, stuck)) {
+        /* ||r_T|| <= mu r_N */
+        if (rb_friction_tangential(c->d, stuck) <= c->mu * stuck[0]) {
             for (int a = 0; a < d; a++)
                 r[a] = stuck[a];
             return 1;

@@ -29,21 +29,16 @@ static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spri
     return s;
 }
 
-static double mean_diagonal(const rb_sparse *k)
-{
-    double sum = 0.0;
-    for (int j = 0; j < k->cols; j++)
-        for (int l = k->p[j]; l < k->p[j + 1]; l++)
-            if (k->i[l] == j)
-                sum += fabs(k->x[l]);
-    return sum > 0.0 ? sum / k->cols : 1.0;
-}
-
 static rb_status factor_with_springs(rb_friction_measure *measure)
 {
     const rb_friction_problem *p = measure->problem;
     rb_sparse held = {0};
-    measure->spring = mean_diagonal(&p->K);
+    double sum = 0.0;
+    for (int j = 0; j < p->K.cols; j++)
+        for (int l = p->K.p[j]; l < p->K.p[j + 1]; l++)
+            if (p->K.i[l] == j)
+                sum += fabs(p->K.x[l]);
+    measure->spring = sum > 0.0 ? sum / p->K.cols : 1.0;
     rb_status s = add_springs(&p->K, &p->H, measure->spring, &held);
     if (s == RB_OK)
         s = rb_sparse_cholesky_create(&held, &measure->factor);
@@ -91,24 +86,19 @@ rb_status rb_friction_measure_spring_load(rb_friction_measure *measure, double *
     return s;
 }
 
-/* ||q||, q of the structure held by the springs where K is singular */
-static rb_status global_scale(rb_friction_measure *measure)
-{
-    const rb_friction_problem *p = measure->problem;
-    const size_t m = (size_t)(p->dimension * p->contacts);
-    double *q = rb_alloc(m, 1);
-    const rb_status s = q ? rb_friction_measure_spring_load(measure, q) : RB_ENOMEM;
-    if (s == RB_OK)
-        measure->scale = norm_or_one(m, q);
-    free(q);
-    return s;
-}
-
 rb_status rb_friction_measure_reload(rb_friction_measure *measure)
 {
     const rb_friction_problem *p = measure->problem;
-    if (p->form == RB_FRICTION_GLOBAL)
-        return global_scale(measure);
+    if (p->form == RB_FRICTION_GLOBAL) {
+        /* ||q||, q of the structure held by the springs where K is singular */
+        const size_t m = (size_t)(p->dimension * p->contacts);
+        double *q = rb_alloc(m, 1);
+        const rb_status s = q ? rb_friction_measure_spring_load(measure, q) : RB_ENOMEM;
+        if (s == RB_OK)
+            measure->scale = norm_or_one(m, q);
+        free(q);
+        return s;
+    }
     measure->scale = norm_or_one((size_t)(p->dimension * p->contacts), p->q);
     return RB_OK;
 }
@@ -148,23 +138,6 @@ void rb_friction_measure_free(rb_friction_measure *measure)
     rb_sparse_cholesky_free(measure->factor);
     free(measure->y);
     *measure = (rb_friction_measure){0};
-}
-
-/* Contacts that are open have no force, and cost nothing. */
-static void local_velocity(const rb_friction_problem *p, const double *r, double *u)
-{
-    const int m = p->dimension * p->contacts, dense = p->form == RB_FRICTION_LOCAL_DENSE;
-    const rb_sparse *w = &p->Ws;
-    for (int k = 0; k < m; k++)
-        u[k] = p->q[k];
-    for (int j = 0; j < m; j++) {
-        if (r[j] == 0.0)
-            continue;
-        for (int i = 0; dense && i < m; i++)
-            u[i] += p->W[i + (size_t)j * (size_t)m] * r[j];
-        for (int k = dense ? 0 : w->p[j], end = dense ? 0 : w->p[j + 1]; k < end; k++)
-            u[w->i[k]] += w->x[k] * r[j];
-    }
 }
 
 /* v -= K_k^-1 (K v - H r - f); correction: ||H' (what was subtracted)||.  Where K is
@@ -215,8 +188,22 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
         *paper = INFINITY;
     if (p->form == RB_FRICTION_GLOBAL)
         s = balance(measure, r, v, u, &correction);
-    else
-        local_velocity(p, r, u);
+    else {
+        /* Contacts that are open have no force, and cost nothing. */
+        const int m = p->dimension * p->contacts,
+                  dense = p->form == RB_FRICTION_LOCAL_DENSE;
+        const rb_sparse *w = &p->Ws;
+        for (int k = 0; k < m; k++)
+            u[k] = p->q[k];
+        for (int j = 0; j < m; j++) {
+            if (r[j] == 0.0)
+                continue;
+            for (int i = 0; dense && i < m; i++)
+                u[i] += p->W[i + (size_t)j * (size_t)m] * r[j];
+            for (int k = dense ? 0 : w->p[j], end = dense ? 0 : w->p[j + 1]; k < end; k++)
+                u[w->i[k]] += w->x[k] * r[j];
+        }
+    }
     if (s != RB_OK)
         return s;
     const double norm = rb_friction_natural_norm(

@@ -79,33 +79,6 @@ static double evaluate(newton *s, const double *r, const double *u, double *F)
     return sum;
 }
 
-/* W + shift / rho in the matrix keeps it regular where contacts are redundant; the roots
- * stay where they are. */
-static void add_shift(newton *s)
-{
-    const int d = s->task->d;
-    for (int c = 0; c < s->task->contacts; c++)
-        for (int b = 0; b < d; b++) {
-            const double eta = s->shift / s->system.rho[2 * c + (b > 0)];
-            for (int a = 0; a < d; a++)
-                s->at.A[(c * d + b) * d + a] += eta * s->at.B[(c * d + b) * d + a];
-        }
-}
-
-static rb_status direction(newton *s)
-{
-    rb_status st = RB_SINGULAR;
-    for (; st == RB_SINGULAR && s->shift <= LARGEST_SHIFT; s->shift *= 1e3) {
-        add_shift(s);
-        st = rb_friction_system_step(&s->system, &s->at, s->e, s->dr, s->dv);
-        if (st == RB_OK)
-            break;
-    }
-    if (st == RB_OK)
-        rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
-    return st;
-}
-
 /* Merit of the point t along the direction; force units throughout. */
 static double trial(newton *s, double t, double imbalance)
 {
@@ -149,7 +122,23 @@ static rb_status step(newton *s)
     const double before = t->info->flops;
     const double merit = evaluate(s, t->r, t->u, s->at.F);
     rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
-    const rb_status st = direction(s);
+    rb_status st = RB_SINGULAR;
+    for (; st == RB_SINGULAR && s->shift <= LARGEST_SHIFT; s->shift *= 1e3) {
+        /* W + shift / rho in the matrix keeps it regular where contacts are redundant;
+         * the roots stay where they are. */
+        const int d = s->task->d;
+        for (int c = 0; c < s->task->contacts; c++)
+            for (int b = 0; b < d; b++) {
+                const double eta = s->shift / s->system.rho[2 * c + (b > 0)];
+                for (int a = 0; a < d; a++)
+                    s->at.A[(c * d + b) * d + a] += eta * s->at.B[(c * d + b) * d + a];
+            }
+        st = rb_friction_system_step(&s->system, &s->at, s->e, s->dr, s->dv);
+        if (st == RB_OK)
+            break;
+    }
+    if (st == RB_OK)
+        rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
     if (st == RB_OK) {
         const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
         s->history[s->k % MEMORY] = merit + imbalance;

@@ -69,26 +69,6 @@ static rb_status sparse_asymmetry(const rb_sparse *a, double *difference, double
     return RB_OK;
 }
 
-static rb_status check_global(const rb_friction_problem *p, int m, rb_message *why)
-{
-    if (p->dofs < 1)
-        return rb_fail(why, RB_EINVAL, "%d degrees of freedom", p->dofs);
-    rb_status s = rb_friction_check_sparse("K", &p->K, p->dofs, p->dofs, why);
-    if (s == RB_OK)
-        s = rb_friction_check_sparse("H", &p->H, p->dofs, m, why);
-    if (s == RB_OK)
-        s = rb_friction_check_vector("f", (size_t)p->dofs, p->f, why);
-    if (s == RB_OK)
-        s = rb_friction_check_vector("w", (size_t)m, p->w, why);
-    double difference = 0.0, largest = 0.0;
-    if (s == RB_OK)
-        s = sparse_asymmetry(&p->K, &difference, &largest);
-    if (s == RB_OK && difference > 1e-8 * largest)
-        return rb_fail(why, RB_EINVAL, "K is not symmetric: |K - K'| = %.2g of |K|",
-                       difference / largest);
-    return s;
-}
-
 rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *why)
 {
     if (p->dimension != 2 && p->dimension != 3)
@@ -103,8 +83,24 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
                         p->mu[c]);
     if (s != RB_OK)
         return s;
-    if (p->form == RB_FRICTION_GLOBAL)
-        return check_global(p, m, why);
+    if (p->form == RB_FRICTION_GLOBAL) {
+        if (p->dofs < 1)
+            return rb_fail(why, RB_EINVAL, "%d degrees of freedom", p->dofs);
+        s = rb_friction_check_sparse("K", &p->K, p->dofs, p->dofs, why);
+        if (s == RB_OK)
+            s = rb_friction_check_sparse("H", &p->H, p->dofs, m, why);
+        if (s == RB_OK)
+            s = rb_friction_check_vector("f", (size_t)p->dofs, p->f, why);
+        if (s == RB_OK)
+            s = rb_friction_check_vector("w", (size_t)m, p->w, why);
+        double difference = 0.0, largest = 0.0;
+        if (s == RB_OK)
+            s = sparse_asymmetry(&p->K, &difference, &largest);
+        if (s == RB_OK && difference > 1e-8 * largest)
+            return rb_fail(why, RB_EINVAL, "K is not symmetric: |K - K'| = %.2g of |K|",
+                           difference / largest);
+        return s;
+    }
     s = p->form == RB_FRICTION_LOCAL_DENSE
             ? rb_friction_check_vector("W", (size_t)m * (size_t)m, p->W, why)
             : rb_friction_check_sparse("W", &p->Ws, m, m, why);
@@ -113,29 +109,6 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
 
 /* ---- Facts ------------------------------------------------------------------------- */
 
-/* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
-static rb_status examine_definiteness(const rb_sparse *w, double largest, int *indefinite)
-{
-    rb_triplets t = {.rows = w->rows, .cols = w->cols};
-    rb_sparse sum = {0};
-    rb_sparse_cholesky *factor = NULL;
-    for (int j = 0; j < w->cols; j++) {
-        rb_triplets_add(&t, j, j, 1e-10 * largest);
-        for (int k = w->p[j]; k < w->p[j + 1]; k++) {
-            rb_triplets_add(&t, w->i[k], j, 0.5 * w->x[k]);
-            rb_triplets_add(&t, j, w->i[k], 0.5 * w->x[k]);
-        }
-    }
-    rb_status s = rb_sparse_from_triplets(&t, &sum);
-    if (s == RB_OK)
-        s = rb_sparse_cholesky_create(&sum, &factor);
-    *indefinite = s == RB_SINGULAR;
-    rb_sparse_cholesky_free(factor);
-    rb_sparse_free(&sum);
-    rb_triplets_free(&t);
-    return s == RB_SINGULAR ? RB_OK : s;
-}
-
 static rb_status examine_local(const rb_sparse *w, int with_rank,
                                rb_friction_facts *facts)
 {
@@ -143,8 +116,28 @@ static rb_status examine_local(const rb_sparse *w, int with_rank,
     rb_status s = with_rank ? rb_sparse_rank(w, &facts->rank) : RB_OK;
     if (s == RB_OK)
         s = sparse_asymmetry(w, &difference, &largest);
-    if (s == RB_OK)
-        s = examine_definiteness(w, largest, &facts->indefinite);
+    if (s == RB_OK) {
+        /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
+        int *indefinite = &facts->indefinite;
+        rb_triplets t = {.rows = w->rows, .cols = w->cols};
+        rb_sparse sum = {0};
+        rb_sparse_cholesky *factor = NULL;
+        for (int j = 0; j < w->cols; j++) {
+            rb_triplets_add(&t, j, j, 1e-10 * largest);
+            for (int k = w->p[j]; k < w->p[j + 1]; k++) {
+                rb_triplets_add(&t, w->i[k], j, 0.5 * w->x[k]);
+                rb_triplets_add(&t, j, w->i[k], 0.5 * w->x[k]);
+            }
+        }
+        s = rb_sparse_from_triplets(&t, &sum);
+        if (s == RB_OK)
+            s = rb_sparse_cholesky_create(&sum, &factor);
+        *indefinite = s == RB_SINGULAR;
+        rb_sparse_cholesky_free(factor);
+        rb_sparse_free(&sum);
+        rb_triplets_free(&t);
+        s = s == RB_SINGULAR ? RB_OK : s;
+    }
     if (s == RB_OK)
         facts->asymmetry = largest > 0.0 ? difference / largest : 0.0;
     return s;

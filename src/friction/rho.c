@@ -32,25 +32,6 @@ static rb_status global_compliances(const rb_friction_problem *p, double *rho)
     return RB_OK;
 }
 
-/* W's own block of a contact: d x d column-major */
-static void own_block(const rb_friction_problem *p, int contact, double *block)
-{
-    const int d = p->dimension, top = contact * d;
-    const size_t m = (size_t)(d * p->contacts);
-    for (int k = 0; k < d * d; k++)
-        block[k] = 0.0;
-    for (int b = 0; b < d; b++) {
-        if (p->form == RB_FRICTION_LOCAL_DENSE) {
-            for (int a = 0; a < d; a++)
-                block[a + b * d] = p->W[(size_t)(top + a) + (size_t)(top + b) * m];
-            continue;
-        }
-        for (int k = p->Ws.p[top + b]; k < p->Ws.p[top + b + 1]; k++)
-            if (p->Ws.i[k] >= top && p->Ws.i[k] < top + d)
-                block[p->Ws.i[k] - top + b * d] = p->Ws.x[k];
-    }
-}
-
 static double largest_tangential(int d, const double *w)
 {
     if (d == 2)
@@ -72,7 +53,21 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
             return s;
     }
     for (int c = 0; p->form != RB_FRICTION_GLOBAL && c < p->contacts; c++) {
-        own_block(p, c, w);
+        /* W's own block of a contact: d x d column-major */
+        const int d = p->dimension, top = c * d;
+        const size_t m = (size_t)(d * p->contacts);
+        for (int k = 0; k < d * d; k++)
+            w[k] = 0.0;
+        for (int b = 0; b < d; b++) {
+            if (p->form == RB_FRICTION_LOCAL_DENSE) {
+                for (int a = 0; a < d; a++)
+                    w[a + b * d] = p->W[(size_t)(top + a) + (size_t)(top + b) * m];
+                continue;
+            }
+            for (int k = p->Ws.p[top + b]; k < p->Ws.p[top + b + 1]; k++)
+                if (p->Ws.i[k] >= top && p->Ws.i[k] < top + d)
+                    w[p->Ws.i[k] - top + b * d] = p->Ws.x[k];
+        }
         rho[2 * c] = fabs(w[0]);
         rho[2 * c + 1] = largest_tangential(p->dimension, w);
     }

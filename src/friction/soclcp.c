@@ -134,15 +134,6 @@ double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const doubl
     return error_in(p, 1.0, x, y);
 }
 
-/* The inverse of the mean of M's diagonal */
-static double unit_of(const rb_friction_soclcp_problem *p)
-{
-    double trace = 0.0;
-    for (size_t i = 0; i < (size_t)p->n; i++)
-        trace += fabs(p->M[i + i * (size_t)p->n]);
-    return trace > 0.0 ? p->n / trace : 1.0;
-}
-
 static int canonical_accepts(void *context, const double *x)
 {
     canonical *c = context;
@@ -219,7 +210,11 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     rb_status s = check_canonical(p, &largest, &info->msg);
     if (s != RB_OK)
         return s;
-    const double unit = unit_of(p);
+    /* The inverse of the mean of M's diagonal */
+    double trace = 0.0;
+    for (size_t i = 0; i < (size_t)p->n; i++)
+        trace += fabs(p->M[i + i * (size_t)p->n]);
+    const double unit = trace > 0.0 ? p->n / trace : 1.0;
     const int acary = used.measure == RB_FRICTION_BY_ACARY;
     canonical c = {.p = p,
                    .unit = acary ? 1.0 : unit,
@@ -403,25 +398,6 @@ static int friction_late(void *context)
     return rb_friction_task_late(((friction *)context)->task);
 }
 
-static rb_status run_friction(friction *f, double *z)
-{
-    rb_friction_task *t = f->task;
-    const rb_friction_smooth_problem smooth = {
-        .n = t->m + t->contacts + t->n,
-        .context = f,
-        .residual = friction_residual,
-        .step = friction_step,
-        .accepts = friction_accepts,
-        .late = friction_late,
-    };
-    memcpy(z, t->r, (size_t)t->m * sizeof *z);
-    memcpy(z + t->m + t->contacts, t->v, (size_t)t->n * sizeof *z);
-    const int limit = rb_friction_task_left(t, LIMIT);
-    const rb_status st = rb_friction_smooth(&smooth, limit, z, &t->info->iters);
-    friction_accepts(f, z);
-    return st;
-}
-
 static rb_status run_smoothing(rb_friction_task *task, int variant)
 {
     (void)variant;
@@ -436,7 +412,20 @@ static rb_status run_smoothing(rb_friction_task *task, int variant)
         f.at.A = f.at.F + m;
         f.at.B = f.at.A + m * d;
         f.solve_for = f.at.B + m * d;
-        st = run_friction(&f, z);
+        rb_friction_task *t = f.task;
+        const rb_friction_smooth_problem smooth = {
+            .n = t->m + t->contacts + t->n,
+            .context = &f,
+            .residual = friction_residual,
+            .step = friction_step,
+            .accepts = friction_accepts,
+            .late = friction_late,
+        };
+        memcpy(z, t->r, (size_t)t->m * sizeof *z);
+        memcpy(z + t->m + t->contacts, t->v, (size_t)t->n * sizeof *z);
+        const int limit = rb_friction_task_left(t, LIMIT);
+        st = rb_friction_smooth(&smooth, limit, z, &t->info->iters);
+        friction_accepts(&f, z);
         task->info->flops += f.system.flops;
         rb_friction_system_free(&f.system);
     }

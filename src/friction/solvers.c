@@ -257,19 +257,6 @@ rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
     return s == RB_OK ? rb_friction_shared_reload(&handle->shared) : s;
 }
 
-/* The last solution is where the next call starts, unless that says otherwise. */
-static void keep_solution(rb_friction_handle *handle, const rb_friction_solution *at,
-                          size_t m, size_t n)
-{
-    if (!handle->last)
-        handle->last = rb_alloc(m + n, 1);
-    if (!handle->last)
-        return;
-    memcpy(handle->last, at->r, m * sizeof *at->r);
-    if (n)
-        memcpy(handle->last + m, at->v, n * sizeof *at->v);
-}
-
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
                                    const rb_friction_options *opt,
                                    const rb_friction_solution *solution,
@@ -290,8 +277,16 @@ rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
     if (!c.at.v)
         c.at.v = handle->shared.memory + m + n;
     s = solve(&handle->shared, &c);
-    if (s == RB_OK)
-        keep_solution(handle, &c.at, m, n);
+    if (s == RB_OK) {
+        /* The last solution is where the next call starts, unless that says otherwise. */
+        if (!handle->last)
+            handle->last = rb_alloc(m + n, 1);
+        if (handle->last) {
+            memcpy(handle->last, c.at.r, m * sizeof *c.at.r);
+            if (n)
+                memcpy(handle->last + m, c.at.v, n * sizeof *c.at.v);
+        }
+    }
     return s;
 }
 

@@ -27,22 +27,6 @@ static int number_closed(rb_friction_system *s, const double *A, const double *B
     return closed;
 }
 
-/* x: W dr of the open contacts, added */
-static void move_open(const rb_friction_system *s, const double *F, double *x)
-{
-    const int d = s->d;
-    for (int c = 0; c < s->contacts; c++) {
-        double dr[3] = {0.0, 0.0, 0.0};
-        int any = 0;
-        for (int a = 0; s->place[c] < 0 && a < d; a++) {
-            dr[a] = -F[c * d + a];
-            any |= dr[a] != 0.0;
-        }
-        if (any)
-            rb_friction_blocks_add(s->blocks, c, dr, x);
-    }
-}
-
 /* y = B x for d x d column-major B */
 static void times(int d, const double *B, const double *x, double *y)
 {
@@ -84,7 +68,17 @@ static rb_status solve_dense(rb_friction_system *s, int order,
         return st;
     for (int k = 0; k < s->m; k++)
         moved[k] = 0.0;
-    move_open(s, at->F, moved);
+    /* x: W dr of the open contacts, added */
+    for (int c = 0; c < s->contacts; c++) {
+        double dr[3] = {0.0, 0.0, 0.0};
+        int any = 0;
+        for (int a = 0; s->place[c] < 0 && a < s->d; a++) {
+            dr[a] = -at->F[c * s->d + a];
+            any |= dr[a] != 0.0;
+        }
+        if (any)
+            rb_friction_blocks_add(s->blocks, c, dr, moved);
+    }
     for (int c = 0; c < s->contacts; c++) {
         if (s->place[c] < 0)
             continue;
@@ -95,15 +89,6 @@ static rb_status solve_dense(rb_friction_system *s, int order,
         fill_dense_columns(s, c, (size_t)order, at->A, at->B);
     }
     return order ? rb_friction_system_solve_dense(s, order, 'N') : RB_OK;
-}
-
-/* x of the closed contacts -> dr of all; from the end, since both are in s->x */
-static void spread(rb_friction_system *s, const double *F)
-{
-    const int d = s->d;
-    for (int c = s->contacts - 1; c >= 0; c--)
-        for (int a = 0; a < d; a++)
-            s->x[c * d + a] = s->place[c] < 0 ? -F[c * d + a] : s->x[s->place[c] * d + a];
 }
 
 /* ---- Sparse ------------------------------------------------------------------------ */
@@ -144,31 +129,33 @@ static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
             }
 }
 
-static rb_status solve_sparse(rb_friction_system *s, const rb_friction_linearised *at)
-{
-    rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
-    if (st != RB_OK)
-        return st;
-    fill_sparse(s, at->A, at->B);
-    for (int k = 0; k < s->m; k++)
-        s->rhs[k] = -at->F[k];
-    st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
-    if (st == RB_OK)
-        st = rb_sparse_lu_solve(s->lu, s->rhs, s->x);
-    s->flops += 4.0 * s->j.p[s->j.cols];
-    return st;
-}
-
 rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linearised *at)
 {
     const double blocks = s->blocks->p[s->contacts], nc = s->contacts;
     const int order = s->d * number_closed(s, at->A, at->B);
     s->flops += 2.0 * s->d * s->d * s->d * blocks;
-    if (!rb_friction_system_is_dense(order, blocks / (nc * nc)))
-        return solve_sparse(s, at);
+    if (!rb_friction_system_is_dense(order, blocks / (nc * nc))) {
+        rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
+        if (st != RB_OK)
+            return st;
+        fill_sparse(s, at->A, at->B);
+        for (int k = 0; k < s->m; k++)
+            s->rhs[k] = -at->F[k];
+        st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+        if (st == RB_OK)
+            st = rb_sparse_lu_solve(s->lu, s->rhs, s->x);
+        s->flops += 4.0 * s->j.p[s->j.cols];
+        return st;
+    }
     const rb_status st = solve_dense(s, order, at);
-    if (st == RB_OK)
-        spread(s, at->F);
+    if (st == RB_OK) {
+        /* x of the closed contacts -> dr of all; from the end, since both are in s->x */
+        const int d = s->d;
+        for (int c = s->contacts - 1; c >= 0; c--)
+            for (int a = 0; a < d; a++)
+                s->x[c * d + a] =
+                    s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
+    }
     return st;
 }
 

@@ -18,34 +18,21 @@ typedef struct {
     rb_message why;
 } ending;
 
-/* What a crash would print, and the core it would leave, helps nobody. */
-static void be_quiet(void)
-{
-    const struct rlimit none = {0, 0};
-    const int null = open("/dev/null", O_WRONLY);
-    setrlimit(RLIMIT_CORE, &none);
-    dup2(null, STDERR_FILENO);
-}
-
 static void run_child(int to, io_work *work, const void *context)
 {
     ending end = {.status = RB_ENOMEM};
     FILE *out = fdopen(to, "wb");
-    be_quiet();
+    /* What a crash would print, and the core it would leave, helps nobody. */
+    const struct rlimit none = {0, 0};
+    const int null = open("/dev/null", O_WRONLY);
+    setrlimit(RLIMIT_CORE, &none);
+    dup2(null, STDERR_FILENO);
     if (out) {
         end.status = work(out, context, &end.why);
         fwrite(&end, sizeof end, 1, out);
         fflush(out);
     }
     _exit(0); /* the library's own end may crash too */
-}
-
-static rb_status crashed(const char *name, int status, rb_message *why)
-{
-    if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
-        return rb_fail(why, RB_ENOMEM,
-                       "%s: HDF5 crashed: out of memory, or a damaged file", name);
-    return rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
 }
 
 rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
@@ -73,7 +60,10 @@ rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
         ;
     if (!all || *size < sizeof e) {
         free(all);
-        return crashed(name, status, why);
+        if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
+            return rb_fail(why, RB_ENOMEM,
+                           "%s: HDF5 crashed: out of memory, or a damaged file", name);
+        return rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
     }
     *size -= sizeof e;
     memcpy(&e, all + *size, sizeof e);

@@ -237,23 +237,6 @@ static void read_gap(reading *r, rb_io_contact_case *c)
     }
 }
 
-static void read_case(reading *r, rb_io_contact_case *c)
-{
-    double x[4] = {0};
-    read_control(r, &c->digit);
-    skip_iteration(r, &c->digit);
-    read_numbers(r, 4, x, "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
-    c->normal = x[0];
-    c->tangential = x[1];
-    c->side = x[2];
-    c->spin = x[3];
-    read_friction(r, c);
-    read_material(r, c);
-    skip_heat(r, &c->digit);
-    read_grid(r, c);
-    read_gap(r, c);
-}
-
 /* What a case has behind what is read here ends at the next line that says MODULE. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases,
                              rb_message *why)
@@ -282,8 +265,21 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
         *cases = more;
         now.line = r.line;
         now.module = module;
-        if (module == 3)
-            read_case(&r, &now);
+        if (module == 3) {
+            double x[4] = {0};
+            read_control(&r, &now.digit);
+            skip_iteration(&r, &now.digit);
+            read_numbers(&r, 4, x, "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
+            now.normal = x[0];
+            now.tangential = x[1];
+            now.side = x[2];
+            now.spin = x[3];
+            read_friction(&r, &now);
+            read_material(&r, &now);
+            skip_heat(&r, &now.digit);
+            read_grid(&r, &now);
+            read_gap(&r, &now);
+        }
         more[(*n)++] = now;
     }
     if (r.status == RB_OK && *n == 0)

@@ -355,19 +355,6 @@ static rb_status read_local_constraints(const reader *in, rb_io_fclib *p)
                : s;
 }
 
-static rb_status read_local(const reader *in, rb_io_fclib *p)
-{
-    rb_status s = read_matrix(in, "/fclib_local/W", &p->W);
-    if (s == RB_OK && p->W.rows != p->W.cols)
-        s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows,
-                    p->W.cols);
-    if (s == RB_OK)
-        s = read_common(in, "/fclib_local", p->W.rows, p);
-    if (s == RB_OK)
-        s = read_doubles(in, "/fclib_local/vectors", "q", p->W.rows, &p->q);
-    return s == RB_OK ? read_local_constraints(in, p) : s;
-}
-
 static const char *root_of(const rb_io_fclib *p)
 {
     return p->rolling  ? "fclib_global_rolling"
@@ -386,31 +373,6 @@ static rb_status read_global_constraints(const reader *in, rb_io_fclib *p)
         return RB_OK;
     const rb_status s = read_columns(in, matrix, p->M.rows, &p->constraints, &p->G);
     return s == RB_OK ? read_doubles(in, vectors, "b", p->constraints, &p->b) : s;
-}
-
-static rb_status read_global(const reader *in, rb_io_fclib *p)
-{
-    char root[40], M[60], H[60], vectors[60];
-    p->global = 1;
-    snprintf(root, sizeof root, "/%s", root_of(p));
-    snprintf(M, sizeof M, "/%s/M", root_of(p));
-    snprintf(H, sizeof H, "/%s/H", root_of(p));
-    snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
-    rb_status s = read_matrix(in, M, &p->M);
-    if (s == RB_OK)
-        s = complete_symmetric(&p->M);
-    if (s == RB_OK)
-        s = read_matrix(in, H, &p->H);
-    if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
-        s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d", in->path,
-                    p->M.rows, p->M.cols, p->H.rows, p->H.cols);
-    if (s == RB_OK)
-        s = read_common(in, root, p->H.cols, p);
-    if (s == RB_OK)
-        s = read_doubles(in, vectors, "f", p->M.rows, &p->f);
-    if (s == RB_OK)
-        s = read_doubles(in, vectors, "w", p->H.cols, &p->w);
-    return s == RB_OK ? read_global_constraints(in, p) : s;
 }
 
 /* What is there under /solution and long enough. */
@@ -436,11 +398,39 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
                        "the global one",
                        in->path);
     p->rolling = exists(in, "/fclib_global_rolling");
-    if (!p->rolling && exists(in, "/fclib_local"))
-        s = read_local(in, p);
-    else if (p->rolling || exists(in, "/fclib_global"))
-        s = read_global(in, p);
-    else
+    if (!p->rolling && exists(in, "/fclib_local")) {
+        s = read_matrix(in, "/fclib_local/W", &p->W);
+        if (s == RB_OK && p->W.rows != p->W.cols)
+            s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows,
+                        p->W.cols);
+        if (s == RB_OK)
+            s = read_common(in, "/fclib_local", p->W.rows, p);
+        if (s == RB_OK)
+            s = read_doubles(in, "/fclib_local/vectors", "q", p->W.rows, &p->q);
+        s = s == RB_OK ? read_local_constraints(in, p) : s;
+    } else if (p->rolling || exists(in, "/fclib_global")) {
+        char root[40], M[60], H[60], vectors[60];
+        p->global = 1;
+        snprintf(root, sizeof root, "/%s", root_of(p));
+        snprintf(M, sizeof M, "/%s/M", root_of(p));
+        snprintf(H, sizeof H, "/%s/H", root_of(p));
+        snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
+        s = read_matrix(in, M, &p->M);
+        if (s == RB_OK)
+            s = complete_symmetric(&p->M);
+        if (s == RB_OK)
+            s = read_matrix(in, H, &p->H);
+        if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
+            s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d",
+                        in->path, p->M.rows, p->M.cols, p->H.rows, p->H.cols);
+        if (s == RB_OK)
+            s = read_common(in, root, p->H.cols, p);
+        if (s == RB_OK)
+            s = read_doubles(in, vectors, "f", p->M.rows, &p->f);
+        if (s == RB_OK)
+            s = read_doubles(in, vectors, "w", p->H.cols, &p->w);
+        s = s == RB_OK ? read_global_constraints(in, p) : s;
+    } else
         return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem",
                        in->path);
     return s == RB_OK ? read_solution(in, p) : s;
@@ -475,16 +465,6 @@ static void put_array(FILE *out, const void *x, size_t size, int n)
         fwrite(x, size, (size_t)n, out);
 }
 
-static void put_sparse(FILE *out, const rb_sparse *a)
-{
-    const int nz = a->p ? a->p[a->cols] : 0;
-    fwrite(&a->rows, sizeof a->rows, 1, out);
-    fwrite(&a->cols, sizeof a->cols, 1, out);
-    put_array(out, a->p, sizeof *a->p, a->cols + 1);
-    put_array(out, a->i, sizeof *a->i, nz);
-    put_array(out, a->x, sizeof *a->x, nz);
-}
-
 static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
 {
     rb_io_fclib p = {0};
@@ -515,8 +495,15 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
         return s;
     const arrays all = arrays_of(&p);
     fwrite(&p, sizeof p, 1, out);
-    for (int k = 0; k < MATRICES; k++)
-        put_sparse(out, all.matrix[k]);
+    for (int k = 0; k < MATRICES; k++) {
+        const rb_sparse *a = all.matrix[k];
+        const int nz = a->p ? a->p[a->cols] : 0;
+        fwrite(&a->rows, sizeof a->rows, 1, out);
+        fwrite(&a->cols, sizeof a->cols, 1, out);
+        put_array(out, a->p, sizeof *a->p, a->cols + 1);
+        put_array(out, a->i, sizeof *a->i, nz);
+        put_array(out, a->x, sizeof *a->x, nz);
+    }
     for (int k = 0; k < VECTORS; k++)
         put_array(out, *all.vector[k], sizeof(double), all.length[k]);
     return RB_OK;
@@ -548,22 +535,19 @@ static void *take_array(bytes_in *in, size_t size)
     return x;
 }
 
-static void take_sparse(bytes_in *in, rb_sparse *a)
-{
-    take(in, &a->rows, sizeof a->rows);
-    take(in, &a->cols, sizeof a->cols);
-    a->p = take_array(in, sizeof *a->p);
-    a->i = take_array(in, sizeof *a->i);
-    a->x = take_array(in, sizeof *a->x);
-}
-
 static rb_status take_problem(const char *bytes, rb_io_fclib *p)
 {
     bytes_in in = {.at = bytes};
     const arrays all = arrays_of(p);
     take(&in, p, sizeof *p); /* its pointers are those of the child: all are replaced */
-    for (int k = 0; k < MATRICES; k++)
-        take_sparse(&in, all.matrix[k]);
+    for (int k = 0; k < MATRICES; k++) {
+        rb_sparse *a = all.matrix[k];
+        take(&in, &a->rows, sizeof a->rows);
+        take(&in, &a->cols, sizeof a->cols);
+        a->p = take_array(&in, sizeof *a->p);
+        a->i = take_array(&in, sizeof *a->i);
+        a->x = take_array(&in, sizeof *a->x);
+    }
     for (int k = 0; k < VECTORS; k++)
         *all.vector[k] = take_array(&in, sizeof(double));
     return in.no_memory ? RB_ENOMEM : RB_OK;
@@ -697,43 +681,6 @@ typedef struct {
     const char *title, *description;
 } contents;
 
-static rb_status write_file(hid_t file, const contents *c)
-{
-    rb_io_fclib p = *c->problem;
-    const arrays all = arrays_of(&p);
-    const hid_t root =
-        H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t info = H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    rb_status s = RB_OK;
-    write_int(root, "spacedim", p.spacedim);
-    write_text(info, "title", c->title ? c->title : "");
-    write_text(info, "description", c->description ? c->description : "");
-    write_text(info, "math_info", "");
-    H5Gclose(info);
-    write_vectors(root, "vectors", p, 0, SOLUTION);
-    for (int k = 0; k < MATRICES && s == RB_OK; k++)
-        if (all.matrix[k]->p)
-            s = write_matrix(root, MATRIX[k], all.matrix[k], c->layout);
-    H5Gclose(root);
-    if (p.r || p.u || p.v)
-        write_vectors(file, "solution", p, SOLUTION, VECTORS);
-    return s;
-}
-
-/* The file in memory: HDF5 touches no disk, where it crashes when that is full. */
-static rb_status write_image(FILE *out, hid_t file)
-{
-    H5Fflush(file, H5F_SCOPE_LOCAL);
-    const ssize_t n = H5Fget_file_image(file, NULL, 0);
-    void *image = n > 0 ? malloc((size_t)n) : NULL;
-    if (!image)
-        return RB_ENOMEM;
-    H5Fget_file_image(file, image, (size_t)n);
-    fwrite(image, 1, (size_t)n, out);
-    free(image);
-    return RB_OK;
-}
-
 static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
 {
     enum { GROWTH = 1 << 20 };
@@ -747,9 +694,40 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
         failed = 1;
     if (!failed) { /* or H5Fcreate would make a file of that name */
         const hid_t file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
-        s = write_file(file, c);
-        if (s == RB_OK)
-            s = write_image(out, file);
+        rb_io_fclib p = *c->problem;
+        const arrays all = arrays_of(&p);
+        const hid_t root =
+            H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t info =
+            H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        s = RB_OK;
+        write_int(root, "spacedim", p.spacedim);
+        write_text(info, "title", c->title ? c->title : "");
+        write_text(info, "description", c->description ? c->description : "");
+        write_text(info, "math_info", "");
+        H5Gclose(info);
+        write_vectors(root, "vectors", p, 0, SOLUTION);
+        for (int k = 0; k < MATRICES && s == RB_OK; k++)
+            if (all.matrix[k]->p)
+                s = write_matrix(root, MATRIX[k], all.matrix[k], c->layout);
+        H5Gclose(root);
+        if (p.r || p.u || p.v)
+            write_vectors(file, "solution", p, SOLUTION, VECTORS);
+        if (s == RB_OK) {
+            /* The file in memory: HDF5 touches no disk, where it crashes when that is
+             * full. */
+            H5Fflush(file, H5F_SCOPE_LOCAL);
+            const ssize_t n = H5Fget_file_image(file, NULL, 0);
+            void *image = n > 0 ? malloc((size_t)n) : NULL;
+            if (!image)
+                s = RB_ENOMEM;
+            else {
+                H5Fget_file_image(file, image, (size_t)n);
+                fwrite(image, 1, (size_t)n, out);
+                free(image);
+                s = RB_OK;
+            }
+        }
     }
     return failed || s != RB_OK ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;
 }

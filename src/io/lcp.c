@@ -86,22 +86,6 @@ rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **
 
 /* ---- Problems ---------------------------------------------------------------------- */
 
-static void read_market(io_tokens *t, const char *q_path, rb_io_lcp *p)
-{
-    if (!q_path) {
-        rb_io_tokens_fail(t, "a Matrix Market file holds M alone: q is wanted from a "
-                             "file of its own (--q)");
-        return;
-    }
-    rb_io_read_matrix_market(t, &p->M);
-    if (t->status == RB_OK && p->M.rows != p->M.cols)
-        rb_io_tokens_fail(t, "M: expected a square matrix, got %d by %d", p->M.rows,
-                          p->M.cols);
-    p->n = p->M.rows;
-    if (t->status == RB_OK)
-        t->status = rb_io_vector_read(q_path, p->n, "q", &p->q, t->why);
-}
-
 /* A matrix row by row; column-major, NULL after a failure. */
 static double *read_rows(io_tokens *t, int m, int n, const char *name)
 {
@@ -116,21 +100,6 @@ static double *read_rows(io_tokens *t, int m, int n, const char *name)
     }
     free(row);
     return x;
-}
-
-/* n, the rows of M, q. */
-static void read_plain(io_tokens *t, rb_io_lcp *p)
-{
-    const int n = p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
-    p->M.rows = p->M.cols = n;
-    p->M.dense = read_rows(t, n, n, "M");
-    p->q = rb_io_tokens_alloc(t, (size_t)n, 1, "q");
-    rb_io_tokens_reals(t, (size_t)n, p->q, "q");
-    if (t->status == RB_OK && rb_io_tokens_more(t))
-        rb_io_tokens_fail(t,
-                          "expected the end of the file after n, n rows of M and q "
-                          "(n = %d)",
-                          n);
 }
 
 /* 1 + n + n^2 words, or n on a line of its own and the first row of M on another. */
@@ -168,7 +137,17 @@ static void read_text(io_tokens *t, rb_io_lcp *p)
                           kind == RB_IO_SICONOS_SOCLCP ? "SOCLCP" : "friction problem");
         return;
     }
-    read_plain(t, p);
+    /* n, the rows of M, q. */
+    const int n = p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
+    p->M.rows = p->M.cols = n;
+    p->M.dense = read_rows(t, n, n, "M");
+    p->q = rb_io_tokens_alloc(t, (size_t)n, 1, "q");
+    rb_io_tokens_reals(t, (size_t)n, p->q, "q");
+    if (t->status == RB_OK && rb_io_tokens_more(t))
+        rb_io_tokens_fail(t,
+                          "expected the end of the file after n, n rows of M and q "
+                          "(n = %d)",
+                          n);
 }
 
 rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
@@ -177,9 +156,21 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
     io_tokens t;
     *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why);
-    if (is_market(&t))
-        read_market(&t, q_path, p);
-    else if (t.status == RB_OK && q_path)
+    if (is_market(&t)) {
+        if (!q_path) {
+            rb_io_tokens_fail(&t,
+                              "a Matrix Market file holds M alone: q is wanted from a "
+                              "file of its own (--q)");
+        } else {
+            rb_io_read_matrix_market(&t, &p->M);
+            if (t.status == RB_OK && p->M.rows != p->M.cols)
+                rb_io_tokens_fail(&t, "M: expected a square matrix, got %d by %d",
+                                  p->M.rows, p->M.cols);
+            p->n = p->M.rows;
+            if (t.status == RB_OK)
+                t.status = rb_io_vector_read(q_path, p->n, "q", &p->q, t.why);
+        }
+    } else if (t.status == RB_OK && q_path)
         rb_io_tokens_fail(&t,
                           "this file holds q itself: only Matrix Market files do not");
     else if (t.status == RB_OK)

@@ -15,14 +15,6 @@ static int ok(const io_tokens *t)
 
 /* ---- Matrices ---------------------------------------------------------------------- */
 
-static void read_dense(io_tokens *t, rb_io_matrix *m)
-{
-    rb_io_tokens_int(t, m->rows, m->rows, "rows of the dense matrix");
-    rb_io_tokens_int(t, m->cols, m->cols, "columns of the dense matrix");
-    m->dense = rb_io_tokens_alloc(t, (size_t)m->rows, (size_t)m->cols, "matrix");
-    rb_io_tokens_reals(t, (size_t)m->rows * (size_t)m->cols, m->dense, "matrix");
-}
-
 static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
 {
     if (nz > INT_MAX)
@@ -61,23 +53,6 @@ static void blocks_free(blocks *b)
     free(b->column);
 }
 
-static void read_pattern(io_tokens *t, const rb_io_matrix *m, blocks *b)
-{
-    b->count = rb_io_tokens_int(t, 0, INT_MAX, "number of blocks");
-    b->rows = rb_io_tokens_int(t, 0, m->rows, "rows of blocks");
-    b->cols = rb_io_tokens_int(t, 0, m->cols, "columns of blocks");
-    b->row_end = read_increasing(t, b->rows, 1, 1, m->rows, "cumulated block sizes");
-    b->col_end = read_increasing(t, b->cols, 1, 1, m->cols, "cumulated block sizes");
-    if (!ok(t))
-        return;
-    rb_io_tokens_int(t, b->rows + 1, b->rows + 1, "length of the first index");
-    rb_io_tokens_int(t, b->count, b->count, "length of the second index");
-    b->first = read_increasing(t, b->rows + 1, 0, 0, b->count, "first index");
-    b->column = rb_io_tokens_alloc_int(t, (size_t)b->count, "second index");
-    for (int k = 0; ok(t) && k < b->count; k++)
-        b->column[k] = rb_io_tokens_int(t, 0, b->cols - 1, "second index");
-}
-
 static int extent(const int *end, int i)
 {
     return end[i] - (i ? end[i - 1] : 0);
@@ -109,51 +84,6 @@ static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix
         }
 }
 
-static void read_blocks(io_tokens *t, rb_io_matrix *m)
-{
-    blocks b = {0};
-    read_pattern(t, m, &b);
-    if (ok(t))
-        alloc_triplets(t, entries_of(&b), m);
-    for (int i = 0; ok(t) && i < b.rows; i++)
-        for (int k = b.first[i]; ok(t) && k < b.first[i + 1]; k++)
-            read_block(t, &b, i, k, m);
-    blocks_free(&b);
-}
-
-/* "i j : value" */
-static void read_triplets(io_tokens *t, int nz, rb_io_matrix *m)
-{
-    while (ok(t) && m->entries.nz < nz) {
-        const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
-        const int j = rb_io_tokens_int(t, 0, m->cols - 1, "column");
-        rb_io_tokens_word(t, ":");
-        rb_triplets_add(&m->entries, i, j, rb_io_tokens_real(t, "value"));
-    }
-}
-
-/* "i : value" below "col j : locations a to b" */
-static void read_columns(io_tokens *t, int nz, rb_io_matrix *m)
-{
-    rb_triplets *e = &m->entries;
-    for (int j = 0; ok(t) && j < m->cols; j++) {
-        rb_io_tokens_word(t, "col");
-        rb_io_tokens_int(t, j, j, "column");
-        rb_io_tokens_word(t, ":");
-        rb_io_tokens_word(t, "locations");
-        rb_io_tokens_int(t, e->nz, e->nz, "location");
-        rb_io_tokens_word(t, "to");
-        const int last = rb_io_tokens_int(t, e->nz - 1, nz - 1, "location");
-        while (ok(t) && e->nz <= last) {
-            const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
-            rb_io_tokens_word(t, ":");
-            rb_triplets_add(e, i, j, rb_io_tokens_real(t, "value"));
-        }
-    }
-    if (ok(t) && e->nz != nz)
-        rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
-}
-
 /* A version line, then "[triplet: ]3-by-3, nzmax: 4 nnz: 3[, 1-norm: 3.5]". */
 static void read_sparse(io_tokens *t, rb_io_matrix *m)
 {
@@ -172,10 +102,34 @@ static void read_sparse(io_tokens *t, rb_io_matrix *m)
     const int nz = rb_io_tokens_int(t, 0, INT_MAX, "nnz");
     rb_io_tokens_skip_line(t);
     alloc_triplets(t, (size_t)nz, m);
-    if (origin == TRIPLETS)
-        read_triplets(t, nz, m);
-    else
-        read_columns(t, nz, m);
+    if (origin == TRIPLETS) {
+        /* "i j : value" */
+        while (ok(t) && m->entries.nz < nz) {
+            const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+            const int j = rb_io_tokens_int(t, 0, m->cols - 1, "column");
+            rb_io_tokens_word(t, ":");
+            rb_triplets_add(&m->entries, i, j, rb_io_tokens_real(t, "value"));
+        }
+    } else {
+        /* "i : value" below "col j : locations a to b" */
+        rb_triplets *e = &m->entries;
+        for (int j = 0; ok(t) && j < m->cols; j++) {
+            rb_io_tokens_word(t, "col");
+            rb_io_tokens_int(t, j, j, "column");
+            rb_io_tokens_word(t, ":");
+            rb_io_tokens_word(t, "locations");
+            rb_io_tokens_int(t, e->nz, e->nz, "location");
+            rb_io_tokens_word(t, "to");
+            const int last = rb_io_tokens_int(t, e->nz - 1, nz - 1, "location");
+            while (ok(t) && e->nz <= last) {
+                const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+                rb_io_tokens_word(t, ":");
+                rb_triplets_add(e, i, j, rb_io_tokens_real(t, "value"));
+            }
+        }
+        if (ok(t) && e->nz != nz)
+            rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
+    }
 }
 
 /* A matrix of that size; rows 0: as many as the file says. */
@@ -188,11 +142,33 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
     m->cols = rb_io_tokens_int(t, cols, cols, "columns of the matrix");
     if (!ok(t))
         return;
-    if (storage == DENSE)
-        read_dense(t, m);
-    else if (storage == BLOCKS)
-        read_blocks(t, m);
-    else
+    if (storage == DENSE) {
+        rb_io_tokens_int(t, m->rows, m->rows, "rows of the dense matrix");
+        rb_io_tokens_int(t, m->cols, m->cols, "columns of the dense matrix");
+        m->dense = rb_io_tokens_alloc(t, (size_t)m->rows, (size_t)m->cols, "matrix");
+        rb_io_tokens_reals(t, (size_t)m->rows * (size_t)m->cols, m->dense, "matrix");
+    } else if (storage == BLOCKS) {
+        blocks b = {0};
+        b.count = rb_io_tokens_int(t, 0, INT_MAX, "number of blocks");
+        b.rows = rb_io_tokens_int(t, 0, m->rows, "rows of blocks");
+        b.cols = rb_io_tokens_int(t, 0, m->cols, "columns of blocks");
+        b.row_end = read_increasing(t, b.rows, 1, 1, m->rows, "cumulated block sizes");
+        b.col_end = read_increasing(t, b.cols, 1, 1, m->cols, "cumulated block sizes");
+        if (ok(t)) {
+            rb_io_tokens_int(t, b.rows + 1, b.rows + 1, "length of the first index");
+            rb_io_tokens_int(t, b.count, b.count, "length of the second index");
+            b.first = read_increasing(t, b.rows + 1, 0, 0, b.count, "first index");
+            b.column = rb_io_tokens_alloc_int(t, (size_t)b.count, "second index");
+            for (int k = 0; ok(t) && k < b.count; k++)
+                b.column[k] = rb_io_tokens_int(t, 0, b.cols - 1, "second index");
+        }
+        if (ok(t))
+            alloc_triplets(t, entries_of(&b), m);
+        for (int i = 0; ok(t) && i < b.rows; i++)
+            for (int k = b.first[i]; ok(t) && k < b.first[i + 1]; k++)
+                read_block(t, &b, i, k, m);
+        blocks_free(&b);
+    } else
         read_sparse(t, m);
 }
 

@@ -143,16 +143,6 @@ static rb_status make_room(reading *r)
     return RB_OK;
 }
 
-static rb_status wrong_count(const reading *r, int n)
-{
-    char names[160] = "";
-    for (int j = 0; r->t->name && j < r->t->columns; j++)
-        rb_append(names, sizeof names, "%s%s", j ? ", " : " (", r->t->name[j]);
-    return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path,
-                   r->line, r->t->columns, r->t->columns == 1 ? "" : "s", names,
-                   *names ? ")" : "", n);
-}
-
 static rb_status read_row(reading *r, const char *text)
 {
     rb_io_table *t = r->t;
@@ -169,19 +159,15 @@ static rb_status read_row(reading *r, const char *text)
         if (n < t->columns)
             t->x[(size_t)t->rows * (size_t)t->columns + (size_t)n] = value;
     }
-    if (n != t->columns)
-        return wrong_count(r, n);
+    if (n != t->columns) {
+        char names[160] = "";
+        for (int j = 0; r->t->name && j < r->t->columns; j++)
+            rb_append(names, sizeof names, "%s%s", j ? ", " : " (", r->t->name[j]);
+        return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d",
+                       r->path, r->line, r->t->columns, r->t->columns == 1 ? "" : "s",
+                       names, *names ? ")" : "", n);
+    }
     t->line[t->rows++] = r->line;
-    return RB_OK;
-}
-
-/* A comment of as many words as the first row has numbers names the columns. */
-static rb_status first_row(reading *r, const char *text)
-{
-    const int n = count_words(text);
-    if (count_words(r->comment) == n)
-        return keep_names(r, r->comment);
-    r->t->columns = n;
     return RB_OK;
 }
 
@@ -199,24 +185,17 @@ static rb_status read_line(reading *r, char *text)
         return RB_OK;
     if (is_names(r, words))
         return keep_names(r, words);
-    if (r->t->columns == 0)
-        s = first_row(r, words);
-    return s == RB_OK ? read_row(r, words) : s;
-}
-
-static rb_status read_lines(reading *r, char *text)
-{
-    rb_status s = RB_OK;
-    for (char *next; s == RB_OK && *text; text = next) {
-        next = text + strcspn(text, "\n");
-        if (*next)
-            *next++ = '\0';
-        r->line++;
-        s = read_line(r, text);
+    if (r->t->columns == 0) {
+        /* A comment of as many words as the first row has numbers names the columns. */
+        const int n = count_words(words);
+        if (count_words(r->comment) == n)
+            s = keep_names(r, r->comment);
+        else {
+            r->t->columns = n;
+            s = RB_OK;
+        }
     }
-    if (s == RB_OK && r->t->rows == 0)
-        s = rb_fail(r->why, RB_EFORMAT, "%s: no numbers", r->path);
-    return s;
+    return s == RB_OK ? read_row(r, words) : s;
 }
 
 static rb_status by_columns(const reading *r)
@@ -238,7 +217,16 @@ rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_mes
 {
     reading r = {.path = path, .comment = "", .t = t, .why = why};
     memset(t, 0, sizeof *t);
-    rb_status s = read_lines(&r, text);
+    rb_status s = RB_OK;
+    for (char *next; s == RB_OK && *text; text = next) {
+        next = text + strcspn(text, "\n");
+        if (*next)
+            *next++ = '\0';
+        r.line++;
+        s = read_line(&r, text);
+    }
+    if (s == RB_OK && r.t->rows == 0)
+        s = rb_fail(r.why, RB_EFORMAT, "%s: no numbers", r.path);
     if (s == RB_OK)
         s = by_columns(&r);
     if (s != RB_OK)

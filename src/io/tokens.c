@@ -72,18 +72,6 @@ static void expected(io_tokens *t, const char *what, const char *wanted, size_t 
         rb_io_tokens_fail(t, "%s: expected %s, the file ends", what, wanted);
 }
 
-static void expected_int(io_tokens *t, const char *what, int low, int high, size_t length)
-{
-    char wanted[60];
-    if (low == high)
-        snprintf(wanted, sizeof wanted, "%d", low);
-    else if (high == INT_MAX)
-        snprintf(wanted, sizeof wanted, "an integer >= %d", low);
-    else
-        snprintf(wanted, sizeof wanted, "an integer from %d to %d", low, high);
-    expected(t, what, wanted, length);
-}
-
 int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
 {
     if (t->status != RB_OK)
@@ -97,7 +85,14 @@ int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
         t->at = after;
         return (int)value;
     }
-    expected_int(t, what, low, high, length);
+    char wanted[60];
+    if (low == high)
+        snprintf(wanted, sizeof wanted, "%d", low);
+    else if (high == INT_MAX)
+        snprintf(wanted, sizeof wanted, "an integer >= %d", low);
+    else
+        snprintf(wanted, sizeof wanted, "an integer from %d to %d", low, high);
+    expected(t, what, wanted, length);
     return 0;
 }
 

@@ -123,17 +123,6 @@ static rb_status open_file(const char *path, const struct stat *old, rb_io_write
     return s;
 }
 
-static rb_status open_device(const char *path, rb_io_writer *w, rb_message *why)
-{
-    w->device = strdup(path);
-    w->file = w->device ? fopen(path, "w") : NULL;
-    if (w->file)
-        return RB_OK;
-    const rb_status s = cannot_write(path, why);
-    rb_io_writer_abandon(w);
-    return s;
-}
-
 rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
 {
     struct stat old;
@@ -143,8 +132,15 @@ rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
         return RB_OK;
     }
     const int exists = stat(path, &old) == 0;
-    if (exists && !S_ISREG(old.st_mode))
-        return open_device(path, w, why);
+    if (exists && !S_ISREG(old.st_mode)) {
+        w->device = strdup(path);
+        w->file = w->device ? fopen(path, "w") : NULL;
+        if (w->file)
+            return RB_OK;
+        const rb_status s = cannot_write(path, why);
+        rb_io_writer_abandon(w);
+        return s;
+    }
     return open_file(path, exists ? &old : NULL, w, why);
 }
 

@@ -90,21 +90,6 @@ static double defect(const lemke *l, const double *constant, const double *basic
     return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
 }
 
-/* One step of iterative refinement: the tableau's columns of w hold minus the basis
- * inverse. */
-static void refine(lemke *l, const double *r)
-{
-    const int n = l->n, *place = l->t.place;
-    memset(l->weight, 0, ((size_t)n + 1) * sizeof *l->weight);
-    for (int i = 0; i < n; i++)
-        if (place[i] >= 0)
-            l->t.q[place[i]] += r[i];
-        else
-            l->weight[-1 - place[i]] = -r[i];
-    rb_lcp_tableau_combine(&l->t, l->weight, l->other, l->sum);
-    cblas_daxpy(n, 1.0, l->sum, 1, l->t.q, 1);
-}
-
 rb_status rb_lcp_lemke_rebuild(lemke *l)
 {
     l->rebuilt = l->info->iters;
@@ -114,15 +99,6 @@ rb_status rb_lcp_lemke_rebuild(lemke *l)
                : s;
 }
 
-/* A constant that was zero stays zero: noise in its place would break ties. */
-static void keep_zeros(lemke *l, const double *before)
-{
-    const double zero = ZERO * rb_norm_inf((size_t)l->n, l->t.q);
-    for (int i = 0; i < l->n; i++)
-        if (before[i] == 0.0 && fabs(l->t.q[i]) <= zero)
-            l->t.q[i] = 0.0;
-}
-
 static rb_status refresh(lemke *l)
 {
     rb_status s = RB_SINGULAR;
@@ -130,9 +106,24 @@ static rb_status refresh(lemke *l)
     memcpy(before, l->t.q, (size_t)l->n * sizeof *before);
     if (defect(l, l->data.p.q, l->t.q, -1, l->other, r) > DRIFT)
         s = rb_lcp_lemke_rebuild(l);
-    if (s == RB_SINGULAR)
-        refine(l, r);
-    keep_zeros(l, before);
+    if (s == RB_SINGULAR) {
+        /* One step of iterative refinement: the tableau's columns of w hold minus the
+         * basis inverse. */
+        const int n = l->n, *place = l->t.place;
+        memset(l->weight, 0, ((size_t)n + 1) * sizeof *l->weight);
+        for (int i = 0; i < n; i++)
+            if (place[i] >= 0)
+                l->t.q[place[i]] += r[i];
+            else
+                l->weight[-1 - place[i]] = -r[i];
+        rb_lcp_tableau_combine(&l->t, l->weight, l->other, l->sum);
+        cblas_daxpy(n, 1.0, l->sum, 1, l->t.q, 1);
+    }
+    /* A constant that was zero stays zero: noise in its place would break ties. */
+    const double zero = ZERO * rb_norm_inf((size_t)l->n, l->t.q);
+    for (int i = 0; i < l->n; i++)
+        if (before[i] == 0.0 && fabs(l->t.q[i]) <= zero)
+            l->t.q[i] = 0.0;
     l->refreshed = lemke_z0(l);
     l->checked = l->info->iters;
     return s == RB_ENOMEM ? s : RB_OK;
@@ -152,36 +143,10 @@ int rb_lcp_lemke_column_holds(lemke *l, int entering)
 
 /* ---- The answer ------------------------------------------------------------------- */
 
-static void basic_point(const lemke *l, double *z)
-{
-    const int n = l->n;
-    for (int i = 0; i < n; i++) {
-        const int row = l->t.place[n + i];
-        z[i] = row >= 0 ? fmax(l->t.q[row], 0.0) : 0.0;
-    }
-}
-
 typedef struct {
     int m, *index, *pivots; /* the basic z, n each */
     double *LU;             /* m x m: M_BB */
 } final_basis;
-
-static int factor(const lemke *l, final_basis *b)
-{
-    const int n = l->n;
-    const size_t ldm = (size_t)l->data.p.ldm;
-    b->m = 0;
-    for (int i = 0; i < n; i++)
-        if (l->t.place[n + i] >= 0)
-            b->index[b->m++] = i;
-    const size_t m = (size_t)b->m;
-    for (size_t j = 0; j < m; j++)
-        for (size_t i = 0; i < m; i++)
-            b->LU[i + j * m] =
-                l->data.p.M[(size_t)b->index[i] + (size_t)b->index[j] * ldm];
-    return m > 0 &&
-           LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b->m, b->m, b->LU, b->m, b->pivots) == 0;
-}
 
 /* x_B -= M_BB^-1 (M x + q)_B */
 static void correct(const lemke *l, const final_basis *b, double *w, double *r, double *x)
@@ -202,7 +167,17 @@ static void polish(lemke *l, double *z)
     const size_t n = (size_t)l->n;
     final_basis b = {.index = l->tied, .pivots = l->t.basis, .LU = l->t.T};
     double *x = l->t.q;
-    if (!factor(l, &b))
+    const size_t ldm = (size_t)l->data.p.ldm;
+    b.m = 0;
+    for (int i = 0; i < l->n; i++)
+        if (l->t.place[l->n + i] >= 0)
+            b.index[b.m++] = i;
+    const size_t m = (size_t)b.m;
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < m; i++)
+            b.LU[i + j * m] = l->data.p.M[(size_t)b.index[i] + (size_t)b.index[j] * ldm];
+    if (!(m > 0 &&
+          LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b.m, b.m, b.LU, b.m, b.pivots) == 0))
         return;
     memset(x, 0, n * sizeof *x);
     correct(l, &b, l->a, l->other, x);
@@ -218,7 +193,11 @@ static void polish(lemke *l, double *z)
 
 void rb_lcp_lemke_answer(lemke *l, int solved, double *z)
 {
-    basic_point(l, z);
+    const int n = l->n;
+    for (int i = 0; i < n; i++) {
+        const int row = l->t.place[n + i];
+        z[i] = row >= 0 ? fmax(l->t.q[row], 0.0) : 0.0;
+    }
     l->info->res = rb_lcp_residual(&l->data.p, z, NULL);
     if (solved)
         polish(l, z);

@@ -52,10 +52,14 @@ void rb_lcp_basis_free(lcp_basis *b)
 
 /* ---- LU ---------------------------------------------------------------------------- */
 
-/* Slot i is the place of the pair i; t takes that of the pair without a basic variable.
- * R, in the same order. */
-static void order_slots(lcp_basis *b)
+rb_status rb_lcp_basis_factor(lcp_basis *b)
 {
+    rb_sparse_lu_free(b->lu);
+    b->lu = NULL;
+    b->exchanges = 0;
+    b->pending = b->work = 0.0;
+    /* Slot i is the place of the pair i; t takes that of the pair without a basic
+     * variable. R, in the same order. */
     const int n = b->n, t = 2 * n, t_basic = b->slot[t] >= 0;
     b->A.rows = 0;
     for (int i = 0; i < n; i++) {
@@ -68,11 +72,8 @@ static void order_slots(lcp_basis *b)
     for (int i = 0; i < n; i++)
         b->slot[b->variable[i]] = i;
     b->A.cols = b->A.rows;
-}
-
-/* A = [M_RF d_R], the column of t in the place of the pair that it stands for. */
-static void gather(lcp_basis *b)
-{
+    b->place_of_t = b->slot[2 * b->n];
+    /* A = [M_RF d_R], the column of t in the place of the pair that it stands for. */
     rb_sparse *A = &b->A;
     const rb_sparse *M = b->M;
     int nz = 0;
@@ -94,17 +95,6 @@ static void gather(lcp_basis *b)
             }
     }
     A->p[A->cols] = nz;
-}
-
-rb_status rb_lcp_basis_factor(lcp_basis *b)
-{
-    rb_sparse_lu_free(b->lu);
-    b->lu = NULL;
-    b->exchanges = 0;
-    b->pending = b->work = 0.0;
-    order_slots(b);
-    b->place_of_t = b->slot[2 * b->n];
-    gather(b);
     if (b->A.rows == 0)
         return RB_OK;
     rb_status s = rb_sparse_lu_create(&b->A, &b->lu);

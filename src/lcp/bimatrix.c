@@ -143,50 +143,11 @@ typedef struct {
     rb_lcp_info *info;
 } lemke_howson;
 
-static rb_status create(const rb_lcp_game *g, lemke_howson *l)
-{
-    l->m = g->m;
-    l->labels = g->m + g->n;
-    l->tied = rb_alloc_int((size_t)l->labels);
-    if (tableau_create(g->n, l->labels, g->m, &l->of_x) != RB_OK ||
-        tableau_create(g->m, l->labels, 0, &l->of_y) != RB_OK || !l->tied)
-        return RB_ENOMEM;
-    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < g->m; i++) {
-            row_of(&l->of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
-            row_of(&l->of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
-        }
-    return RB_OK;
-}
-
-static void release(lemke_howson *l)
-{
-    tableau_free(&l->of_x);
-    tableau_free(&l->of_y);
-    free(l->tied);
-}
-
 /* Number of a label's variable for the trace: z in its own tableau, w in the other. */
 static int variable(const lemke_howson *l, const tableau *t, int label)
 {
     const int is_z = (label < l->m) == (t == &l->of_x);
     return is_z ? l->labels + label : label;
-}
-
-/* After the pivot on that row of t. */
-static void tell_trace(const lemke_howson *l, const tableau *t, int entering, int leaving,
-                       int row)
-{
-    const rb_lcp_pivot seen = {.pivot = l->info->iters,
-                               .entering = variable(l, t, entering),
-                               .leaving = variable(l, t, leaving),
-                               .row = t == &l->of_x ? l->m + row : row,
-                               .ratio = row_of(t, row)[t->width - 1],
-                               .attempt = l->opt->attempt,
-                               .n = l->labels};
-    if (l->opt->trace)
-        l->opt->trace(&seen, l->opt->trace_context);
 }
 
 /* Drops the label, and then in turn every label that the last pivot has doubled, from the
@@ -207,7 +168,15 @@ static rb_status follow_path(lemke_howson *l, int dropped)
                            l->info->iters);
         leaving = t->basis[row];
         pivot(t, row, entering);
-        tell_trace(l, t, entering, leaving, row);
+        const rb_lcp_pivot seen = {.pivot = l->info->iters,
+                                   .entering = variable(l, t, entering),
+                                   .leaving = variable(l, t, leaving),
+                                   .row = t == &l->of_x ? l->m + row : row,
+                                   .ratio = row_of(t, row)[t->width - 1],
+                                   .attempt = l->opt->attempt,
+                                   .n = l->labels};
+        if (l->opt->trace)
+            l->opt->trace(&seen, l->opt->trace_context);
         l->info->iters++;
         entering = leaving;
         t = t == &l->of_x ? &l->of_y : &l->of_x;
@@ -276,7 +245,21 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     if (s != RB_OK)
         return s;
     double *regret = rb_alloc((size_t)g->m + (size_t)g->n, 1), payoff[2];
-    s = create(g, &l);
+    l.m = g->m;
+    l.labels = g->m + g->n;
+    l.tied = rb_alloc_int((size_t)l.labels);
+    if (tableau_create(g->n, l.labels, g->m, &l.of_x) != RB_OK ||
+        tableau_create(g->m, l.labels, 0, &l.of_y) != RB_OK || !l.tied)
+        s = RB_ENOMEM;
+    else {
+        const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+        for (int j = 0; j < g->n; j++)
+            for (int i = 0; i < g->m; i++) {
+                row_of(&l.of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
+                row_of(&l.of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
+            }
+        s = RB_OK;
+    }
     if (s != RB_OK || !regret) {
         s = out_of_memory(g, &l.info->msg);
     } else {
@@ -290,22 +273,14 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
         l.info->scaled = size > 0.0 ? l.info->res / size : l.info->res;
         s = rb_lcp_assess(l.info);
     }
-    release(&l);
+    tableau_free(&l.of_x);
+    tableau_free(&l.of_y);
+    free(l.tied);
     free(regret);
     return s;
 }
 
 /* ---- All equilibria ---------------------------------------------------------------- */
-
-/* Each half of a solution becomes a strategy: its probabilities add up to 1. */
-static void normalise(const rb_lcp_game *g, rb_lcp_solutions *all)
-{
-    for (int k = 0; k < all->count; k++) {
-        double *x = all->z + (size_t)k * (size_t)all->n, *y = x + g->m;
-        cblas_dscal(g->m, 1.0 / rb_norm_1((size_t)g->m, x, 1), x, 1);
-        cblas_dscal(g->n, 1.0 / rb_norm_1((size_t)g->n, y, 1), y, 1);
-    }
-}
 
 /* With payoffs turned into costs a, b > 0 an equilibrium is, but for the length of its
  * halves, a solution of the LCP with M = [0 a; b' 0] and q = -1 (Cottle, Pang, Stone,
@@ -331,8 +306,14 @@ rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all,
     for (int k = 0; k < order; k++)
         q[k] = -1.0;
     s = rb_lcp_enumerate(&(rb_lcp_problem){order, M, order, q}, NULL, NULL, all, why);
-    if (s == RB_OK)
-        normalise(g, all);
+    if (s == RB_OK) {
+        /* Each half of a solution becomes a strategy: its probabilities add up to 1. */
+        for (int k = 0; k < all->count; k++) {
+            double *x = all->z + (size_t)k * (size_t)all->n, *y = x + g->m;
+            cblas_dscal(g->m, 1.0 / rb_norm_1((size_t)g->m, x, 1), x, 1);
+            cblas_dscal(g->n, 1.0 / rb_norm_1((size_t)g->n, y, 1), y, 1);
+        }
+    }
     free(M);
     return s;
 }

@@ -78,26 +78,6 @@ static int aggregate(const rb_sparse *M, int *of)
     return count;
 }
 
-/* Sums of M over pairs of aggregates; what couples different ones is made softer without
- * a change of the columns' sums. */
-static rb_status coarsen(const rb_sparse *M, const int *of, int count, rb_sparse *C)
-{
-    rb_triplets t = {.rows = count, .cols = count};
-    rb_status s = rb_triplets_reserve(&t, (size_t)M->p[M->cols]);
-    for (int j = 0; s == RB_OK && j < M->cols; j++)
-        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
-            const int a = of[M->i[k]], b = of[j];
-            const double x = M->x[k], soft = a == b ? x : x / TOO_STIFF;
-            rb_triplets_add(&t, a, b, soft);
-            if (a != b)
-                rb_triplets_add(&t, b, b, x - soft);
-        }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(&t, C);
-    rb_triplets_free(&t);
-    return s;
-}
-
 rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z,
                               double *work)
 {
@@ -109,8 +89,23 @@ rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z,
     rb_status s = !of || !coarse_q      ? RB_ENOMEM
                   : count > COARSER * n ? RB_SINGULAR
                                         : RB_OK;
-    if (s == RB_OK)
-        s = coarsen(M, of, count, &C);
+    if (s == RB_OK) {
+        /* Sums of M over pairs of aggregates; what couples different ones is made softer
+         * without a change of the columns' sums. */
+        rb_triplets t = {.rows = count, .cols = count};
+        s = rb_triplets_reserve(&t, (size_t)M->p[M->cols]);
+        for (int j = 0; s == RB_OK && j < M->cols; j++)
+            for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+                const int a = of[M->i[k]], b = of[j];
+                const double x = M->x[k], soft = a == b ? x : x / TOO_STIFF;
+                rb_triplets_add(&t, a, b, soft);
+                if (a != b)
+                    rb_triplets_add(&t, b, b, x - soft);
+            }
+        if (s == RB_OK)
+            s = rb_sparse_from_triplets(&t, &C);
+        rb_triplets_free(&t);
+    }
     if (s == RB_OK) {
         double *start = coarse_q + count, *coarse_z = start + count;
         rb_lcp_options opt = {.max_iters = STEPS, .start = start};

@@ -94,19 +94,6 @@ static int basic_point(search *s)
     return 1;
 }
 
-/* The terms of every row of M z + q, whose rounding is a part of them; returns the most.
- */
-static double sum_terms(search *s)
-{
-    for (int i = 0; i < s->n; i++) {
-        const double *row = s->p.M + i;
-        s->terms[i] = fabs(s->p.q[i]);
-        for (int j = 0; j < s->n; j++)
-            s->terms[i] += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
-    }
-    return rb_norm_inf((size_t)s->n, s->terms);
-}
-
 /* z between its bounds: what is outside by rounding is put on them; 0: by more. */
 static int is_in_box(search *s)
 {
@@ -128,7 +115,14 @@ static int is_solution(search *s)
     if (!is_in_box(s))
         return 0;
     product(s);
-    const double most = sum_terms(s);
+    /* The terms of every row of M z + q, whose rounding is a part of them. */
+    for (int i = 0; i < s->n; i++) {
+        const double *row = s->p.M + i;
+        s->terms[i] = fabs(s->p.q[i]);
+        for (int j = 0; j < s->n; j++)
+            s->terms[i] += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
+    }
+    const double most = rb_norm_inf((size_t)s->n, s->terms);
     /* entries near the largest double can give a point that is no numbers */
     if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) || !isfinite(most))
         return 0;
@@ -143,9 +137,9 @@ static int is_solution(search *s)
     return 1;
 }
 
-static int is_known(const search *s)
+static rb_status keep(search *s)
 {
-    const size_t n = (size_t)s->n;
+    const size_t n = (size_t)s->n, count = (size_t)s->all->count;
     const double near = SAME * rb_norm_inf(n, s->z);
     for (int k = 0; k < s->all->count; k++) {
         const double *z = s->all->z + (size_t)k * n;
@@ -153,16 +147,8 @@ static int is_known(const search *s)
         for (size_t i = 0; i < n; i++)
             apart = fmax(apart, fabs(z[i] - s->z[i]));
         if (apart <= near)
-            return 1;
+            return RB_OK;
     }
-    return 0;
-}
-
-static rb_status keep(search *s)
-{
-    const size_t n = (size_t)s->n, count = (size_t)s->all->count;
-    if (is_known(s))
-        return RB_OK;
     if ((count & (count - 1)) == 0) { /* full: room for twice as many */
         double *z = realloc(s->all->z, (count ? 2 * count : 1) * n * sizeof *z);
         if (!z)

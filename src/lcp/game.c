@@ -30,26 +30,6 @@ static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
     return of_other > 0 && *m > 0;
 }
 
-/* Payoffs of the row player (A, m x n) and of the column player (B): minus the costs in
- * units of -q, each unknown in a unit of its own that makes its largest cost near 1.
- * unit: n. */
-static void make_payoffs(const rb_sparse *M, const double *q, const int *side,
-                         const int *of, int m, double *A, double *B, double *unit)
-{
-    for (int j = 0; j < M->cols; j++) {
-        double most = 0.0;
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            most = fmax(most, M->x[k] / -q[M->i[k]]);
-        unit[j] = exp2(-floor(log2(most)));
-        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
-            const int i = M->i[k], row = side[j] ? of[i] : of[j];
-            const int col = side[j] ? of[j] : of[i];
-            (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] =
-                M->x[k] / q[i] * unit[j];
-        }
-    }
-}
-
 /* Paths that begin with one strategy can be long where others are short: one after the
  * other, with a limit that grows. */
 static rb_status try_labels(const rb_lcp_game *game, const rb_lcp_options *opt,
@@ -93,7 +73,21 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
         const rb_lcp_game game = {m, n - m, A, B, m};
         for (int i = 0; i < n; i++)
             of[i] = count[side[i]]++;
-        make_payoffs(M, q, side, of, m, A, B, unit);
+        /* Payoffs of the row player (A, m x n) and of the column player (B): minus the
+         * costs in units of -q, each unknown in a unit of its own that makes its largest
+         * cost near 1. unit: n. */
+        for (int j = 0; j < M->cols; j++) {
+            double most = 0.0;
+            for (int k = M->p[j]; k < M->p[j + 1]; k++)
+                most = fmax(most, M->x[k] / -q[M->i[k]]);
+            unit[j] = exp2(-floor(log2(most)));
+            for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+                const int i = M->i[k], row = side[j] ? of[i] : of[j];
+                const int col = side[j] ? of[j] : of[i];
+                (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] =
+                    M->x[k] / q[i] * unit[j];
+            }
+        }
         s = try_labels(&game, opt, mixed, info);
         rb_lcp_bimatrix_regret(&game, mixed, regret, payoff);
         /* y over the row player's costs, x over the column player's */

@@ -41,27 +41,6 @@ static void driving_column(lemke *l, int entering)
     clean_column(l, entering, l->a);
 }
 
-/* The row of the first pivot: the lexicographic minimum of (q_i, e_i)/d_i, that is the
- * least q_i/d_i and among equal ones the last; -1 when q >= 0.  Where d_i = 0 q_i is not
- * negative, and no z0 changes w_i. */
-static int first_row(const lemke *l)
-{
-    int r = -1;
-    double least = 0.0;
-    for (int i = 0; i < l->n; i++) {
-        if (l->data.p.q[i] >= 0.0)
-            continue;
-        const double ratio = l->data.p.q[i] / rb_lcp_cover(&l->data, i);
-        const int wins =
-            l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
-        if (wins) {
-            least = ratio;
-            r = i;
-        }
-    }
-    return r;
-}
-
 /* min x_i, in lanes that need not wait for each other's comparison. */
 static double least_of(int n, const double *x)
 {
@@ -124,24 +103,21 @@ static int keep_least(lemke *l, int count, const double *x)
     return kept;
 }
 
-/* w_j is basic in this row, which has a one in that column of the basis inverse; the
- * other rows, of which there is one at least, have a zero and win. */
-static int drop_row(lemke *l, int count, int row)
-{
-    int kept = 0;
-    for (int k = 0; k < count; k++)
-        if (l->tied[k] != row)
-            l->tied[kept++] = l->tied[k];
-    return kept;
-}
-
 /* The basis inverse restricted to the column of w_j is -T_:w_j where w_j is nonbasic, a
  * unit vector where it is basic.  Columns are looked at only as long as rows tie. */
 static int lexicographic_row(lemke *l, int count)
 {
     for (int j = 0; j < l->n && count > 1; j++) {
         if (l->t.place[j] >= 0) {
-            count = drop_row(l, count, l->t.place[j]);
+            /* w_j is basic in this row, which has a one in that column of the basis
+             * inverse; the other rows, of which there is one at least, have a zero and
+             * win. */
+            const int row = l->t.place[j];
+            int kept = 0;
+            for (int k = 0; k < count; k++)
+                if (l->tied[k] != row)
+                    l->tied[kept++] = l->tied[k];
+            count = kept;
         } else {
             rb_lcp_tableau_fetch(&l->t, -1 - l->t.place[j], NULL);
             clean_column(l, j, l->other);
@@ -186,20 +162,6 @@ static rb_status find_row(lemke *l, int entering, int *row)
 
 /* ---- The path ---------------------------------------------------------------------- */
 
-/* Hands the pivot to the trace, with the whole tableau where that is wanted. */
-static void tell_trace(lemke *l, rb_lcp_pivot seen)
-{
-    const size_t n = (size_t)l->n;
-    if (l->image) {
-        rb_lcp_tableau_flush(&l->t);
-        for (int c = 0; c <= l->n; c++)
-            rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
-        memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
-    }
-    seen.tableau = l->image;
-    l->opt.trace(&seen, l->opt.trace_context);
-}
-
 /* Exchanges the entering variable, whose column is in l->a, with the basic one of the
  * row, which is returned. */
 static int pivot(lemke *l, int row, int entering)
@@ -207,18 +169,29 @@ static int pivot(lemke *l, int row, int entering)
     lcp_tableau *t = &l->t;
     const int leaving = t->basis[row], iter = l->info->iters++;
     rb_lcp_tableau_pivot(t, row, -1 - t->place[entering], l->a);
-    if (l->opt.trace)
-        tell_trace(l, (rb_lcp_pivot){.pivot = iter,
-                                     .entering = entering,
-                                     .leaving = leaving,
-                                     .row = row,
-                                     .ratio = t->q[row],
-                                     .z0 = lemke_z0(l),
-                                     .attempt = l->opt.attempt,
-                                     .n = l->n,
-                                     .basis = t->basis,
-                                     .value = t->q,
-                                     .nonbasis = t->nonbasis});
+    if (l->opt.trace) {
+        /* Hands the pivot to the trace, with the whole tableau where that is wanted. */
+        rb_lcp_pivot seen = {.pivot = iter,
+                             .entering = entering,
+                             .leaving = leaving,
+                             .row = row,
+                             .ratio = t->q[row],
+                             .z0 = lemke_z0(l),
+                             .attempt = l->opt.attempt,
+                             .n = l->n,
+                             .basis = t->basis,
+                             .value = t->q,
+                             .nonbasis = t->nonbasis};
+        const size_t n = (size_t)l->n;
+        if (l->image) {
+            rb_lcp_tableau_flush(&l->t);
+            for (int c = 0; c <= l->n; c++)
+                rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
+            memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
+        }
+        seen.tableau = l->image;
+        l->opt.trace(&seen, l->opt.trace_context);
+    }
     return leaving;
 }
 
@@ -262,7 +235,22 @@ static rb_status follow_path(void *state)
     const int z0 = 2 * l->n;
     int row = 0;
     if (l->leaving < 0) {
-        row = first_row(l);
+        /* The row of the first pivot: the lexicographic minimum of (q_i, e_i)/d_i, that
+         * is the least q_i/d_i and among equal ones the last; none when q >= 0.  Where
+         * d_i = 0 q_i is not negative, and no z0 changes w_i. */
+        row = -1;
+        double least = 0.0;
+        for (int i = 0; i < l->n; i++) {
+            if (l->data.p.q[i] >= 0.0)
+                continue;
+            const double ratio = l->data.p.q[i] / rb_lcp_cover(&l->data, i);
+            const int wins =
+                l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
+            if (wins) {
+                least = ratio;
+                row = i;
+            }
+        }
         if (row < 0)
             return RB_OK;
         driving_column(l, z0);
@@ -321,16 +309,6 @@ static rb_status allocate(lemke *l)
  * Fathi short, and little enough for other paths to stay as long as with ones. */
 static const double GENERIC = 0.0625;
 
-static void choose_cover(lemke *l, double *cover)
-{
-    unsigned long long seed = 20260101;
-    if (l->data.cover || !l->task->generic)
-        return;
-    for (int i = 0; i < l->n; i++)
-        cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
-    l->data.cover = cover;
-}
-
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
                        void *state)
 {
@@ -356,8 +334,15 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
         }
     }
     s = s == RB_ENOMEM ? fail_memory(l) : allocate(l);
-    if (s == RB_OK)
-        choose_cover(l, l->weight + n + 1);
+    if (s == RB_OK) {
+        double *cover = l->weight + n + 1;
+        unsigned long long seed = 20260101;
+        if (!(l->data.cover || !l->task->generic)) {
+            for (int i = 0; i < l->n; i++)
+                cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
+            l->data.cover = cover;
+        }
+    }
     return s;
 }
 

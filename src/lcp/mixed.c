@@ -96,17 +96,6 @@ static void combine_columns(const mixed *p, const double *x, double *r)
 
 /* ---- The basic point from the data ------------------------------------------------- */
 
-/* g = q + M z of the nonbasic z. */
-static void right_hand_side(mixed *p)
-{
-    memcpy(p->g, p->q, (size_t)p->n * sizeof *p->g);
-    for (int j = 0; j < p->n; j++) {
-        const double z = p->b.slot[p->n + j] < 0 ? nonbasic_z(p, j) : 0.0;
-        for (int k = p->M->p[j]; z != 0.0 && k < p->M->p[j + 1]; k++)
-            p->g[p->M->i[k]] += p->M->x[k] * z;
-    }
-}
-
 /* A new LU, and the constants from it: what was exactly at a bound stays there, because
  * rounding in its place would break ties. */
 static rb_status refresh(mixed *p)
@@ -117,7 +106,13 @@ static rb_status refresh(mixed *p)
     }
     rb_status status = rb_lcp_basis_factor(&p->b);
     if (status == RB_OK) {
-        right_hand_side(p);
+        /* g = q + M z of the nonbasic z. */
+        memcpy(p->g, p->q, (size_t)p->n * sizeof *p->g);
+        for (int j = 0; j < p->n; j++) {
+            const double z = p->b.slot[p->n + j] < 0 ? nonbasic_z(p, j) : 0.0;
+            for (int k = p->M->p[j]; z != 0.0 && k < p->M->p[j + 1]; k++)
+                p->g[p->M->i[k]] += p->M->x[k] * z;
+        }
         status = rb_lcp_basis_solve(&p->b, p->g, 1, p->value);
     }
     if (status == RB_OK)
@@ -143,27 +138,6 @@ static rb_status refresh(mixed *p)
 
 /* ---- Where the path begins --------------------------------------------------------- */
 
-/* A basic variable that is out of its range by rounding is at its bound: the z of a
- * solution must be recognised as one. */
-static void forgive_rounding(mixed *p)
-{
-    double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
-    for (int s = 0; s < p->n; s++) {
-        double *most = p->b.variable[s] < p->n ? &most_w : &most_z;
-        *most = fmax(*most, fabs(p->value[s]));
-    }
-    for (int s = 0; s < p->n; s++) {
-        const int v = p->b.variable[s];
-        const range r = range_of(p, v);
-        const double small = ROUNDING * (v < p->n ? most_w : most_z);
-        double *x = p->value + s;
-        if (*x < r.low && *x >= r.low - small)
-            *x = r.low;
-        else if (*x > r.high && *x <= r.high + small)
-            *x = r.high;
-    }
-}
-
 /* All z at a bound; with a start, those between their bounds basic. */
 static rb_status first_basis(mixed *p, const double *start)
 {
@@ -180,8 +154,25 @@ static rb_status first_basis(mixed *p, const double *start)
     memset(p->shift, 0, (size_t)n * sizeof *p->shift);
     memset(p->value, 0, (size_t)n * sizeof *p->value);
     const rb_status s = refresh(p);
-    if (s == RB_OK)
-        forgive_rounding(p);
+    if (s == RB_OK) {
+        /* A basic variable that is out of its range by rounding is at its bound: the z of
+         * a solution must be recognised as one. */
+        double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
+        for (int j = 0; j < p->n; j++) {
+            double *most = p->b.variable[j] < p->n ? &most_w : &most_z;
+            *most = fmax(*most, fabs(p->value[j]));
+        }
+        for (int j = 0; j < p->n; j++) {
+            const int v = p->b.variable[j];
+            const range r = range_of(p, v);
+            const double small = ROUNDING * (v < p->n ? most_w : most_z);
+            double *x = p->value + j;
+            if (*x < r.low && *x >= r.low - small)
+                *x = r.low;
+            else if (*x > r.high && *x <= r.high + small)
+                *x = r.high;
+        }
+    }
     return s;
 }
 
@@ -196,15 +187,6 @@ static double violation(const mixed *p, int s)
 {
     const range r = range_of(p, p->b.variable[s]);
     return fmax(r.low - p->value[s], p->value[s] - r.high);
-}
-
-/* The perturbation: generic, and such that every basic variable moves into its box. */
-static void choose_shift(mixed *p)
-{
-    unsigned long long seed = 20260101;
-    for (int s = 0; s < p->n; s++)
-        p->generic[s] = inwards(p, s) * rb_lcp_random(&seed);
-    combine_columns(p, p->generic, p->shift);
 }
 
 /* Of the other half of a free variable the caller knows the first one. */
@@ -438,19 +420,20 @@ static rb_status enter_t(mixed *p, int slot, int *leaving)
 /* Of a pivot, beside what the basis has counted. */
 static const double PER_OPERATION = 0.35;
 
-static double work_of_pivot(int n)
-{
-    return 1000.0 + 12.0 * n;
-}
-
 /* The path begins at the point, or with NULL at the bounds. */
 static rb_status set_out(mixed *p, const double *start)
 {
     p->underway = 1;
     p->leaving = NONE;
     rb_status s = first_basis(p, start);
-    if (s == RB_OK)
-        choose_shift(p);
+    if (s == RB_OK) {
+        /* The perturbation: generic, and such that every basic variable moves into its
+         * box. */
+        unsigned long long seed = 20260101;
+        for (int i = 0; i < p->n; i++)
+            p->generic[i] = inwards(p, i) * rb_lcp_random(&seed);
+        combine_columns(p, p->generic, p->shift);
+    }
     if (s == RB_OK)
         s = choose_cover(p);
     const int slot = s == RB_OK ? first_slot(p, &p->first_t) : NONE;
@@ -481,7 +464,7 @@ static rb_status follow_path(mixed *p)
         p->leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
         s = move(p, entering, sign, step, slot, count);
         p->info->iters++;
-        p->work.used += work_of_pivot(n) + PER_OPERATION * (p->b.operations - before);
+        p->work.used += (1000.0 + 12.0 * n) + PER_OPERATION * (p->b.operations - before);
         if (s != RB_OK)
             return s;
         if (p->leaving == 2 * n || value_of_t(p) <= VANISHED * p->first_t)
@@ -514,24 +497,6 @@ static void split_free(split *f)
     rb_sparse_free(&f->M);
     free(f->of);
     free(f->q);
-}
-
-/* [M, -M_:F; -M_F:, M_FF] */
-static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
-{
-    rb_triplets t = {.rows = f->n, .cols = f->n};
-    for (int j = 0; j < M->cols; j++)
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            for (int more = 0; more < 4; more++) {
-                const int i = M->i[k], row = more & 1 ? number[i] : i;
-                const int col = more & 2 ? number[j] : j;
-                if (row >= 0 && col >= 0)
-                    rb_triplets_add(&t, row, col,
-                                    more == 1 || more == 2 ? -M->x[k] : M->x[k]);
-            }
-    const rb_status s = rb_sparse_from_triplets(&t, &f->M);
-    rb_triplets_free(&t);
-    return s;
 }
 
 static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
@@ -568,8 +533,22 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
             f->cover[f->n] = cover[i];
         f->of[f->n++ - n] = i;
     }
-    if (s == RB_OK && f->n > n)
-        s = split_matrix(p->M, number, f);
+    if (s == RB_OK && f->n > n) {
+        /* [M, -M_:F; -M_F:, M_FF] */
+        rb_triplets t = {.rows = f->n, .cols = f->n};
+        for (int j = 0; j < p->M->cols; j++)
+            for (int k = p->M->p[j]; k < p->M->p[j + 1]; k++)
+                for (int more = 0; more < 4; more++) {
+                    const int i = p->M->i[k], row = more & 1 ? number[i] : i;
+                    const int col = more & 2 ? number[j] : j;
+                    if (row >= 0 && col >= 0)
+                        rb_triplets_add(&t, row, col,
+                                        more == 1 || more == 2 ? -p->M->x[k]
+                                                               : p->M->x[k]);
+                }
+        s = rb_sparse_from_triplets(&t, &f->M);
+        rb_triplets_free(&t);
+    }
     free(number);
     return s;
 }
@@ -594,21 +573,6 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
     p->tied = p->at_upper + n;
     p->at_bound = p->tied + n;
     return RB_OK;
-}
-
-/* z from the basic point, the halves of free ones together.  col: the scale of the
- * columns, NULL: ones. */
-static void answer(const mixed *p, const split *f, const double *col, int n, double *z)
-{
-    for (int i = 0; i < p->n; i++) {
-        const int slot = p->b.slot[p->n + i];
-        double x = slot >= 0 ? p->value[slot] : nonbasic_z(p, i);
-        x = fmin(fmax(x, p->lower[i]), p->upper[i]) * (col ? col[i] : 1.0);
-        if (i < n)
-            z[i] = x;
-        else
-            z[f->of[i - n]] -= x;
-    }
 }
 
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w)
@@ -677,7 +641,18 @@ static rb_status end(void *state, rb_status s, double *z)
     mixed *p = state;
     const lcp_task *task = p->task;
     if (s >= 0) {
-        answer(p, &p->f, p->scaled.q ? p->scale.col : NULL, task->M.n, z);
+        /* z from the basic point, the halves of free ones together.  col: the scale of
+         * the columns, NULL: ones. */
+        const double *col = p->scaled.q ? p->scale.col : NULL;
+        for (int i = 0; i < p->n; i++) {
+            const int slot = p->b.slot[p->n + i];
+            double x = slot >= 0 ? p->value[slot] : nonbasic_z(p, i);
+            x = fmin(fmax(x, p->lower[i]), p->upper[i]) * (col ? col[i] : 1.0);
+            if (i < task->M.n)
+                z[i] = x;
+            else
+                z[p->f.of[i - task->M.n]] -= x;
+        }
         if (rb_lcp_measure(&task->M, &p->scale, task->q, task->lower, task->upper, z,
                            p->info) != RB_OK)
             s = rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d",

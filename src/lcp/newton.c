@@ -32,9 +32,12 @@ typedef struct {
     rb_lcp_info *info;
 } newton;
 
-/* A = M_FF for the basic z, F. */
-static void basic_part(newton *s)
+/* M_FF z_F = -q_F, the other z are zero. */
+static rb_status solve_basic(newton *s)
 {
+    const int n = s->p.M->rows;
+    rb_sparse_lu *lu = NULL;
+    /* A = M_FF for the basic z, F. */
     const rb_sparse *M = s->p.M;
     rb_sparse *A = &s->A;
     int size = 0, nz = 0;
@@ -53,14 +56,6 @@ static void basic_part(newton *s)
     }
     A->p[size] = nz;
     A->rows = A->cols = size;
-}
-
-/* M_FF z_F = -q_F, the other z are zero. */
-static rb_status solve_basic(newton *s)
-{
-    const int n = s->p.M->rows;
-    rb_sparse_lu *lu = NULL;
-    basic_part(s);
     for (int i = 0; i < n; i++)
         if (s->number[i] >= 0)
             s->rhs[s->number[i]] = -s->p.q[i];
@@ -85,20 +80,6 @@ static rb_status solve_basic(newton *s)
     return status == RB_OK ? status
                            : rb_fail(&s->info->msg, RB_ENOMEM,
                                      "lcp: newton: out of memory for a factorisation");
-}
-
-/* s->wrong: where the basic z or the basic w is negative. */
-static void find_negative(newton *s)
-{
-    const int n = s->p.M->rows;
-    rb_lcp_residual_mixed(&s->p, s->z, s->w);
-    const double small_z = NEGATIVE * rb_norm_inf((size_t)n, s->z);
-    const double small_w =
-        NEGATIVE * fmax(rb_norm_inf((size_t)n, s->w), rb_norm_inf((size_t)n, s->p.q));
-    s->m = 0;
-    for (int i = 0; i < n; i++)
-        if (s->number[i] >= 0 ? s->z[i] < -small_z : s->w[i] < -small_w)
-            s->wrong[s->m++] = i;
 }
 
 /* Exchanges z_i and w_i of the negative components from the first on. */
@@ -128,7 +109,15 @@ static rb_status iterate(void *state)
         if (status != RB_OK)
             return status;
         s->info->iters++;
-        find_negative(s);
+        /* s->wrong: where the basic z or the basic w is negative. */
+        rb_lcp_residual_mixed(&s->p, s->z, s->w);
+        const double small_z = NEGATIVE * rb_norm_inf((size_t)n, s->z);
+        const double small_w =
+            NEGATIVE * fmax(rb_norm_inf((size_t)n, s->w), rb_norm_inf((size_t)n, s->p.q));
+        s->m = 0;
+        for (int i = 0; i < n; i++)
+            if (s->number[i] >= 0 ? s->z[i] < -small_z : s->w[i] < -small_w)
+                s->wrong[s->m++] = i;
         if (s->m == 0)
             return RB_OK;
         if (s->m < s->fewest) {

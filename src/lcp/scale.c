@@ -292,26 +292,6 @@ void rb_lcp_scale_back(const lcp_scale *scale, int n, double *z)
 /* ---- The residual of each row in its own scale --------------------------------------
  */
 
-/* w = M z + q and the terms of each row, |M| |z| + |q|. */
-static void row_sums(const lcp_matrix *M, const double *q, const double *z, double *w,
-                     double *terms)
-{
-    for (int i = 0; i < M->n; i++) {
-        w[i] = q[i];
-        terms[i] = fabs(q[i]);
-    }
-    for (int j = 0; j < M->n; j++) {
-        const column a = column_of(M, j);
-        const double x = z[j];
-        for (int k = 0; x != 0.0 && k < a.count; k++) {
-            const int i = a.row ? a.row[k] : k;
-            const double t = a.x[k] * x;
-            w[i] += t;
-            terms[i] += fabs(t);
-        }
-    }
-}
-
 /* most[i] = the largest terms, in the scale, of the rows that share an unknown with row
  * i: where row i has nothing but their rounding, they are its size.  felt[i]: the same by
  * row i's entry of that unknown, which is not zero. */
@@ -349,7 +329,21 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
         return RB_ENOMEM;
     double *terms = w + n, *most = terms + n, *felt = most + n;
     const double plain = PLAIN * rb_norm_inf((size_t)n, q);
-    row_sums(M, q, z, w, terms);
+    /* w = M z + q and the terms of each row, |M| |z| + |q|. */
+    for (int i = 0; i < M->n; i++) {
+        w[i] = q[i];
+        terms[i] = fabs(q[i]);
+    }
+    for (int j = 0; j < M->n; j++) {
+        const column a = column_of(M, j);
+        const double x = z[j];
+        for (int k = 0; x != 0.0 && k < a.count; k++) {
+            const int i = a.row ? a.row[k] : k;
+            const double t = a.x[k] * x;
+            w[i] += t;
+            terms[i] += fabs(t);
+        }
+    }
     /* rows that share unknowns are looked for only where a row does not pass alone */
     for (int pass = 0; pass < 2; pass++) {
         info->res = info->scaled = 0.0;

@@ -31,11 +31,6 @@ static int depth_of(int n)
     return n < 16 ? n : n < 512 ? 16 : 32;
 }
 
-static int group_of(int n)
-{
-    return n < 16 ? n + 1 : n < 1024 ? depth_of(n) : LARGEST_GROUP;
-}
-
 static int least(int a, int b)
 {
     return a < b ? a : b;
@@ -64,49 +59,6 @@ static void no_pivots(lcp_tableau *t)
     t->k = 0;
 }
 
-/* All columns of T are up to date. */
-static void all_current(lcp_tableau *t)
-{
-    for (int c = 0; c <= t->n; c++)
-        t->slot[c] = c;
-    t->spares = 0;
-    no_pivots(t);
-}
-
-static void start(lcp_tableau *t)
-{
-    const int n = t->n;
-    memcpy(t->q, t->data->p.q, (size_t)n * sizeof *t->q);
-    for (int i = 0; i < n; i++)
-        t->basis[i] = t->place[i] = i;
-    for (int c = 0; c <= n; c++) {
-        t->nonbasis[c] = n + c;
-        t->place[n + c] = -1 - c;
-        t->slot[c] = UNTOUCHED;
-        t->spare[c] = n - c;
-    }
-    t->spares = n + 1;
-    no_pivots(t);
-}
-
-/* Few arrays: the system then keeps their memory for the next small problem. */
-static void share(lcp_tableau *t)
-{
-    const int n = t->n;
-    t->q = t->T + (size_t)n * ((size_t)n + 1);
-    t->U = t->q + n;
-    t->X = t->U + (size_t)n * (size_t)t->room;
-    t->S = t->L + (size_t)t->depth * (size_t)t->room;
-    t->nonbasis = t->basis + n;
-    t->place = t->nonbasis + n + 1;
-    t->level = t->place + 2 * n + 1;
-    t->slot = t->level + n + 1;
-    t->spare = t->slot + n + 1;
-    t->last = t->spare + n + 1;
-    t->wanted = t->last + n;
-    t->before = t->row + t->room;
-}
-
 rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
 {
     const int n = data->p.n, depth = depth_of(n), blocks = (n + depth - 1) / depth;
@@ -115,7 +67,9 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
                        .data = data,
                        .depth = depth,
                        .room = blocks * depth,
-                       .group = group_of(n)};
+                       .group = (n < 16     ? n + 1
+                                 : n < 1024 ? depth_of(n)
+                                            : LARGEST_GROUP)};
     const size_t rows = (size_t)n, room = (size_t)t->room, group = (size_t)t->group;
     t->T = rb_alloc(rows, rows + 2 + room + group);
     t->L = rb_alloc((size_t)depth, room + group);
@@ -125,8 +79,30 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
         rb_lcp_tableau_free(t);
         return RB_ENOMEM;
     }
-    share(t);
-    start(t);
+    /* Few arrays: the system then keeps their memory for the next small problem. */
+    t->q = t->T + (size_t)t->n * ((size_t)t->n + 1);
+    t->U = t->q + t->n;
+    t->X = t->U + (size_t)t->n * (size_t)t->room;
+    t->S = t->L + (size_t)t->depth * (size_t)t->room;
+    t->nonbasis = t->basis + t->n;
+    t->place = t->nonbasis + t->n + 1;
+    t->level = t->place + 2 * t->n + 1;
+    t->slot = t->level + t->n + 1;
+    t->spare = t->slot + t->n + 1;
+    t->last = t->spare + t->n + 1;
+    t->wanted = t->last + t->n;
+    t->before = t->row + t->room;
+    memcpy(t->q, t->data->p.q, (size_t)t->n * sizeof *t->q);
+    for (int i = 0; i < t->n; i++)
+        t->basis[i] = t->place[i] = i;
+    for (int c = 0; c <= t->n; c++) {
+        t->nonbasis[c] = t->n + c;
+        t->place[t->n + c] = -1 - c;
+        t->slot[c] = UNTOUCHED;
+        t->spare[c] = t->n - c;
+    }
+    t->spares = t->n + 1;
+    no_pivots(t);
     return RB_OK;
 }
 
@@ -219,16 +195,6 @@ static int gather_rows(lcp_tableau *t, int count, const int *columns, int first,
     return active;
 }
 
-static void apply_block(lcp_tableau *t, int columns, int first, int to)
-{
-    const size_t n = (size_t)t->n;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit,
-                to - first, columns, 1.0, t->L + (size_t)first * (size_t)t->depth,
-                t->depth, t->S, t->depth);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, columns, to - first,
-                -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X, t->n);
-}
-
 /* Places are taken up again as soon as they are free: T stays small and warm. */
 static void keep(lcp_tableau *t, int c, const double *x)
 {
@@ -247,7 +213,12 @@ static void advance_group(lcp_tableau *t, int count, const int *columns)
     for (int first = level - level % t->depth, to; first < t->k; first = to) {
         to = end_of_block(t, first);
         const int active = gather_rows(t, count, columns, first, to);
-        apply_block(t, active, first, to);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit,
+                    to - first, active, 1.0, t->L + (size_t)first * (size_t)t->depth,
+                    t->depth, t->S, t->depth);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, active, to - first,
+                    -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X,
+                    t->n);
     }
     for (int g = 0; g < count; g++)
         keep(t, columns[g], t->X + (size_t)g * n);
@@ -337,21 +308,6 @@ static void insert(shortlist *k, int column, double ratio)
     k->column[j] = column;
 }
 
-/* When a basic variable leaves, its complement enters, and the rows with the least ratios
- * are the next to leave.  The step of the last driving column has been taken since, which
- * changes all ratios alike. */
-static void choose_next(const lcp_tableau *t, int c, const double *driving, shortlist *k)
-{
-    insert(k, c, -1.0);
-    for (int i = 0; i < t->n; i++) {
-        if (driving[i] >= 0.0 || t->basis[i] == 2 * t->n)
-            continue;
-        const int place = t->place[rb_lcp_complement(t->n, t->basis[i])];
-        if (place < 0 && -1 - place != c)
-            insert(k, -1 - place, fmax(t->q[i], 0.0) / -driving[i]);
-    }
-}
-
 void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving)
 {
     const int behind = rb_lcp_tableau_behind(t, c);
@@ -363,24 +319,31 @@ void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving)
     }
     const int room = behind > FAR || t->group < NEARBY ? t->group : NEARBY;
     shortlist k = {0, room, t->wanted, t->S};
-    choose_next(t, c, driving, &k);
+    /* When a basic variable leaves, its complement enters, and the rows with the least
+     * ratios are the next to leave.  The step of the last driving column has been taken
+     * since, which changes all ratios alike. */
+    insert(&k, c, -1.0);
+    for (int i = 0; i < t->n; i++) {
+        if (driving[i] >= 0.0 || t->basis[i] == 2 * t->n)
+            continue;
+        const int place = t->place[rb_lcp_complement(t->n, t->basis[i])];
+        if (place < 0 && -1 - place != c)
+            insert(&k, -1 - place, fmax(t->q[i], 0.0) / -driving[i]);
+    }
     rb_lcp_tableau_advance(t, k.count, k.column);
 }
 
 /* ---- Pivots ----------------------------------------------------------------------- */
 
-static void exchange(lcp_tableau *t, int r, int c)
+void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
 {
-    const int leaving = t->basis[r], entering = t->nonbasis[c];
-    t->basis[r] = entering;
-    t->place[entering] = r;
-    t->nonbasis[c] = leaving;
-    t->place[leaving] = -1 - c;
-}
-
-/* Pivot number k enters L and U. */
-static void remember_pivot(lcp_tableau *t, int r, int c, const double *a)
-{
+    const double step = t->q[r] / a[r];
+    for (int i = 0; i < t->n; i++) {
+        const double change = step * a[i], value = t->q[i] - change;
+        t->q[i] = fabs(value) <= SNAP * fabs(change) ? 0.0 : value;
+    }
+    t->q[r] = -step;
+    /* Pivot number k enters L and U. */
     const size_t n = (size_t)t->n, depth = (size_t)t->depth;
     const int k = t->k, first = k - k % t->depth;
     double *L = t->L + (size_t)first * depth + (k - first);
@@ -399,18 +362,11 @@ static void remember_pivot(lcp_tableau *t, int r, int c, const double *a)
         t->spare[t->spares++] = t->slot[c];
     t->slot[c] = BORN;
     t->level[c] = t->k++;
-}
-
-void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
-{
-    const double step = t->q[r] / a[r];
-    for (int i = 0; i < t->n; i++) {
-        const double change = step * a[i], value = t->q[i] - change;
-        t->q[i] = fabs(value) <= SNAP * fabs(change) ? 0.0 : value;
-    }
-    t->q[r] = -step;
-    remember_pivot(t, r, c, a);
-    exchange(t, r, c);
+    const int leaving = t->basis[r], entering = t->nonbasis[c];
+    t->basis[r] = entering;
+    t->place[entering] = r;
+    t->nonbasis[c] = leaving;
+    t->place[leaving] = -1 - c;
     if (t->k == t->room)
         rb_lcp_tableau_flush(t);
 }
@@ -480,19 +436,6 @@ static void gather(const solver *p, int v)
     }
 }
 
-static int factor(solver *p)
-{
-    const size_t m = (size_t)p->m, rest = (size_t)(p->n - p->m);
-    for (size_t c = 0; c < m; c++) {
-        gather(p, p->var[c]);
-        memcpy(p->A + c * m, p->g, m * sizeof *p->A);
-        if (rest)
-            memcpy(p->E + c * rest, p->g + m, rest * sizeof *p->E);
-    }
-    return m == 0 ||
-           LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p->m, p->m, p->A, p->m, p->pivots) == 0;
-}
-
 /* The columns of X, ld n, hold g in the order of row; they become the tableau's. */
 static void solve(solver *p, const lcp_tableau *t, int columns, double *X)
 {
@@ -521,7 +464,15 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
     if (s != RB_OK)
         return s;
     choose_rows(t, &p);
-    if (factor(&p)) {
+    const size_t m = (size_t)p.m, rest = (size_t)(p.n - p.m);
+    for (size_t c = 0; c < m; c++) {
+        gather(&p, p.var[c]);
+        memcpy(p.A + c * m, p.g, m * sizeof *p.A);
+        if (rest)
+            memcpy(p.E + c * rest, p.g + m, rest * sizeof *p.E);
+    }
+    if (m == 0 ||
+        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p.m, p.m, p.A, p.m, p.pivots) == 0) {
         for (int c = 0; c <= n; c++) {
             gather(&p, t->nonbasis[c]);
             memcpy(t->T + (size_t)c * (size_t)n, p.g, (size_t)n * sizeof *p.g);
@@ -530,7 +481,11 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
             t->q[k] = data->p.q[p.row[k]];
         solve(&p, t, n + 1, t->T);
         solve(&p, t, 1, t->q);
-        all_current(t);
+        /* All columns of T are up to date. */
+        for (int c = 0; c <= t->n; c++)
+            t->slot[c] = c;
+        t->spares = 0;
+        no_pivots(t);
     } else {
         s = RB_SINGULAR;
     }
