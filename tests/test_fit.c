@@ -313,7 +313,78 @@ static void command_prints_derivatives(void **state)
     assert_non_null(strstr(err, "mu: given twice"));
     assert_int_equal(rollbem("--tolerance zone=1" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --error" BODIES), 64);
-    assert_int_equal(rollbem("--derivatives --increments 3" BODIES), 64);
+    assert_int_equal(rollbem("--derivatives --increments 3 --error" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance mu=0.1 --increments 3" BODIES), 64);
+}
+
+/* Entries of {result: {input: [..]}}. */
+static double slope_of(json_t *owner, const char *result, const char *input, size_t row)
+{
+    json_t *of = json_object_get(json_object_get(owner, "derivatives"), result);
+    json_t *entry = json_array_get(json_object_get(of, input), row);
+    return json_number_value(json_is_array(entry) ? json_array_get(entry, 1) : entry);
+}
+
+/* The same numbers in the columns of curves, studies and histories, and in JSON. */
+static void derivatives_stand_in_columns(void **state)
+{
+    (void)state;
+    json_t *one = run_json("--derivatives tangential_load,max_pressure" BODIES
+                           " --formulation steady --creep-ratio 0.6");
+    json_t *all_of = json_object_get(one, "derivatives");
+    const double by_mu = json_number_value(
+                     json_object_get(json_object_get(all_of, "tangential_load"), "mu")),
+                 by_radius = json_number_value(
+                     json_object_get(json_object_get(all_of, "max_pressure"), "radius"));
+    json_t *root = run_json("curve --from 0.3 --to 0.6 --points 2 --derivatives "
+                            "tangential_load:mu,max_pressure" BODIES);
+    json_t *curve = json_object_get(root, "curve");
+    CHECK_REL(slope_of(curve, "tangential_load", "mu", 1), by_mu, 1e-9, "curve");
+    CHECK_REL(slope_of(curve, "max_pressure", "radius", 1), by_radius, 1e-9, "curve");
+    json_decref(root);
+    assert_int_equal(rollbem("curve --from 0.3 --to 0.6 --points 2 --derivatives "
+                             "tangential_load:mu" BODIES),
+                     0);
+    assert_non_null(strstr(out, "\td_tangential_load_N/mm_by_mu\n"));
+    root = run_json("sweep --jobs 1 --vary-1 'creep-ratio 0.3 0.6' --formulation steady "
+                    "--derivatives tangential_load:mu,max_pressure:radius" BODIES);
+    json_t *table = json_object_get(root, "table");
+    CHECK_REL(entry(table, "d_tangential_load_N/mm_by_mu", 1), by_mu, 1e-9, "sweep");
+    CHECK_REL(entry(table, "d_max_pressure_MPa_by_radius_mm", 1), by_radius, 1e-9,
+              "sweep");
+    json_decref(root);
+    json_decref(one);
+    root = run_json("--formulation transient --distance 0.5 --creep -1e-3 "
+                    "--derivatives tangential_load:creep" BODIES);
+    json_t *history = json_object_get(root, "history");
+    const size_t steps = json_array_size(json_object_get(history, "distance"));
+    const double in_json = slope_of(history, "tangential_load", "creep", steps - 1);
+    json_decref(root);
+    assert_int_equal(rollbem("--formulation transient --distance 0.5 --creep -1e-3 "
+                             "--derivatives tangential_load:creep" BODIES),
+                     0);
+    const char *last = strrchr(out, '\t');
+    assert_non_null(last);
+    assert_non_null(strstr(out, "d_tangential_load_N/mm_by_creep\n"));
+    CHECK_REL(atof(last), in_json, 1e-9, "last step");
+    static const char *const bad[][2] = {
+        {"curve --derivatives nonsense", "expected a result that has derivatives, got"},
+        {"curve --derivatives force_ratio:zone", "'zone' is no number of this case"},
+        {"curve --derivatives force_ratio --error", "not together with error bars"},
+        {"curve --derivatives max_temperature", "this case has no max_temperature"},
+        {"sweep --vary-1 'mu 0.1 0.2' --derivatives all", "more than 128 columns"},
+        {"--formulation transient --distance 1 --derivatives half_width",
+         "expected a result that has derivatives step by step"},
+        {"--formulation transient --distance 1 --yield-stress 10 --interlayer-tangential "
+         "1e-4 --creep 1e-3 --derivatives approach",
+         "an interface that yields"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        char words[600];
+        snprintf(words, sizeof words, "%s%s", bad[k][0], BODIES);
+        assert_int_equal(rollbem(words), 64);
+        if (!strstr(err, bad[k][1]))
+            fail_msg("%s: %s", bad[k][0], err);
+    }
 }
 
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */
@@ -341,6 +412,15 @@ static void samples_scatter_as_tolerances(void **state)
                                                 "tangential_load")),
               0.1, "standard deviation");
     json_decref(root);
+    /* samples that are no case fail by themselves */
+    assert_int_equal(rollbem("sweep --sample 8 --tolerance mu=0.3 --jobs 1" BODIES
+                             " --formulation steady --creep -2e-3"),
+                     1);
+    assert_non_null(strstr(err, "not solved: 2 of 8"));
+    assert_non_null(strstr(err, "case 1 is not solved: mu: expected a number >= 0"));
+    assert_non_null(strstr(err, "tangential_load_N/mm"));
+    assert_null(strstr(err, "residual"));
+    assert_null(strstr(err, "max_pressure")); /* does not follow mu */
     assert_int_equal(rollbem("sweep --sample 3"), 64);
     assert_int_equal(rollbem("sweep --sample 3 --tolerance zone=1"), 64);
 }
@@ -355,6 +435,7 @@ int main(void)
         cmocka_unit_test(refusals),
         cmocka_unit_test(command_prints_parameters),
         cmocka_unit_test(command_prints_derivatives),
+        cmocka_unit_test(derivatives_stand_in_columns),
         cmocka_unit_test(samples_scatter_as_tolerances),
     };
     return cmocka_run_group_tests(tests, make_data, leave_folder);

@@ -392,6 +392,64 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
  * an entry per element. */
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);
 
+/* ---- Derivatives in columns: along a curve, over a study, step by step --------------
+ */
+
+typedef struct {
+    const rb_rolling_result *result;
+    char input[40];   /* as rb_case_number.name */
+    const char *unit; /* of the input */
+} rb_case_slope;
+
+enum { RB_CASE_SLOPES_MAX = 1024, RB_CASE_SLOPE_HEADING = 120 };
+
+typedef struct {
+    const rb_rolling_results *table; /* rb_rolling_solution_scalars, or of a history
+                                        rb_rolling_history_columns */
+    int n, rows;
+    rb_case_slope *of; /* n: columns; owned */
+    double *value;  /* rows x n x 2, row after row: for a falling and for a growing input
+                       (the same where both are alike; of histories always); NAN: none;
+                       owned */
+    int degenerate; /* of a history: steps in which elements stand between two zones */
+    rb_units units; /* mm at first */
+} rb_case_slopes;
+
+/* The columns that words ask for: "all", or RESULT (by every number of the resolved
+ * case) and RESULT:OPTION with commas between.  RB_EINVAL: no such result or number,
+ * more than `most`.  Free it in any case. */
+rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
+                                const char *words, int most, rb_case_slopes *slopes,
+                                rb_message *why);
+/* Room for so many rows, without values.  RB_ENOMEM. */
+rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *slopes);
+/* Those of a solved model of the case; row: 2 n, NAN before. */
+rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
+                            const rb_case_slopes *slopes, double *row, rb_message *why);
+/* For a growing input, or where it cannot grow for a falling one. */
+double rb_case_slope_value(const rb_case_slopes *slopes, int row, int k);
+/* "d_tangential_load_N/mm_by_radius_mm". */
+const char *rb_case_slope_heading(const rb_case_slope *of, rb_units units,
+                                  char text[RB_CASE_SLOPE_HEADING]);
+/* A derivative in other units than mm, N, MPa. */
+double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x);
+void rb_case_slopes_convert(rb_case_slopes *slopes, rb_units units);
+void rb_case_slopes_free(rb_case_slopes *slopes);
+
+/* The columns of a curve, whose case has that purpose. */
+rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
+                               const char *words, rb_case_slopes *slopes,
+                               rb_message *why);
+/* rb_rolling_curve_solve with those derivatives of each point. */
+rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
+                              rb_rolling_curve *curve, rb_case_slopes *slopes,
+                              rb_message *why);
+/* Of the history that found these states, for growing inputs where the two sides differ.
+ * RB_EINVAL: friction that depends on the state, an interface that yields, a given
+ * approach. */
+rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
+                                  rb_case_slopes *slopes, rb_message *why);
+
 /* Uncertain inputs, as in "mu=0.02,radius=1%": a standard deviation each, the inputs
  * independent. */
 enum { RB_CASE_TOLERANCES_MAX = 32 };

@@ -136,9 +136,10 @@ struct json_t *rb_report_json_history(const rb_rolling_history *h);
 struct json_t *rb_report_json_states(const rb_rolling_states *s);
 
 /* Sets "summary", with its error bars, "table" and, of a sequence of steps, "history",
- * with what its steps found where states are kept; NULL: they are not. */
+ * with what its steps found where states are kept, and its derivatives; NULL: there are
+ * none. */
 void rb_report_json_result(struct json_t **root, const rb_case_result *result,
-                           const rb_rolling_states *states);
+                           const rb_rolling_states *states, const rb_case_slopes *slopes);
 
 /* What checking a result found. */
 typedef struct {
@@ -284,6 +285,7 @@ typedef struct {
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
     const rb_rolling_case *rc; /* of `last` of the last curve, for notes; NULL: none */
+    rb_case_slopes slopes[RB_REPORT_CURVES]; /* of each point; n = 0: not asked for */
 } rb_report_curves;
 
 /* The model's problem at its approach and creepage and its tractions as an FCLib file.
@@ -450,6 +452,14 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
                                       const rb_report_derivatives *d);
 void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
                           const rb_report_derivatives *d);
+
+/* The table of a history with derivatives: a row per step. */
+rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h,
+                                const rb_case_slopes *s, const char *command,
+                                const rb_report_style *style);
+/* derivatives: {result: {input: numbers, or where the two sides differ [left, right]}},
+ * an entry per row. */
+void rb_report_json_slopes(struct json_t **owner, const rb_case_slopes *s);
 
 /* ---- Fits (case.h) ------------------------------------------------------------------
  */

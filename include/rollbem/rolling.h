@@ -708,6 +708,11 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
 /* The model's own case on elements that are moved to shift + scale x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
+/* Another case on elements that are moved to scale x, with a flexibility of its own
+ * where that or the bodies differ. */
+rb_status rb_rolling_variant_stretch(const rb_rolling_model *of,
+                                     const rb_rolling_case *rc, double scale,
+                                     rb_rolling_model *variant, rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is solved, from the zones of the model. */
@@ -865,6 +870,28 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why);
 
+/* The same step by step, with states that the caller sets: opaque. */
+typedef struct rb_rolling_follower rb_rolling_follower;
+
+/* of: another follower, before its first step, whose bodies are borrowed where rc has the
+ * same (NULL: none), and which lives longer; scale: of the elements of the states, which
+ * are borrowed.  Free it in any case. */
+rb_status rb_rolling_follower_create(const rb_rolling_case *rc,
+                                     const rb_rolling_states *states,
+                                     const rb_rolling_follower *of, double scale,
+                                     rb_rolling_follower **follower, rb_message *why);
+/* The model has the problem of the next step, with the past that the states before it
+ * left. */
+rb_status rb_rolling_follower_begin(rb_rolling_follower *follower, rb_message *why);
+/* Whose state is to be set between begin and end; borrowed. */
+rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *follower);
+/* Takes the state that the model has, complete, as that of the step. */
+void rb_rolling_follower_end(rb_rolling_follower *follower);
+/* Of the steps so far; borrowed. */
+const rb_rolling_history *
+rb_rolling_follower_history(const rb_rolling_follower *follower);
+void rb_rolling_follower_free(rb_rolling_follower *follower);
+
 /* ---- Wear -------------------------------------------------------------------------- */
 
 typedef enum {
@@ -985,6 +1012,14 @@ void rb_rolling_curve_free(rb_rolling_curve *curve);
  * rc says the tangential control, and every speed has its own mesh and flexibility. */
 rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why);
+/* Sees the model at point k; its refusal ends the curve. */
+typedef rb_status rb_rolling_point(const rb_rolling_model *model, int k, void *context,
+                                   rb_message *why);
+/* The same, watched. */
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc,
+                                   const rb_rolling_range *range, rb_rolling_point *point,
+                                   void *context, rb_rolling_curve *curve,
+                                   rb_message *why);
 
 /* ---- Subsurface stress of body A --------------------------------------------------- */
 
@@ -1145,11 +1180,14 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
 
 /* ---- Parameter studies ----------------------------------------------------------- */
 
+enum { RB_ROW_OWN = 128 };
+
 /* What a study keeps of a case: numbers, NAN where there is none, and no columns. */
 typedef struct {
     rb_rolling_solution solution;    /* with the status of the case */
     rb_rolling_errors errors;        /* NAN but with RB_ROW_ERRORS */
     rb_rolling_stress_maxima stress; /* NAN but with RB_ROW_STRESS */
+    double own[RB_ROW_OWN];          /* what the caller measures of a case; NAN else */
 } rb_rolling_row;
 
 enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits */
@@ -1158,14 +1196,17 @@ enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits */
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
 
 /* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
- * processors), one thread each.  make runs in them, see and tick in the caller: see gets
- * the rows in order, tick comes every few milliseconds with the number seen; a value
- * other than 0 ends the run.  A process that dies is replaced and its case tried once
- * more; where it dies of it again, the case is left with RB_ENOMEM. */
+ * processors), one thread each.  make and measure run in them, see and tick in the
+ * caller: see gets the rows in order, tick comes every few milliseconds with the number
+ * seen; a value other than 0 ends the run.  A process that dies is replaced and its case
+ * tried once more; where it dies of it again, the case is left with RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
     unsigned also; /* what rows have besides the solution: bits of RB_ROW_... */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
+    /* row->own of the case that make has made last, solved; or NULL */
+    rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,
+                         rb_message *why);
     int (*see)(int k, const rb_rolling_row *row, void *context);
     int (*tick)(int seen, void *context); /* or NULL */
     void *context;

@@ -23,8 +23,9 @@ typedef struct rb_sensitivity rb_sensitivity;
 
 /* results: 1: of all results, with the creepage of free rolling, which is a solution of
  * its own; 0: for tangents, adjoints and rates alone. model: solved, borrowed, unchanged
- * as long as s lives; of one step.  RB_EINVAL: steps, or what has no derivative (the line
- * says what); RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
+ * as long as s lives; of one step, or without results of a step of a history, whose past
+ * stays.  RB_EINVAL: steps, or what has no derivative (the line says what); RB_SINGULAR,
+ * RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
                                 rb_sensitivity **s, rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
@@ -51,6 +52,13 @@ typedef struct {
 
 rb_status rb_sensitivity_rate_alloc(int n, rb_sensitivity_rate *rate);
 void rb_sensitivity_rate_free(rb_sensitivity_rate *rate);
+/* to += times rate. */
+void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
+                             rb_sensitivity_rate *to);
+/* What is left of the equations of the model's zones at the unknowns that the variant
+ * has: as a rate has it, and without a difference. */
+void rb_sensitivity_residual(const rb_rolling_model *base,
+                             const rb_rolling_model *variant, rb_sensitivity_rate *left);
 
 /* D2: J y' = -R'.  y': p, q, delta, xi per unit of the input, for an input that grows
  * (side 1) or falls (-1); without degenerate elements both are the same.  RB_MAXITER: the
@@ -79,6 +87,16 @@ typedef struct {
     void *context;
 } rb_sensitivity_input;
 
+/* A first derivative from values at so many places, of fourth order. */
+enum { RB_SENSITIVITY_PLACES = 5 };
+typedef struct {
+    int n;
+    double place[RB_SENSITIVITY_PLACES], weight[RB_SENSITIVITY_PLACES]; /* in steps */
+} rb_sensitivity_stencil;
+/* Both ways where the range of the input allows it, else one way; NULL: neither. */
+const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
+                                                        double step);
+
 /* How the equations change with the input; mu: how its largest coefficient does.  rate:
  * overwritten; free it in any case. */
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
@@ -103,6 +121,11 @@ void rb_sensitivity_derivative_free(rb_sensitivity_derivative *derivative);
 
 /* Multiplies all derivatives of a side. */
 void rb_sensitivity_scale(rb_rolling_solution *value, double factor);
+
+/* The change of a result over the scale of an input that is rounding: a part of its value
+ * and of what is usual for its unit in this case. */
+double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *result,
+                               double value);
 
 /* 1: the result has a derivative. */
 int rb_sensitivity_has(const rb_rolling_result *result);

@@ -45,21 +45,6 @@ static const double *column(const problem *p, int j)
 /* ---- One point -----------------------------------------------------------------------
  */
 
-static void assign(rb_case *c, const rb_option *o, double value)
-{
-    const int k = (int)(o - rb_case_table);
-    char *words = (char *)&c->words;
-
-    *(double *)(void *)(words + o->offset) = value;
-    if (o->list) {
-        rb_numbers *list = (rb_numbers *)(void *)(words + o->list);
-        list->n = list->n > 1 ? list->n : 1;
-        list->value[0] = value;
-    }
-    c->plain[k] = 0;
-    c->given[k] = RB_GIVEN_NUMBER;
-}
-
 /* A point with its parameters; number `varied` (-1: none) has another value. */
 typedef struct {
     const problem *p;
@@ -84,15 +69,15 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc,
         if (j == p->offset)
             creep += x;
         else
-            assign(copy, p->option[j], x);
+            rb_case_assign(copy, p->option[j], x);
     }
-    assign(copy, p->creep, creep);
+    rb_case_assign(copy, p->creep, creep);
     if (d->load)
-        assign(copy, p->load, d->load[at->point]);
+        rb_case_assign(copy, p->load, d->load[at->point]);
     if (d->speed)
-        assign(copy, p->speed, d->speed[at->point]);
+        rb_case_assign(copy, p->speed, d->speed[at->point]);
     if (d->temperature)
-        assign(copy, p->temperature, d->temperature[at->point]);
+        rb_case_assign(copy, p->temperature, d->temperature[at->point]);
     const rb_status s = rb_case_resolve(copy, why);
     if (s == RB_OK)
         *rc = copy->resolved.rc;

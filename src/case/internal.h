@@ -46,6 +46,9 @@ extern const int rb_case_table_n;
 /* Bits of `excludes` that count as one in that formulation. */
 unsigned rb_case_alike(rb_rolling_formulation formulation);
 
+/* Gives a number of the case, in mm, N, MPa; resolve afterwards. */
+void rb_case_assign(rb_case *c, const rb_option *o, double value);
+
 /* A copy that lives as long as c; NULL: no memory. */
 const char *rb_case_keep(rb_case *c, const char *text);
 

@@ -13,6 +13,7 @@ typedef struct {
     const char *end[2]; /* NULL: the default */
     double from, to;    /* creepages, or speeds [mm/s] */
     int points, over;   /* rb_rolling_variable */
+    const char *derivatives;
 } range_options;
 
 typedef struct {
@@ -38,6 +39,10 @@ static const rb_option options[] = {
     RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
                    "what is varied: xi R/(mu a), xi itself, or the speed of bodies "
                    "that relax"),
+    RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
+                 "columns with the derivatives of these results of single cases at "
+                 "every point, with respect to all numbers, or RESULT:OPTION to one",
+                 .unset = "none", .alone = "all"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -100,19 +105,26 @@ static cli_exit read_range(cli_case_run *run, range_options *r)
 
 /* ---- Solve ------------------------------------------------------------------------ */
 
+static rb_rolling_range range_of(const range_options *r)
+{
+    return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points};
+}
+
 static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                              int with_errors, rb_rolling_curve *points,
                              rb_rolling_curve *errors, rb_message *why)
 {
-    const rb_rolling_range range = {(rb_rolling_variable)r->over, r->from, r->to,
-                                    r->points};
+    const rb_rolling_range range = range_of(r);
     return with_errors ? rb_rolling_curve_with_errors(rc, &range, points, errors, why)
                        : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
-static rb_status solve_curves(const rb_resolved_case *c, const range_options *range,
-                              rb_report_curves *curves, rb_message *why)
+/* words NULL: without derivatives, as those of a picture. */
+static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
+                              const range_options *range, rb_report_curves *curves,
+                              rb_message *why)
 {
+    const rb_rolling_range all = range_of(range);
     const rb_numbers one = {1, {c->rc.mu}};
     const rb_numbers *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
@@ -120,8 +132,16 @@ static rb_status solve_curves(const rb_resolved_case *c, const range_options *ra
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
-        s = solve_curve(&rc, range, c->error, &curves->curve[k], &curves->error[k],
-                        &reason);
+        s = words && range->derivatives
+                ? rb_case_curve_choose(words, &all, range->derivatives,
+                                       &curves->slopes[k], &reason)
+                : RB_OK;
+        if (s == RB_OK)
+            s = words && range->derivatives
+                    ? rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k],
+                                          &curves->slopes[k], &reason)
+                    : solve_curve(&rc, range, c->error, &curves->curve[k],
+                                  &curves->error[k], &reason);
         curves->n += s >= 0;
         if (s != RB_OK && mus->n > 1)
             rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
@@ -147,7 +167,7 @@ static rb_status solve_drawn(const cli_case_run *run, curve *r, rb_message *why)
         common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
         common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
     }
-    return solve_curves(run->c, &common, &r->drawn, why);
+    return solve_curves(NULL, run->c, &common, &r->drawn, why);
 }
 
 static void convert(rb_report_curves *curves, rb_units units)
@@ -155,6 +175,7 @@ static void convert(rb_report_curves *curves, rb_units units)
     for (int k = 0; k < RB_REPORT_CURVES; k++) {
         rb_rolling_curve_convert(&curves->curve[k], units);
         rb_rolling_curve_convert(&curves->error[k], units);
+        rb_case_slopes_convert(&curves->slopes[k], units);
     }
 }
 
@@ -163,6 +184,7 @@ static void free_curves(rb_report_curves *curves)
     for (int k = 0; k < RB_REPORT_CURVES; k++) {
         rb_rolling_curve_free(&curves->curve[k]);
         rb_rolling_curve_free(&curves->error[k]);
+        rb_case_slopes_free(&curves->slopes[k]);
     }
 }
 
@@ -186,7 +208,7 @@ static void note_last(cli_case_run *run, curve *r)
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     curve *r = run->own;
-    rb_status s = solve_curves(run->c, &r->range, &r->curves, why);
+    rb_status s = solve_curves(run->words, run->c, &r->range, &r->curves, why);
     if (s == RB_OK)
         s = solve_drawn(run, r, why);
     convert(&r->curves, run->c->units);
@@ -261,11 +283,29 @@ static cli_exit check_picture(const cli_case_run *run, const range_options *r)
                : CLI_CONTINUE;
 }
 
+/* Names of results and of numbers. */
+static cli_exit check_derivatives(const cli_case_run *run, const range_options *r)
+{
+    const rb_rolling_range range = range_of(r);
+    rb_case_slopes slopes;
+    rb_message why = {""};
+    if (!r->derivatives)
+        return CLI_CONTINUE;
+    if (run->c->error)
+        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
+    const rb_status s =
+        rb_case_curve_choose(run->words, &range, r->derivatives, &slopes, &why);
+    rb_case_slopes_free(&slopes);
+    return s == RB_OK ? CLI_CONTINUE : cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+}
+
 static cli_exit check(cli_case_run *run)
 {
     range_options *r = &((curve *)run->own)->range;
-    const cli_exit code = read_range(run, r);
-    return code == CLI_CONTINUE ? check_picture(run, r) : code;
+    cli_exit code = read_range(run, r);
+    if (code == CLI_CONTINUE)
+        code = check_picture(run, r);
+    return code == CLI_CONTINUE ? check_derivatives(run, r) : code;
 }
 
 static const cli_case_command command = {

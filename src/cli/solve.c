@@ -21,6 +21,7 @@ typedef struct {
     rb_report_derivatives shown;
     rb_case_derivatives slopes;
     rb_case_tolerances tolerances;
+    rb_case_slopes slopes_of_steps; /* of every step */
 } solved;
 
 #define PLACE(member) offsetof(solved, member)
@@ -45,8 +46,9 @@ static const rb_option options[] = {
     RB_TEXT_LINE(
         "derivatives", PLACE(derivatives), "RESULT,...",
         "derivatives of these results (without names: of all) with respect to "
-        "all numbers of the case, on the elements of the solution: the table, or "
-        "derivatives in JSON; p, q: of the tractions",
+        "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
+        "tractions; of a sequence of steps: of columns of its history, RESULT:OPTION: "
+        "with respect to one number",
         .unset = "none", .alone = "all"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "standard deviations of inputs, as mu=0.02,radius=1%: those of all "
@@ -105,10 +107,11 @@ static const char notes[] = CLI_CASE_NOTES
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const solved *it = run->own;
-    rb_report_json_result(root, &it->r, &it->kept);
+    rb_report_json_result(root, &it->r, it->states ? &it->kept : NULL,
+                          &it->slopes_of_steps);
     if (it->all.n > 0)
         rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
-    if (it->derivatives)
+    if (it->derivatives && it->slopes_of_steps.n == 0)
         rb_report_json_derivatives(root, &it->shown);
     if (it->tolerance)
         rb_report_json_tolerances(root, &it->shown);
@@ -117,6 +120,9 @@ static void add_json(const cli_case_run *run, json_t **root)
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
+    if (it->derivatives && it->slopes_of_steps.n > 0)
+        return rb_report_step_slopes(out, &it->r.history, &it->slopes_of_steps,
+                                     cli_command_line(), &run->o.style);
     if (it->derivatives && !run->o.output && cli_reader_is_person())
         return rb_report_brief_derivatives(out, run->solution, &it->shown);
     if (it->derivatives)
@@ -202,20 +208,42 @@ static rb_status differentiate(const cli_case_run *run, solved *it, rb_message *
     return s;
 }
 
+/* What is not solved has none. */
+static void drop_derivatives(solved *it)
+{
+    it->derivatives = it->tolerance = NULL;
+    rb_case_slopes_free(&it->slopes_of_steps);
+}
+
+/* Of the columns of a history. */
+static rb_status differentiate_steps(const cli_case_run *run, solved *it, rb_message *why)
+{
+    it->kept.program = run->c->program.n > 0 ? &run->c->program : NULL;
+    it->kept.half_width = it->r.history.half_width;
+    const rb_status s =
+        rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
+    if (s != RB_OK)
+        drop_derivatives(it);
+    rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
+    return s;
+}
+
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     solved *it = run->own;
     const rb_units units = run->c->units;
     it->steps.style = run->o.style;
     it->steps.terminal = !run->o.quiet && isatty(STDERR_FILENO);
-    it->steps.states = it->states ? &it->kept : NULL;
+    it->steps.states = it->states || it->slopes_of_steps.n > 0 ? &it->kept : NULL;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
-    if (s == RB_OK && (it->derivatives || it->tolerance))
+    if (s == RB_OK && it->slopes_of_steps.n > 0)
+        s = differentiate_steps(run, it, why);
+    else if (s == RB_OK && (it->derivatives || it->tolerance))
         s = differentiate(run, it, why);
-    else /* nor is there any of what is not solved */
-        it->derivatives = it->tolerance = NULL;
+    else
+        drop_derivatives(it);
     rb_case_result_convert(&it->r, units);
     for (int k = 0; k < it->all.n; k++)
         rb_rolling_solution_convert(&it->all.solution[k], units);
@@ -264,10 +292,11 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
     if ((it->derivatives || it->tolerance) && !model_kept)
         return cli_fail(CLI_USAGE,
                         "--derivatives and --tolerance: not together with error bars");
-    if ((it->derivatives || it->tolerance) && rb_case_has_steps(c))
+    if (it->derivatives && rb_case_has_steps(c) && c->error)
+        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
+    if (it->tolerance && rb_case_has_steps(c))
         return cli_fail(CLI_USAGE,
-                        "--derivatives and --tolerance: of one step; this case "
-                        "is a sequence of steps");
+                        "--tolerance: of one step; this case is a sequence of steps");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
@@ -288,7 +317,12 @@ static cli_exit check_states(const cli_case_run *run)
 static cli_exit check_derivatives(const cli_case_run *run, solved *it)
 {
     rb_message why = {""};
-    if (it->derivatives &&
+    const int steps = rb_case_has_steps(run->c);
+    if (it->derivatives && steps &&
+        rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
+                              RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    if (it->derivatives && !steps &&
         rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     if (it->tolerance && rb_case_read_tolerances(run->words, it->tolerance,
@@ -353,6 +387,7 @@ int cli_solve(int argc, char **argv)
     rb_rolling_states_free(&it.kept);
     rb_rolling_solutions_free(&it.all);
     rb_case_derivatives_free(&it.slopes);
+    rb_case_slopes_free(&it.slopes_of_steps);
     rb_case_result_free(&it.r);
     return code;
 }

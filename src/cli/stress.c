@@ -257,7 +257,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const stress *st = run->own;
-    rb_report_json_result(root, &st->run, NULL);
+    rb_report_json_result(root, &st->run, NULL, NULL);
     rb_report_json_stress(root, &st->table);
 }
 

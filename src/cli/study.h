@@ -10,17 +10,17 @@
 #include <inttypes.h>
 
 enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 128 };
-enum { STUDY_HEADING = RB_ROLLING_HEADING + 8 };
+enum { STUDY_HEADING = RB_CASE_SLOPE_HEADING };
 
 typedef struct {
     const char *vary[VARIED_MAX], *cases, *output, *results;
-    const char *tolerance;
+    const char *tolerance, *derivatives;
     int sample, seed;
     const char *plot, *map, *over, *family, *show;
     cli_pictures pictures;
     rb_report_style style;
     int jobs, restart, progress, quiet, cite;
-    int given[30];
+    int given[32];
 } study_options;
 
 /* Columns of one factor vary together: one option of a --vary, or those of the cases. */
@@ -54,7 +54,8 @@ typedef struct {
     rb_io_table table;
     study_result result[RESULTS_MAX];
     int results;
-    int over, family; /* columns of the pictures; -1: none */
+    rb_case_slopes slopes; /* columns behind those of the results; n = 0: none */
+    int over, family;      /* columns of the pictures; -1: none */
     int drawn_column;
     double *drawn;        /* of every case: what the pictures show; NULL: no picture */
     uint64_t fingerprint; /* of all inputs */
@@ -82,9 +83,12 @@ cli_exit cli_study_sample(study *st, const rb_case *c);
 double cli_study_value(const study *st, const study_column *c, int k);
 /* The values of case k in c; resolve afterwards. */
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
-/* Sets st->one to that case. */
-cli_exit cli_study_make_one(study *st, int k);
-/* Refuses what any of the cases would be refused for, before anything is solved. */
+/* Sets st->one to that case; says nothing of what is wrong with it. */
+rb_status cli_study_try_one(study *st, int k, rb_message *why);
+/* The first case that is one: of a sample not every case may be. */
+int cli_study_first(study *st, const rb_case *c);
+/* Refuses what any of the cases would be refused for, before anything is solved; of a
+ * sample each case stands for itself. */
 cli_exit cli_study_check(study *st);
 
 /* 1: --plot or --map. */

@@ -279,27 +279,58 @@ static cli_exit refuse_value(const study *st, const study_column *c, int k,
                : cli_fail(c->bad, "case %d: %s", k + 1, why->text);
 }
 
+/* *bad: the column whose value is no value of its option; NULL: none. */
+static rb_status try_values(const study *st, rb_case *c, int k, const study_column **bad,
+                            rb_message *why)
+{
+    *bad = NULL;
+    for (int j = 0; j < st->columns; j++) {
+        const study_column *column = &st->column[j];
+        const rb_status s =
+            rb_case_set_number(c, column->name, cli_study_value(st, column, k), why);
+        if (s != RB_OK) {
+            *bad = column;
+            return s;
+        }
+    }
+    return RB_OK;
+}
+
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
 {
     rb_message why = {""};
-    for (int j = 0; j < st->columns; j++) {
-        const study_column *column = &st->column[j];
-        if (rb_case_set_number(c, column->name, cli_study_value(st, column, k), &why) !=
-            RB_OK)
-            return refuse_value(st, column, k, &why);
-    }
-    return CLI_CONTINUE;
+    const study_column *bad;
+
+    return try_values(st, c, k, &bad, &why) == RB_OK ? CLI_CONTINUE
+                                                     : refuse_value(st, bad, k, &why);
 }
 
-/* Sets st->one to that case. */
-cli_exit cli_study_make_one(study *st, int number)
+rb_status cli_study_try_one(study *st, int k, rb_message *why)
 {
-    rb_message why = {""};
-    const cli_exit code = cli_study_set_values(st, st->one, number);
-    return code == CLI_CONTINUE ? cli_say(rb_case_resolve(st->one, &why), &why) : code;
+    const study_column *bad;
+    const rb_status s = try_values(st, st->one, k, &bad, why);
+
+    return s == RB_OK ? rb_case_resolve(st->one, why) : s;
 }
 
-/* What is refused is refused before anything is solved. */
+int cli_study_first(study *st, const rb_case *c)
+{
+    int k = 0;
+
+    while (st->o->sample > 0 && k < st->cases) {
+        rb_message why;
+        const study_column *bad;
+        rb_case *copy = rb_case_copy(c);
+        const int is_case = copy && try_values(st, copy, k, &bad, &why) == RB_OK &&
+                            rb_case_resolve(copy, &why) == RB_OK;
+        rb_case_free(copy);
+        if (is_case)
+            return k;
+        k++;
+    }
+    return 0;
+}
+
 cli_exit cli_study_check(study *st)
 {
     cli_exit code = CLI_CONTINUE;
@@ -307,7 +338,11 @@ cli_exit cli_study_check(study *st)
     st->one = rb_case_copy(st->base);
     if (!st->one)
         return cli_fail(CLI_INTERNAL, "out of memory");
-    for (int k = 0; k < st->cases && code == CLI_CONTINUE; k++)
-        code = cli_study_make_one(st, k);
+    for (int k = 0; k < st->cases && code == CLI_CONTINUE && st->o->sample == 0; k++) {
+        rb_message why = {""};
+        code = cli_study_set_values(st, st->one, k);
+        if (code == CLI_CONTINUE)
+            code = cli_say(rb_case_resolve(st->one, &why), &why);
+    }
     return code;
 }

@@ -33,7 +33,8 @@ static const rb_option options[] = {
     RB_INTEGER_LINE("sample", PLACE(sample), RB_FROM_TO(0, 1000000),
                     "so many cases whose inputs scatter by --tolerance (a Latin "
                     "hypercube of normal distributions); mean and standard deviation of "
-                    "each result on standard error"),
+                    "each result on standard error; a sample that is no case fails by "
+                    "itself"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "their standard deviations, as mu=0.02,radius=1%", .unset = "none"),
     RB_INTEGER_LINE("seed", PLACE(seed), RB_FROM_TO(0, 1000000000),
@@ -42,6 +43,10 @@ static const rb_option options[] = {
                  "further results, by their names in JSON's `summary` or `maxima`: "
                  "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...",
                  .unset = "none"),
+    RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
+                 "columns with the derivatives of these results in every case, with "
+                 "respect to all numbers, or RESULT:OPTION to one",
+                 .unset = "none", .alone = "all"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of a result over an option that varies: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
@@ -75,7 +80,7 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert(OPTIONS <= 30, "given");
+_Static_assert(OPTIONS <= 32, "given");
 
 static const char about[] =
     "Solves many cases that differ in some options, one process per processor, and\n"
@@ -101,6 +106,7 @@ static void study_free(study *st)
     rb_io_table_free(&st->table);
     free(st->drawn);
     free(st->sampled);
+    rb_case_slopes_free(&st->slopes);
     json_decref(st->list);
     rb_case_free(st->one);
 }
@@ -237,18 +243,29 @@ static cli_exit choose_results(study *st)
         code = choose_shown(st);
     if (code == CLI_CONTINUE && one->error)
         choose_error_bars(st);
+    if (code == CLI_CONTINUE && st->o->derivatives) {
+        rb_message why = {""};
+        if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars,
+                                  st->o->derivatives, RB_ROW_OWN, &st->slopes,
+                                  &why) != RB_OK)
+            code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    }
     return code == CLI_CONTINUE ? check_stress(st) : code;
 }
 
-/* Columns: the number of the case, what varies, the status, the results. */
+/* Columns: the number of the case, what varies, the status, the results, derivatives. */
 static int column_count(const study *st)
 {
-    return 1 + st->columns + 1 + st->results;
+    return 1 + st->columns + 1 + st->results + st->slopes.n;
 }
 
 static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
 {
     char heading[RB_ROLLING_HEADING];
+    const rb_units units = rb_case_resolved(st->base)->units;
+    const int slope = j - st->columns - 2 - st->results;
+    if (slope >= 0)
+        return rb_case_slope_heading(&st->slopes.of[slope], units, text);
     if (j == 0)
         return "case";
     if (j <= st->columns)
@@ -257,7 +274,7 @@ static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
         return "status";
     const study_result *result = &st->result[j - st->columns - 2];
     snprintf(text, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
-             rb_rolling_heading(result->r, rb_case_resolved(st->base)->units, heading));
+             rb_rolling_heading(result->r, units, heading));
     return text;
 }
 
@@ -270,6 +287,10 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
         return cli_study_value(st, &st->column[j - 1], k);
     if (j == st->columns + 1)
         return (double)row->solution.status;
+    const int slope = j - st->columns - 2 - st->results;
+    if (slope >= 0)
+        return rb_case_slope_shown(&st->slopes.of[slope],
+                                   rb_case_resolved(st->base)->units, row->own[slope]);
     const study_result *result = &st->result[j - st->columns - 2];
     const void *owner = result->of_stress  ? result->is_error
                                                  ? (const void *)&row->errors.stress
@@ -305,7 +326,8 @@ static void write_inputs(const study *st, int k, FILE *out)
 /* A case that was not solved shows in the exit code. */
 static void count_status(study *st, int k, rb_status status)
 {
-    const int code = cli_exit_of(status);
+    const int fails = st->o->sample > 0 && status == RB_EINVAL; /* no case */
+    const int code = fails ? CLI_UNSOLVED : cli_exit_of(status);
     st->unsolved += status != RB_OK;
     st->no_memory += status == RB_ENOMEM;
     st->worst = code > st->worst ? code : st->worst;
@@ -336,7 +358,10 @@ static void print_sums(const study *st)
     for (int j = 0; j < st->results && st->summed > 1; j++) {
         const double mean = st->sum[j] / n;
         const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
-        if (st->result[j].r->kind == RB_RESULT_NUMBER && variance > 0.0)
+        const rb_rolling_result *r = st->result[j].r;
+        const double rounding = rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc,
+                                                        r, st->first_result[j] + mean);
+        if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
             fprintf(stderr, "  %-28s %.6g +- %.2g\n",
                     column_name(st, st->columns + 2 + j, heading),
                     st->first_result[j] + mean, sqrt(variance));
@@ -394,10 +419,25 @@ static rb_status write_json(study *st)
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
     study *st = context;
-    if (cli_study_make_one(st, k) != CLI_CONTINUE)
-        return RB_EINVAL;
-    *rc = rb_case_resolved(st->one)->rc;
-    return RB_OK;
+    rb_message why = {""};
+    const rb_status s = cli_study_try_one(st, k, &why);
+    if (s == RB_OK)
+        *rc = rb_case_resolved(st->one)->rc;
+    return s;
+}
+
+/* A case without derivatives has its results. */
+static rb_status measure_slopes(const rb_rolling_model *model, double *own, void *context,
+                                rb_message *why)
+{
+    const study *st = context;
+    double both[2 * RB_ROW_OWN];
+    for (int k = 0; k < 2 * RB_ROW_OWN; k++)
+        both[k] = NAN;
+    const rb_status s = rb_case_slopes_at(st->one, model, &st->slopes, both, why);
+    for (int k = 0; k < st->slopes.n; k++)
+        own[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
+    return s == RB_ENOMEM ? s : RB_OK;
 }
 
 /* ---- Progress ---------------------------------------------------------------------- */
@@ -679,13 +719,14 @@ static rb_rolling_sweep sweep_of(study *st)
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,
                               .make = make_case,
+                              .measure = st->slopes.n > 0 ? measure_slopes : NULL,
                               .see = see_row,
                               .tick = tick,
                               .context = st};
 }
 
 /* Rows have no place for words: the first that was not solved is solved once more. */
-static void say_why_unsolved(const study *st, const rb_rolling_sweep *sweep)
+static void say_why_unsolved(study *st, const rb_rolling_sweep *sweep)
 {
     rb_message why = {""};
     rb_rolling_row row;
@@ -693,6 +734,8 @@ static void say_why_unsolved(const study *st, const rb_rolling_sweep *sweep)
     if (!st->unsolved_case)
         return;
     rb_rolling_sweep_case(sweep, st->unsolved_case - 1, &row, &why);
+    if (row.solution.status == RB_EINVAL && !why.text[0]) /* a sample that is no case */
+        cli_study_try_one(st, st->unsolved_case - 1, &why);
     if (row.solution.status != RB_OK)
         cli_fail(CLI_UNSOLVED, "case %d is not solved: %s", st->unsolved_case,
                  why.text[0] ? why.text : rb_status_text(row.solution.status));
@@ -744,7 +787,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     }
     /* with values, because other options may stand only beside one that varies */
     if (code == CLI_CONTINUE)
-        code = cli_study_set_values(st, c, 0);
+        code = cli_study_set_values(st, c, cli_study_first(st, c));
     if (code == CLI_CONTINUE)
         code = cli_case_resolve(spec, c, args);
     if (code == CLI_CONTINUE)

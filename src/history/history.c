@@ -27,13 +27,17 @@ typedef struct {
     const rb_rolling_program *program;   /* own, or the given one */
     const rb_rolling_observer *observer; /* or NULL */
     const rb_rolling_states *found;      /* to follow without solving; or NULL */
+    const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
+    double scale;                        /* of the elements of `found` */
     rb_rolling_model *model;
     rb_rolling_history *history;
     int steps;    /* in all */
     double shift; /* rigid shift so far [length] */
     double *q;    /* n: friction before the step */
     rb_rolling_particles particles;
-    int row, part; /* of the program: steps towards this row that are done */
+    int row, part;            /* of the program: steps towards this row that are done */
+    rb_rolling_stride stride; /* the step at hand */
+    double to;                /* [half-widths]: where it ends */
 } history_state;
 
 /* Of the program at rest, so far; 0 where it has no times. */
@@ -158,19 +162,6 @@ static rb_status follow(history_state *r)
     return s;
 }
 
-static rb_status answer_at_rest(history_state *r, rb_message *why)
-{
-    return r->found ? follow(r) : rb_rolling_model_resolve(r->model, 0, why);
-}
-
-static rb_status answer_rolled(history_state *r, rb_message *why)
-{
-    if (!r->found)
-        return rb_rolling_model_control(r->model, why);
-    rb_rolling_set_control(r->model->rc, &r->model->problem);
-    return follow(r);
-}
-
 /* What must hold after every step. */
 static rb_status assess(const history_state *r, rb_status s, rb_message *reason,
                         rb_message *why)
@@ -192,9 +183,25 @@ static rb_status check_force(const history_state *r, const rb_rolling_case *step
     return assess(r, s, &reason, why);
 }
 
-/* A step at rest towards a row of the program: the rigid shift moves the contact, or the
- * given force does. */
-static rb_status static_step(history_state *r, rb_message *why)
+static int steps_at_rest(const history_state *r)
+{
+    const int rows = rb_rolling_program_at_rest(r->program);
+    int steps = 0;
+
+    for (int row = 0; row < rows; row++)
+        steps += rb_rolling_program_parts(r->program, r->rc, row);
+    return steps;
+}
+
+/* The next step is one at rest. */
+static int is_at_rest(const history_state *r)
+{
+    return r->history->n < steps_at_rest(r);
+}
+
+/* The problem of a step at rest towards a row of the program: the rigid shift moves the
+ * contact, or the given force does. */
+static rb_status begin_at_rest(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_contact_problem *p = &model->problem;
@@ -202,10 +209,10 @@ static rb_status static_step(history_state *r, rb_message *why)
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r), mu_before = model->rc->mu;
-    rb_message reason = {""};
 
     r->part++;
-    const rb_rolling_stride stride = {0.0, time_of(r) - before, first};
+    r->to = 0.0;
+    r->stride = (rb_rolling_stride){0.0, time_of(r) - before, first};
     rb_rolling_case rest =
         rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
     rb_status s = check_force(r, &rest, why);
@@ -216,26 +223,18 @@ static rb_status static_step(history_state *r, rb_message *why)
     if (s == RB_OK)
         s = rb_rolling_model_set_case(model, &rest, why);
     if (s == RB_OK)
-        s = rb_rolling_particles_bring(&r->particles, &stride, why);
+        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
     rb_rolling_set_past(&rest, &model->bodies, first ? NULL : &past, p);
     rb_rolling_set_control(&rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
-    s = assess(r, answer_at_rest(r, &reason), &reason, why);
-    r->shift += model->state.xi;
-    if (s >= 0) {
-        rb_rolling_particles_leave(&r->particles, &stride);
-        record(r, 0.0);
-    }
-    if (s == RB_OK)
-        s = rb_rolling_check_crushed(model, why);
     if (r->part == parts) {
         r->row++;
         r->part = 0;
     }
-    return s;
+    return RB_OK;
 }
 
 /* The irregularity has come nearer by the way so far. */
@@ -249,62 +248,78 @@ static rb_status move_gap(rb_rolling_model *model, double way)
     return s;
 }
 
-/* A step on the way, from one distance to another [half-widths]. */
-static rb_status rolled_step(history_state *r, double from, double to, rb_message *why)
+/* The problem of the next step on the way. */
+static rb_status begin_rolled(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const double c = r->history->step, mu_before = model->rc->mu;
+    const int k = r->history->n, rolled = k - steps_at_rest(r);
+    const double c = r->history->step, mu_before = model->rc->mu,
+                 part = c / r->history->half_width, from = rolled * part;
     const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
-    const rb_rolling_stride stride = {c, interval_of(r, c), 0};
-    const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, to);
-    rb_message reason = {""};
+
+    r->to =
+        k + 1 == r->steps ? r->program->distance[r->program->n - 1] : (rolled + 1) * part;
+    r->stride = (rb_rolling_stride){c, interval_of(r, c), 0};
+    const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, r->to);
     rb_status s = check_force(r, &step, why);
 
     memcpy(r->q, model->state.q, (size_t)model->state.n * sizeof *r->q);
     if (s == RB_OK)
         s = rb_rolling_model_set_case(model, &step, why);
     if (s == RB_OK)
-        s = rb_rolling_particles_bring(&r->particles, &stride, why);
+        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
     if (s == RB_OK)
-        s = move_gap(model, to * r->history->half_width);
+        s = move_gap(model, r->to * r->history->half_width);
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
     if (from == 0.0 && model->rc->friction.start)
         rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
     rb_rolling_set_past(model->rc, &model->bodies, &past, &model->problem);
-    s = assess(r, answer_rolled(r, &reason), &reason, why);
-    if (s == RB_OK)
-        watch_steadiness(r, c);
-    if (s >= 0) {
-        rb_rolling_particles_leave(&r->particles, &stride);
-        record(r, to);
-    }
-    return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
+    rb_rolling_set_control(model->rc, &model->problem);
+    return RB_OK;
 }
 
-static int steps_at_rest(const history_state *r)
+static rb_status begin_step(history_state *r, rb_message *why)
 {
-    const int rows = rb_rolling_program_at_rest(r->program);
-    int steps = 0;
+    return is_at_rest(r) ? begin_at_rest(r, why) : begin_rolled(r, why);
+}
 
-    for (int row = 0; row < rows; row++)
-        steps += rb_rolling_program_parts(r->program, r->rc, row);
-    return steps;
+/* What follows from the state that the step has found. */
+static void end_step(history_state *r, rb_status s)
+{
+    if (is_at_rest(r))
+        r->shift += r->model->state.xi;
+    else if (s == RB_OK)
+        watch_steadiness(r, r->stride.c);
+    rb_rolling_particles_leave(&r->particles, &r->stride);
+    record(r, r->to);
+}
+
+static rb_status solve_step(history_state *r, rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    rb_message reason = {""};
+    rb_status s = begin_step(r, why);
+
+    if (s != RB_OK)
+        return s;
+    s = assess(r,
+               r->found        ? follow(r)
+               : is_at_rest(r) ? rb_rolling_model_resolve(model, 0, &reason)
+                               : rb_rolling_model_control(model, &reason),
+               &reason, why);
+    if (s >= 0)
+        end_step(r, s);
+    return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
 }
 
 static rb_status all_steps(history_state *r, rb_message *why)
 {
-    const int at_rest = steps_at_rest(r), n = r->program->n;
-    const double c = r->history->step / r->history->half_width;
     rb_status s = RB_OK;
 
     for (int k = 0; k < r->steps && s == RB_OK; k++) {
-        const int rolled = k - at_rest, last = k + 1 == r->steps;
-        s = rolled < 0
-                ? static_step(r, why)
-                : rolled_step(r, rolled * c,
-                              last ? r->program->distance[n - 1] : (rolled + 1) * c, why);
+        s = solve_step(r, why);
         if (s == RB_OK && r->observer && r->observer->step &&
             r->observer->step(r->model, r->history, k, r->steps, r->observer->context))
             s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1,
@@ -340,9 +355,21 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     widest.force_ratio = 0.0;
     if (!r->found)
         return rb_rolling_model_create(&widest, r->model, why);
+    if (r->like)
+        return rb_rolling_variant_stretch(r->like, &widest, r->scale, r->model, why);
+    const size_t n = (size_t)r->found->n;
+    double *x = rb_alloc(n, 2), *h = x + n;
     const rb_rolling_elements elements = {
-        .are_equal = 1, .n = r->found->n, .x = r->found->x, .h = r->found->h};
-    return rb_rolling_model_of_result(&widest, &elements, r->model, why);
+        .are_equal = 1, .n = r->found->n, .x = x, .h = h};
+    for (size_t i = 0; x && i < n; i++) {
+        x[i] = r->scale * r->found->x[i];
+        h[i] = r->scale * r->found->h[i];
+    }
+    const rb_status s =
+        x ? rb_rolling_model_of_result(&widest, &elements, r->model, why)
+          : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", r->found->n);
+    free(x);
+    return s;
 }
 
 /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
@@ -446,11 +473,12 @@ static rb_status run_on_zone(history_state *r, double zone, double *wider,
     return s;
 }
 
-static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
+/* The case and its program, and the columns of its own one, for free(). */
+static rb_status begin_program(history_state *r, const rb_rolling_case *rc,
+                               double **columns, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
-    double *columns = NULL;
 
     r->base = whole;
     r->base.mesh = RB_MESH_UNIFORM;
@@ -463,11 +491,17 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got %g", rc->distance);
     if (s == RB_OK && !program) {
         r->base.half_width = NAN; /* a column of loads replaces it */
-        columns = rb_rolling_program_of_case(rc, &r->own);
-        s = columns ? RB_OK : RB_ENOMEM;
+        *columns = rb_rolling_program_of_case(rc, &r->own);
+        s = *columns ? RB_OK : RB_ENOMEM;
     }
-    if (s == RB_OK)
-        s = rb_rolling_program_check(r->program, r->rc, why);
+    return s == RB_OK ? rb_rolling_program_check(r->program, r->rc, why) : s;
+}
+
+static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
+{
+    double *columns = NULL;
+    rb_status s = begin_program(r, rc, &columns, why);
+
     for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0;
          zone = wider) {
         s = run_on_zone(r, zone, &wider, why);
@@ -496,6 +530,19 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
     return run_program(&r, rc, why);
 }
 
+static rb_status check_followed(const rb_rolling_case *rc,
+                                const rb_rolling_states *states, rb_message *why)
+{
+    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: its states do not tell what friction that depends on "
+                       "them, or an interface that yields, remembers");
+    if (!(states->half_width > 0.0))
+        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
+                       states->half_width);
+    return RB_OK;
+}
+
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
@@ -505,18 +552,80 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
     history_state r = {.program = states->program,
                        .observer = observer,
                        .found = states,
+                       .scale = 1.0,
                        .model = model,
                        .history = history};
 
     memset(history, 0, sizeof *history);
     memset(model, 0, sizeof *model);
     history->half_width = states->half_width;
-    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "history: its states do not tell what friction that depends on "
-                       "them, or an interface that yields, remembers");
-    if (!(states->half_width > 0.0))
-        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
-                       states->half_width);
-    return run_program(&r, rc, why);
+    const rb_status s = check_followed(rc, states, why);
+    return s == RB_OK ? run_program(&r, rc, why) : s;
+}
+
+/* ---- Step by step, with states that the caller sets -------------------------------- */
+
+struct rb_rolling_follower {
+    history_state r;
+    rb_rolling_model model;
+    rb_rolling_history history;
+    const rb_rolling_follower *of;
+    double *columns;
+};
+
+rb_status rb_rolling_follower_create(const rb_rolling_case *rc,
+                                     const rb_rolling_states *states,
+                                     const rb_rolling_follower *of, double scale,
+                                     rb_rolling_follower **follower, rb_message *why)
+{
+    rb_rolling_follower *f = *follower = calloc(1, sizeof *f);
+
+    if (!f)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a history");
+    f->r = (history_state){.program = states->program,
+                           .found = states,
+                           .like = of && !rb_rolling_relaxes(rc) ? &of->model : NULL,
+                           .scale = scale,
+                           .model = &f->model,
+                           .history = &f->history};
+    f->of = f->r.like ? of : NULL;
+    f->history.half_width = states->half_width;
+    rb_status s = check_followed(rc, states, why);
+    if (s == RB_OK)
+        s = begin_program(&f->r, rc, &f->columns, why);
+    return s == RB_OK ? prepare(&f->r, f->r.base.zone, why) : s;
+}
+
+rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *f)
+{
+    return &f->model;
+}
+
+const rb_rolling_history *rb_rolling_follower_history(const rb_rolling_follower *f)
+{
+    return &f->history;
+}
+
+rb_status rb_rolling_follower_begin(rb_rolling_follower *f, rb_message *why)
+{
+    return begin_step(&f->r, why);
+}
+
+void rb_rolling_follower_end(rb_rolling_follower *f)
+{
+    end_step(&f->r, RB_OK);
+}
+
+void rb_rolling_follower_free(rb_rolling_follower *f)
+{
+    if (!f)
+        return;
+    run_free(&f->r);
+    if (f->of)
+        rb_rolling_variant_free(&f->of->model, &f->model);
+    else
+        rb_rolling_model_free(&f->model);
+    rb_rolling_history_free(&f->history);
+    free(f->columns);
+    free(f);
 }

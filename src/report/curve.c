@@ -25,14 +25,17 @@ static void write_curve(rb_report_cells *c, const rb_report_curves *curves, int 
     if (k == 0) {
         rb_report_cell_text(c, "mu");
         rb_report_cell_headings(c, parts, part);
+        rb_report_cell_slope_headings(c, &curves->slopes[k]);
         rb_report_cells_end_row(c);
         rb_report_comment_head(c, command);
+        rb_report_comment_slopes(c, &curves->slopes[k]);
         if (curves->rc)
             rb_report_comment_notes(c, curves->rc, &curves->curve[curves->n - 1].last);
     }
     for (int i = 0; i < curves->curve[k].n; i++) {
         rb_report_cell_number(c, curves->mu[k]);
         rb_report_cell_entries(c, i, parts, part);
+        rb_report_cell_slopes(c, &curves->slopes[k], i);
         rb_report_cells_end_row(c);
     }
 }
@@ -65,6 +68,8 @@ static json_t *json_curve(const rb_report_curves *curves, int k)
 
     rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
     rb_report_json_columns(&curve, c->n, &columns, 0);
+    if (curves->slopes[k].n > 0)
+        rb_report_json_slopes(&curve, &curves->slopes[k]);
     rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
     rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
     rb_report_json_set(&curve, "iterations", json_integer(c->iterations));

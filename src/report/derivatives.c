@@ -290,3 +290,91 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
     }
     rb_locale_end(before);
 }
+
+/* ---- In columns -------------------------------------------------------------------- */
+
+void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s)
+{
+    char heading[RB_CASE_SLOPE_HEADING];
+
+    for (int k = 0; k < s->n; k++)
+        rb_report_cell_text(c, rb_case_slope_heading(&s->of[k], s->units, heading));
+}
+
+void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row)
+{
+    for (int k = 0; k < s->n; k++)
+        rb_report_cell_number(c, rb_case_slope_value(s, row, k));
+}
+
+void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s)
+{
+    if (s->n > 0)
+        rb_report_comment(c, "d_A_by_B: derivative of A with respect to B, for a growing "
+                             "B where the two sides differ");
+    if (s->degenerate > 0)
+        rb_report_comment(c,
+                          "in %d of %d steps an element stands between two zones: "
+                          "derivatives from there on are those for growing numbers",
+                          s->degenerate, s->rows);
+}
+
+rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h,
+                                const rb_case_slopes *s, const char *command,
+                                const rb_report_style *style)
+{
+    rb_report_cells c = rb_report_cells_begin(out, style, "");
+
+    rb_report_cell_text(&c, "step");
+    rb_report_cell_text(&c, "distance_a");
+    rb_report_cell_slope_headings(&c, s);
+    rb_report_cells_end_row(&c);
+    rb_report_comment_origin(&c, command);
+    rb_report_comment_slopes(&c, s);
+    for (int row = 0; row < s->rows; row++) {
+        rb_report_cell_whole(&c, row + 1);
+        rb_report_cell_number(&c, h->distance[row]);
+        rb_report_cell_slopes(&c, s, row);
+        rb_report_cells_end_row(&c);
+    }
+    return rb_report_flush(out);
+}
+
+static json_t *json_slope(const rb_case_slopes *s, int row, int k)
+{
+    const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
+
+    if (both[0] == both[1] || (isnan(both[0]) && isnan(both[1])))
+        return rb_report_json_number(both[0]);
+    json_t *sides = json_array();
+    for (int side = 0; side < 2; side++)
+        rb_report_json_append(&sides, rb_report_json_number(both[side]));
+    return sides;
+}
+
+/* Of the result of column first, whose inputs stand behind it. */
+static json_t *slopes_of_result(const rb_case_slopes *s, int first)
+{
+    json_t *inputs = json_object();
+
+    for (int k = first; k < s->n; k++) {
+        json_t *list = json_array();
+        for (int row = 0; row < s->rows && s->of[k].result == s->of[first].result; row++)
+            rb_report_json_append(&list, json_slope(s, row, k));
+        if (s->of[k].result == s->of[first].result)
+            rb_report_json_set(&inputs, s->of[k].input, list);
+        else
+            json_decref(list);
+    }
+    return inputs;
+}
+
+void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
+{
+    json_t *results = json_object();
+
+    for (int k = 0; k < s->n; k++)
+        if (!json_object_get(results, s->of[k].result->name))
+            rb_report_json_set(&results, s->of[k].result->name, slopes_of_result(s, k));
+    rb_report_json_set(owner, "derivatives", results);
+}

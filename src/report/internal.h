@@ -30,6 +30,10 @@ void rb_report_cell_headings(rb_report_cells *c, int parts,
 void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
                             const rb_report_columns *part);
 /* # lines with version, command, conventions. */
+/* The same of derivatives, where there are any. */
+void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s);
+void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row);
+void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
 /* # lines with what must be known to read the numbers. */
 void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 void rb_report_json_result(json_t **root, const rb_case_result *r,
-                           const rb_rolling_states *states)
+                           const rb_rolling_states *states, const rb_case_slopes *slopes)
 {
     json_t *summary = rb_report_json_summary(&r->solution);
     if (r->has_errors)
@@ -17,5 +17,7 @@ void rb_report_json_result(json_t **root, const rb_case_result *r,
     json_t *history = rb_report_json_history(&r->history);
     if (states && states->n > 0)
         rb_report_json_set(&history, "states", rb_report_json_states(states));
+    if (slopes && slopes->n > 0)
+        rb_report_json_slopes(&history, slopes);
     rb_report_json_set(root, "history", history);
 }

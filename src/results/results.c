@@ -154,7 +154,8 @@ static const rb_rolling_result columns[] = {
 
 /* New ones at the end: scripts count columns. */
 static const rb_rolling_result steps[] = {
-    STEP("distance", distance, .unit = "a", .meaning = "rolled so far, in half-widths"),
+    STEP("distance", distance, .no_derivative = 1, .unit = "a",
+         .meaning = "rolled so far, in half-widths"),
     STEP("creepage", creepage, .unit = "1", .error_bar = RB_SCALE_ONE, .is_mean = 1,
          .meaning = "xi; 0 at rest"),
     STEP("shift", shift, .unit = "mm", .error_bar = RB_SCALE_ONE,
@@ -171,7 +172,7 @@ static const rb_rolling_result steps[] = {
          .meaning = "elements that stick"),
     STEP("slip", slipping, .unit = "elements", .kind = RB_RESULT_WHOLE,
          .meaning = "elements that slip"),
-    STEP("residual", residual, .unit = "1",
+    STEP("residual", residual, .no_derivative = 1, .unit = "1",
          .meaning = "natural residual of the scaled problem"),
     STEP("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_ONE,
          .meaning = "p0; 0 without contact"),
@@ -186,7 +187,7 @@ static const rb_rolling_result steps[] = {
     STEP("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
          .condition = RB_FOR_HEAT,
          .meaning = "highest temperature of the surfaces in contact"),
-    STEP("time", time, .unit = "s", .condition = RB_FOR_MEMORY,
+    STEP("time", time, .no_derivative = 1, .unit = "s", .condition = RB_FOR_MEMORY,
          .meaning = "at the end of the step, of bodies that relax"),
     STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE,
          .condition = RB_FOR_MEMORY,
@@ -514,6 +515,8 @@ rb_rolling_row rb_rolling_no_row(rb_status status)
     for (int i = 0; i < rb_rolling_maxima_scalars.n; i++)
         *(double *)place(&maxima[i], &row.stress) =
             *(double *)place(&maxima[i], &row.errors.stress) = NAN;
+    for (int i = 0; i < RB_ROW_OWN; i++)
+        row.own[i] = NAN;
     return row;
 }
 

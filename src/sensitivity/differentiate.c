@@ -14,25 +14,29 @@
  * digits, and where they do not. */
 static const double STEP_OF_BODIES = 5e-4, STEP = 2e-5;
 
-/* A change of a result over the input's scale that is none, as a part of the result. */
-static const double ROUNDING = 1e-12;
+/* A change of a result over the input's scale that is none, as a part of its size. */
+static const double ROUNDING = 1e-11;
 
 /* Of 1 - found_e: edges that stand at midpoints move with them, whatever these do. */
 static const double LEAST_DETERMINANT = 0.1;
 
-enum { PLACES = 5 };
+enum { PLACES = RB_SENSITIVITY_PLACES };
 
-/* A first derivative from values at so many places, of fourth order. */
-typedef struct {
-    int n;
-    double place[PLACES], weight[PLACES];
-} stencil;
-
-static const stencil middle = {4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
-static const stencil ahead = {
+static const rb_sensitivity_stencil middle = {
+    4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
+static const rb_sensitivity_stencil ahead = {
     5, {0, 1, 2, 3, 4}, {-25 / 12., 48 / 12., -36 / 12., 16 / 12., -3 / 12.}};
-static const stencil behind = {
+static const rb_sensitivity_stencil behind = {
     5, {0, -1, -2, -3, -4}, {25 / 12., -48 / 12., 36 / 12., -16 / 12., 3 / 12.}};
+
+const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
+                                                        double step)
+{
+    const int can_fall = input->value - 2.0 * step > input->from,
+              can_grow = input->value + 2.0 * step < input->to;
+
+    return can_fall && can_grow ? &middle : can_grow ? &ahead : can_fall ? &behind : NULL;
+}
 
 int rb_sensitivity_has(const rb_rolling_result *r)
 {
@@ -52,7 +56,7 @@ void rb_sensitivity_derivative_free(rb_sensitivity_derivative *d)
 typedef struct {
     const rb_rolling_model *base;
     int results; /* 0: rates alone */
-    stencil at;
+    rb_sensitivity_stencil at;
     double step;
     rb_rolling_model model[PLACES];
 } variants;
@@ -75,12 +79,11 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
         (input->vary && rb_rolling_same_bodies(&rc, s->model->rc) ? STEP
                                                                   : STEP_OF_BODIES) *
         input->scale;
-    const int can_fall = x - 2.0 * v->step > input->from,
-              can_grow = x + 2.0 * v->step < input->to;
-    v->at = can_fall && can_grow ? middle : can_grow ? ahead : behind;
-    return can_fall || can_grow
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "derivatives: the input has no room to vary");
+    const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
+    if (!at)
+        return rb_fail(why, RB_EINVAL, "derivatives: the input has no room to vary");
+    v->at = *at;
+    return RB_OK;
 }
 
 static rb_rolling_case on_the_same_elements(const rb_rolling_case *rc,
@@ -140,16 +143,11 @@ static rb_status variants_create(const rb_rolling_model *base,
 static rb_status rates(const variants *v, rb_sensitivity_rate *rate)
 {
     rb_sensitivity_rate left;
-    const int n = v->base->mesh.n;
-    rb_status s = rb_sensitivity_rate_alloc(n, &left);
+    rb_status s = rb_sensitivity_rate_alloc(v->base->mesh.n, &left);
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
-        const double weight = v->at.weight[k] / v->step;
         rb_sensitivity_residual(v->base, &v->model[k], &left);
-        for (int i = 0; i < 4 * n; i++)
-            rate->gap[i] += weight * left.gap[i];
-        rate->normal += weight * left.normal;
-        rate->tangential += weight * left.tangential;
+        rb_sensitivity_rate_add(&left, v->at.weight[k] / v->step, rate);
     }
     rb_sensitivity_rate_free(&left);
     return s;
@@ -220,7 +218,8 @@ void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
 
 /* In the place of the second one the derivative: weights times what each has more than
  * the first one, so that what does not change has a derivative of exactly 0. */
-static void combine(const stencil *at, double step, rb_rolling_solution *moved)
+static void combine(const rb_sensitivity_stencil *at, double step,
+                    rb_rolling_solution *moved)
 {
     for (int j = 1; j < at->n; j++)
         blend(&moved[1], j > 1, &moved[j], at->weight[j] / step, &moved[0]);
@@ -292,13 +291,34 @@ static int sides_agree(const rb_sensitivity_derivative *d)
     return worst < 1e-8;
 }
 
-/* What is less than rounding of the result is no change. */
-static void clean(const rb_rolling_solution *at, double scale, rb_rolling_solution *d)
+double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *r,
+                               double value)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const char *unit = r->unit ? r->unit : "1";
+    const double P = isnan(d.load) ? d.stress * d.half_width : d.load,
+                 strain = d.half_width / d.radius;
+    const int is_loss =
+        r->is_mean || r->error_bar == RB_SCALE_POWER || r->error_bar == RB_SCALE_WORK;
+    const double usual = strcmp(unit, "mm") == 0     ? strain * d.half_width
+                         : strcmp(unit, "MPa") == 0  ? d.stress
+                         : strcmp(unit, "N/mm") == 0 ? (is_loss ? strain * P : P)
+                         : strcmp(unit, "N") == 0    ? P * d.half_width
+                         : strcmp(unit, "K") == 0    ? 1.0
+                                                     : strain;
+
+    return ROUNDING * fmax(usual, fabs(value));
+}
+
+/* What is rounding of the result is no change. */
+static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
 {
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         if (rb_sensitivity_has(r) &&
-            fabs(*number_of(r, d)) * scale < ROUNDING * fabs(rb_rolling_number(r, at)))
+            fabs(*number_of(r, d)) * scale <
+                rb_sensitivity_rounding(s->model->rc, r,
+                                        rb_rolling_number(r, &s->solution)))
             *number_of(r, d) = 0.0;
     }
 }
@@ -465,7 +485,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
         if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
             add_motions(s, &v, &d->value[k]);
         if (status == RB_OK)
-            clean(&s->solution, input->scale, &d->value[k]);
+            clean(s, input->scale, &d->value[k]);
     }
     if (status == RB_OK && both && d->sides == 2 && sides_agree(d)) {
         rb_rolling_solution_free(&d->value[1]);

@@ -23,6 +23,15 @@ void rb_sensitivity_rate_free(rb_sensitivity_rate *rate)
     memset(rate, 0, sizeof *rate);
 }
 
+void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
+                             rb_sensitivity_rate *to)
+{
+    for (int i = 0; i < 4 * rate->n; i++)
+        to->gap[i] += times * rate->gap[i];
+    to->normal += times * rate->normal;
+    to->tangential += times * rate->tangential;
+}
+
 /* Controls scaled as the unknowns of the base are. */
 void rb_sensitivity_residual(const rb_rolling_model *base,
                              const rb_rolling_model *variant, rb_sensitivity_rate *left)

@@ -27,10 +27,6 @@ enum { BORDER_GAP = 1, BORDER_SLIP = 2 };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
-/* What is left of the equations of the model's zones, n each, at the unknowns that the
- * variant has: as a rate has it, and without a difference. */
-void rb_sensitivity_residual(const rb_rolling_model *base,
-                             const rb_rolling_model *variant, rb_sensitivity_rate *left);
 /* law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 

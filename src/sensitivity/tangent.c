@@ -23,9 +23,6 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
     const int dense = model->bodies.F != NULL;
     rb_contact_violation violation;
 
-    if (rb_rolling_has_steps(rc))
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives: of one step; this case is a sequence of steps");
     if (!state->p || state->status != RB_OK)
         return rb_fail(why, RB_INACCURATE, "derivatives: the case was not solved");
     if (!dense && (rb_rolling_law_depends_on_state(rc) || model->problem.yield))
@@ -329,6 +326,9 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
     rb_message reason = {""};
     rb_status status = create(model, s, why);
 
+    if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
+        status = rb_fail(why, RB_EINVAL,
+                         "derivatives: of one step; this case is a sequence of steps");
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status == RB_OK && results) {

@@ -41,8 +41,14 @@ static rb_status keep_last(const rb_rolling_model *model, rb_rolling_curve *c,
     return s;
 }
 
-static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
-                        rb_message *why)
+/* Who looks at the points; point NULL: nobody. */
+typedef struct {
+    rb_rolling_point *point;
+    void *context;
+} watcher;
+
+static rb_status record(const rb_rolling_model *model, const watcher *w,
+                        rb_rolling_curve *c, rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
@@ -81,6 +87,8 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
     if (s == RB_OK && c->max_temperature)
         s = record_heat(model, &c->max_temperature[k], why);
+    if (s == RB_OK && w->point)
+        s = w->point(model, k, w->context, why);
     return s == RB_OK && c->n == (c->branch ? 2 * c->rising : c->rising)
                ? keep_last(model, c, why)
                : s;
@@ -155,8 +163,8 @@ static rb_status remember_branch(const rb_rolling_model *model, branch_start *st
 }
 
 static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
-                                rb_rolling_model *model, rb_rolling_curve *c,
-                                rb_message *why)
+                                const watcher *w, rb_rolling_model *model,
+                                rb_rolling_curve *c, rb_message *why)
 {
     rb_rolling_case steady = *rc;
     double edge[2];
@@ -185,7 +193,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         if (s == RB_OK || s == RB_ZONE)
             s = follow_contact(model, s == RB_ZONE, edge, why);
         if (s >= 0) {
-            const rb_status t = record(model, c, why);
+            const rb_status t = record(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }
@@ -200,8 +208,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
 
 /* The flexibility itself depends on the speed. */
 static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r,
-                             rb_rolling_model *model, rb_rolling_curve *c,
-                             rb_message *why)
+                             const watcher *w, rb_rolling_model *model,
+                             rb_rolling_curve *c, rb_message *why)
 {
     rb_rolling_case steady = *rc;
     rb_status s = RB_OK;
@@ -213,7 +221,7 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
         s = rb_rolling_model_create(&steady, model, why);
         model->iterations += iterations;
         if (s >= 0 && model->state.p) {
-            const rb_status t = record(model, c, why);
+            const rb_status t = record(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }
@@ -247,6 +255,15 @@ static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *
 rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why)
 {
+    return rb_rolling_curve_observe(rc, range, NULL, NULL, curve, why);
+}
+
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc,
+                                   const rb_rolling_range *range, rb_rolling_point *point,
+                                   void *context, rb_rolling_curve *curve,
+                                   rb_message *why)
+{
+    const watcher w = {point, context};
     const double start = rb_seconds();
     rb_rolling_case steady = *rc;
     rb_rolling_model model = {0};
@@ -263,7 +280,7 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
     curve->rising = range->points;
     if (s == RB_OK)
         s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(
-            &steady, range, &model, curve, why);
+            &steady, range, &w, &model, curve, why);
     s = rb_rolling_check_layer_resolved(&model, s, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;

@@ -38,17 +38,19 @@ static processes *processes_of(rb_rolling_pool *pool)
 /* ---- One worker -------------------------------------------------------------------- */
 
 /* What a row has besides the solution. */
-static rb_status measure(unsigned also, const rb_rolling_case *rc,
+static rb_status measure(const rb_rolling_sweep *sweep, const rb_rolling_case *rc,
                          const rb_rolling_model *model,
                          const rb_rolling_solution *solution, rb_rolling_row *row,
                          rb_message *why)
 {
-    const int with_stress = (also & RB_ROW_STRESS) != 0;
+    const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
     rb_status s = RB_OK;
 
     if (with_stress)
         s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, why);
-    if (s == RB_OK && also & RB_ROW_ERRORS)
+    if (s == RB_OK && sweep->measure)
+        s = sweep->measure(model, row->own, sweep->context, why);
+    if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
         s = rb_rolling_estimate_errors(rc, solution, with_stress ? &row->stress : NULL,
                                        &row->errors, why);
     return s;
@@ -68,7 +70,7 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
     row->solution.status =
-        s == RB_OK ? measure(sweep->also, &rc, &model, &solution, row, why) : s;
+        s == RB_OK ? measure(sweep, &rc, &model, &solution, row, why) : s;
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }

@@ -1,0 +1,523 @@
+/* Derivatives in columns: at every point of a curve, in every case of a study, after
+ * every step of a history (theory.md, D2, D7). */
+#include "case/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Which columns ----------------------------------------------------------------- */
+
+static const rb_rolling_result *find_result(const rb_rolling_results *table,
+                                            const char *name)
+{
+    for (int k = 0; k < table->n; k++)
+        if (rb_sensitivity_has(&table->row[k]) && strcmp(table->row[k].name, name) == 0)
+            return &table->row[k];
+    return NULL;
+}
+
+static rb_status refuse_result(const rb_rolling_results *table, const char *name,
+                               rb_message *why)
+{
+    rb_guess guess = {.word = name};
+
+    for (int k = 0; k < table->n; k++)
+        if (rb_sensitivity_has(&table->row[k]))
+            rb_guess_try(&guess, table->row[k].name);
+    return rb_fail(why, RB_EINVAL, "expected a result that has derivatives%s, got '%s'%s",
+                   table == &rb_rolling_history_columns ? " step by step" : "", name,
+                   rb_guess_text(&guess, ""));
+}
+
+static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
+                           const rb_case_number *number, int most, rb_message *why)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->of[k].result == result && strcmp(s->of[k].input, number->name) == 0)
+            return RB_OK;
+    if (s->n == most)
+        return rb_fail(why, RB_EINVAL,
+                       "more than %d columns; name results, or RESULT:OPTION for one of "
+                       "them",
+                       most);
+    rb_case_slope *of = &s->of[s->n++];
+    of->result = result;
+    of->unit = number->option->unit;
+    memcpy(of->input, number->name, sizeof of->input);
+    return RB_OK;
+}
+
+/* "RESULT", by all numbers, or "RESULT:OPTION". */
+static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *word,
+                          int numbers, const rb_case_number *number, int most,
+                          rb_message *why)
+{
+    char *input = strchr(word, ':');
+    const int all = strcmp(word, "all") == 0;
+    rb_status status = RB_OK;
+    int found = 0;
+
+    if (input)
+        *input++ = '\0';
+    if (!all && !find_result(s->table, word))
+        return refuse_result(s->table, word, why);
+    if (!all && !rb_rolling_has_result(find_result(s->table, word), rc))
+        return rb_fail(why, RB_EINVAL, "this case has no %s", word);
+    for (int r = 0; r < s->table->n; r++) {
+        const rb_rolling_result *result = &s->table->row[r];
+        if (!rb_sensitivity_has(result) || (!all && strcmp(result->name, word) != 0) ||
+            !rb_rolling_has_result(result, rc))
+            continue;
+        for (int k = 0; k < numbers && status == RB_OK; k++)
+            if (!input || strcmp(number[k].name, input) == 0) {
+                found = 1;
+                status = add_slope(s, result, &number[k], most, why);
+            }
+    }
+    return status == RB_OK && !found
+               ? rb_fail(why, RB_EINVAL, "'%s' is no number of this case", input)
+               : status;
+}
+
+rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
+                                const char *words, int most, rb_case_slopes *s,
+                                rb_message *why)
+{
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    int numbers = 0;
+    rb_status status;
+
+    *s = (rb_case_slopes){.table = table, .of = calloc((size_t)most, sizeof *s->of)};
+    status = number && s->of ? rb_case_numbers(c, number, &numbers, why)
+                             : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    for (size_t n; status == RB_OK && *words; words += n + (words[n] == ',')) {
+        char word[100];
+        n = strcspn(words, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(n < 99 ? n : 99), words);
+        status = add_word(&c->resolved.rc, s, word, numbers, number, most, why);
+    }
+    free(number);
+    return status;
+}
+
+rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *s)
+{
+    const size_t all = 2 * (size_t)rows * (size_t)s->n;
+
+    free(s->value);
+    s->value = rb_alloc(all, 1);
+    s->rows = s->value ? rows : 0;
+    for (size_t k = 0; s->value && k < all; k++)
+        s->value[k] = NAN;
+    return s->value ? RB_OK : RB_ENOMEM;
+}
+
+void rb_case_slopes_free(rb_case_slopes *s)
+{
+    free(s->of);
+    free(s->value);
+    *s = (rb_case_slopes){0};
+}
+
+double rb_case_slope_value(const rb_case_slopes *s, int row, int k)
+{
+    const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
+    return isnan(both[1]) ? both[0] : both[1];
+}
+
+double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x)
+{
+    const char *unit = of->result->unit ? of->result->unit : "1";
+
+    return rb_unit_shown(units, unit, x) / rb_unit_shown(units, of->unit, 1.0);
+}
+
+void rb_case_slopes_convert(rb_case_slopes *s, rb_units units)
+{
+    s->units = units;
+    for (size_t i = 0; i < 2 * (size_t)s->rows * (size_t)s->n; i++)
+        s->value[i] =
+            rb_case_slope_shown(&s->of[i / 2 % (size_t)s->n], units, s->value[i]);
+}
+
+static void append_word(const char *word, char text[RB_CASE_SLOPE_HEADING])
+{
+    size_t n = strlen(text);
+    for (; *word && n + 1 < RB_CASE_SLOPE_HEADING; word++)
+        text[n++] = *word == '-' ? '_' : *word;
+    text[n] = '\0';
+}
+
+const char *rb_case_slope_heading(const rb_case_slope *of, rb_units units,
+                                  char text[RB_CASE_SLOPE_HEADING])
+{
+    char heading[RB_ROLLING_HEADING];
+
+    snprintf(text, RB_CASE_SLOPE_HEADING, "d_%s_by_",
+             rb_rolling_heading(of->result, units, heading));
+    append_word(of->input, text);
+    if (strcmp(of->unit, "-") != 0 && *of->unit) {
+        append_word("_", text);
+        append_word(rb_unit_name(units, of->unit), text);
+    }
+    return text;
+}
+
+/* ---- Of single solutions ----------------------------------------------------------- */
+
+/* The inputs of the columns, each once. */
+static int inputs_of(const rb_case_slopes *s, const char *name[RB_CASE_NUMBERS_MAX])
+{
+    int n = 0;
+
+    for (int k = 0; k < s->n; k++) {
+        int known = 0;
+        for (int j = 0; j < n; j++)
+            known |= strcmp(name[j], s->of[k].input) == 0;
+        if (!known && n < RB_CASE_NUMBERS_MAX)
+            name[n++] = s->of[k].input;
+    }
+    return n;
+}
+
+rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
+                            const rb_case_slopes *s, double *row, rb_message *why)
+{
+    const char *name[RB_CASE_NUMBERS_MAX];
+    rb_case_derivatives all;
+    const rb_status status =
+        rb_case_differentiate(c, model, inputs_of(s, name), name, &all, why);
+
+    for (int k = 0; k < s->n && status == RB_OK; k++)
+        for (int j = 0; j < all.n; j++) {
+            const rb_case_derivative *of = &all.of[j];
+            if (of->status != RB_OK || strcmp(of->name, s->of[k].input) != 0)
+                continue;
+            for (int side = 0; side < 2; side++) {
+                const int from = of->d.sides == 1 ? 0 : side;
+                if (of->d.has[from])
+                    row[2 * k + side] =
+                        rb_rolling_number(s->of[k].result, &of->d.value[from]);
+            }
+        }
+    rb_case_derivatives_free(&all);
+    return status;
+}
+
+/* ---- Along a curve ----------------------------------------------------------------- */
+
+void rb_case_assign(rb_case *c, const rb_option *o, double value)
+{
+    const int k = (int)(o - rb_case_table);
+    char *words = (char *)&c->words;
+
+    *(double *)(void *)(words + o->offset) = value;
+    if (o->list) {
+        rb_numbers *list = (rb_numbers *)(void *)(words + o->list);
+        list->n = list->n > 1 ? list->n : 1;
+        list->value[0] = value;
+    }
+    c->plain[k] = 0;
+    c->given[k] = RB_GIVEN_NUMBER;
+}
+
+/* The single case that a point of a curve is. */
+typedef struct {
+    const rb_case *c;
+    const rb_rolling_range *range;
+    double mu;
+    rb_case_slopes *s;
+} curve_slopes;
+
+static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *model,
+                              rb_message *why)
+{
+    static const char *const name[] = {[RB_OVER_CREEP_RATIO] = "creep-ratio",
+                                       [RB_OVER_CREEP] = "creep",
+                                       [RB_OVER_SPEED] = "speed"};
+    rb_case *point = rb_case_copy(of->c);
+
+    if (!point) {
+        rb_fail(why, RB_ENOMEM, "out of memory for a case");
+        return NULL;
+    }
+    point->purpose = RB_CASE_SINGLE;
+    point->words.mus.n = 1;
+    rb_case_assign(point, rb_case_option("mu"), of->mu);
+    const double value = !model                             ? of->range->from
+                         : of->range->over == RB_OVER_CREEP ? model->rc->creep
+                         : of->range->over == RB_OVER_SPEED ? model->rc->speed
+                                                            : model->rc->creep_ratio;
+    rb_case_assign(point, rb_case_option(name[of->range->over]), value);
+    if (rb_case_resolve(point, why) == RB_OK)
+        return point;
+    rb_case_free(point);
+    return NULL;
+}
+
+rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
+                               const char *words, rb_case_slopes *s, rb_message *why)
+{
+    const curve_slopes of = {c, range, c->resolved.rc.mu, NULL};
+    rb_case *point = case_of_point(&of, NULL, why);
+
+    *s = (rb_case_slopes){0};
+    if (!point)
+        return RB_EINVAL;
+    const rb_status status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars,
+                                                   words, RB_CASE_SLOPES_MAX, s, why);
+    rb_case_free(point);
+    return status;
+}
+
+static rb_status see_point(const rb_rolling_model *model, int k, void *context,
+                           rb_message *why)
+{
+    const curve_slopes *of = context;
+    rb_case *point = case_of_point(of, model, why);
+    const rb_status s =
+        point ? rb_case_slopes_at(point, model, of->s,
+                                  of->s->value + 2 * (size_t)k * (size_t)of->s->n, why)
+              : RB_EINVAL;
+
+    rb_case_free(point);
+    return s;
+}
+
+rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
+                              rb_rolling_curve *curve, rb_case_slopes *s, rb_message *why)
+{
+    rb_rolling_case rc = c->resolved.rc;
+    curve_slopes of = {c, range, mu, s};
+
+    rc.mu = mu;
+    if (rb_case_slopes_alloc(2 * range->points, s) != RB_OK)
+        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    const rb_status status =
+        rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why);
+    s->rows = curve->n;
+    return status;
+}
+
+/* ---- Step by step (D7) ------------------------------------------------------------- */
+
+/* A part of an input's scale, as for single solutions. */
+static const double STEP = 5e-4;
+
+/* A number, and the history at values of it nearby, whose states lie along the tangent.
+ */
+typedef struct {
+    const rb_case_number *number;
+    double step;
+    rb_sensitivity_stencil of;
+    rb_rolling_follower *at[RB_SENSITIVITY_PLACES];
+    rb_sensitivity_rate rate;
+    rb_contact_state tangent;
+} varied;
+
+static double unit_of_way(const rb_rolling_case *rc, const rb_rolling_program *program)
+{
+    double load = rb_rolling_derive(rc).load;
+
+    for (int k = 0; program && program->load && k < program->n; k++)
+        load = k > 0 ? fmax(load, program->load[k]) : program->load[k];
+    return rb_rolling_hertz_half_width(rc, load);
+}
+
+static rb_status vary(const rb_case *c, const rb_rolling_states *states,
+                      const rb_rolling_follower *base, varied *v, rb_message *why)
+{
+    const rb_sensitivity_input *input = &v->number->input;
+    const rb_rolling_case *rc = &c->resolved.rc;
+    const int grow = rc->zone == 0.0 || rb_rolling_relaxes(rc);
+    rb_status s = rb_sensitivity_rate_alloc(states->n, &v->rate);
+
+    v->step = STEP * input->scale;
+    if (s == RB_OK)
+        s = rb_contact_state_alloc(states->n, &v->tangent);
+    const rb_sensitivity_stencil *stencil = rb_sensitivity_stencil_of(input, v->step);
+    if (s == RB_OK && !stencil)
+        s = rb_fail(why, RB_EINVAL, "derivatives: %s has no room to vary",
+                    v->number->name);
+    if (s == RB_OK)
+        v->of = *stencil;
+    for (int k = 0; k < v->of.n && s == RB_OK; k++) {
+        rb_rolling_case at;
+        s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at,
+                        why);
+        if (s == RB_OK)
+            s = rb_rolling_follower_create(&at, states, base,
+                                           grow ? unit_of_way(&at, states->program) /
+                                                      unit_of_way(rc, states->program)
+                                                : 1.0,
+                                           &v->at[k], why);
+    }
+    return s;
+}
+
+static void varied_free(varied *v)
+{
+    for (int k = 0; k < RB_SENSITIVITY_PLACES; k++)
+        rb_rolling_follower_free(v->at[k]);
+    rb_sensitivity_rate_free(&v->rate);
+    rb_contact_state_free(&v->tangent);
+}
+
+static void set_state(const rb_rolling_states *states, int step, rb_rolling_model *model)
+{
+    rb_contact_state *to = &model->state;
+    const size_t n = (size_t)states->n, at = (size_t)step * n;
+
+    memcpy(to->p, states->p + at, n * sizeof *to->p);
+    memcpy(to->q, states->q + at, n * sizeof *to->q);
+    memcpy(to->lambda, states->lambda + at, n * sizeof *to->lambda);
+    memcpy(to->zone, states->zone + at, n * sizeof *to->zone);
+    to->delta = states->delta[step];
+    to->xi = states->xi[step];
+    to->status = RB_OK;
+}
+
+/* The equations of the step at the four values change at the state that is there also by
+ * what the states before, which have moved, left to them; that gives the tangent along
+ * which the state of this step moves. */
+static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base,
+                                    varied *v, rb_message *why)
+{
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < v->of.n && status == RB_OK; k++)
+        status = rb_rolling_follower_begin(v->at[k], why);
+    rb_sensitivity_rate left = {0};
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(base->mesh.n, &left);
+    if (status == RB_OK)
+        memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
+    v->rate.normal = v->rate.tangential = 0.0;
+    for (int k = 0; k < v->of.n && status == RB_OK; k++) {
+        rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+        rb_rolling_variant_set(base, NULL, 0.0, at);
+        status = rb_rolling_variant_complete(at, why);
+        rb_sensitivity_residual(base, at, &left);
+        rb_sensitivity_rate_add(&left, v->of.weight[k] / v->step, &v->rate);
+    }
+    rb_sensitivity_rate_free(&left);
+    if (status == RB_OK)
+        status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
+    for (int k = 0; k < v->of.n && status == RB_OK; k++) {
+        rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+        rb_rolling_variant_set(base, &v->tangent, v->of.place[k] * v->step, at);
+        status = rb_rolling_variant_complete(at, why);
+        if (status == RB_OK)
+            rb_rolling_follower_end(v->at[k]);
+    }
+    return status;
+}
+
+static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base,
+                           int n, varied *v, rb_case_slopes *slopes, rb_message *why)
+{
+    rb_rolling_model *model = rb_rolling_follower_model(base);
+    rb_status status = RB_OK;
+
+    for (int step = 0; step < states->steps && status == RB_OK; step++) {
+        rb_sensitivity *s = NULL;
+        status = rb_rolling_follower_begin(base, why);
+        set_state(states, step, model);
+        if (status == RB_OK)
+            status = rb_sensitivity_create(model, 0, &s, why);
+        if (status == RB_OK)
+            slopes->degenerate += rb_sensitivity_degenerate(s) > 0;
+        for (int k = 0; k < n && status == RB_OK; k++)
+            status = differentiate_step(s, model, &v[k], why);
+        rb_sensitivity_free(s);
+        if (status == RB_OK)
+            rb_rolling_follower_end(base);
+    }
+    return status;
+}
+
+/* Columns of the histories at the four values. */
+static void take_columns(const varied *v, int n, rb_case_slopes *s)
+{
+    for (int k = 0; k < s->n; k++)
+        for (int j = 0; j < n; j++) {
+            const rb_rolling_result *r = s->of[k].result;
+            const rb_sensitivity_input *input = &v[j].number->input;
+            if (strcmp(v[j].number->name, s->of[k].input) != 0)
+                continue;
+            for (int row = 0; row < s->rows; row++) {
+                double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
+                double sum = 0.0, at = 0.0;
+                for (int i = 0; i < v[j].of.n; i++) {
+                    at =
+                        rb_rolling_entry(r, rb_rolling_follower_history(v[j].at[i]), row);
+                    sum += v[j].of.weight[i] / v[j].step * at;
+                }
+                const rb_rolling_case *rc = rb_rolling_follower_model(v[j].at[0])->rc;
+                if (fabs(sum) * input->scale < rb_sensitivity_rounding(rc, r, at))
+                    sum = 0.0;
+                both[0] = both[1] = sum;
+            }
+        }
+}
+
+static rb_status check_steps(const rb_rolling_case *rc, const rb_rolling_states *states,
+                             rb_message *why)
+{
+    return rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0
+               ? rb_fail(
+                     why, RB_EINVAL,
+                     "derivatives of a history: not of friction that depends on the "
+                     "state, or of an interface that yields, which remember more than "
+                     "the states tell")
+           : isnan(rb_rolling_derive(rc).load) &&
+                   !(states->program && states->program->load)
+               ? rb_fail(why, RB_EINVAL,
+                         "derivatives of a history: under a given approach the unit of "
+                         "its distances is found by a solution; give a load")
+           : states->n >= RB_ROLLING_LARGE
+               ? rb_fail(
+                     why, RB_EINVAL,
+                     "derivatives of a history: need matrices: fewer than %d elements",
+                     RB_ROLLING_LARGE)
+               : RB_OK;
+}
+
+rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
+                                  rb_case_slopes *s, rb_message *why)
+{
+    const char *name[RB_CASE_NUMBERS_MAX];
+    const int asked = inputs_of(s, name);
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    varied *v = calloc(RB_CASE_NUMBERS_MAX, sizeof *v);
+    rb_rolling_follower *base = NULL;
+    int numbers = 0, n = 0;
+    rb_status status = check_steps(&c->resolved.rc, states, why);
+
+    if (!number || !v)
+        status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (status == RB_OK)
+        status = rb_case_numbers(c, number, &numbers, why);
+    if (status == RB_OK)
+        status =
+            rb_rolling_follower_create(&c->resolved.rc, states, NULL, 1.0, &base, why);
+    for (int k = 0; k < numbers && status == RB_OK; k++)
+        for (int j = 0; j < asked && status == RB_OK; j++)
+            if (strcmp(number[k].name, name[j]) == 0) {
+                v[n].number = &number[k];
+                status = vary(c, states, base, &v[n++], why);
+            }
+    if (status == RB_OK)
+        status = all_steps(states, base, n, v, s, why);
+    if (status == RB_OK && rb_case_slopes_alloc(states->steps, s) != RB_OK)
+        status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (status == RB_OK)
+        take_columns(v, n, s);
+    for (int k = 0; v && k < n; k++)
+        varied_free(&v[k]);
+    rb_rolling_follower_free(base);
+    free(v);
+    free(number);
+    return status;
+}

@@ -1,0 +1,311 @@
+/* Derivatives in columns: of histories against central differences of histories that are
+ * solved anew, of curves against differences of curves. */
+#include "check.h"
+
+#include "rollbem/rollbem.h"
+
+#include <string.h>
+
+enum { WORDS = 32 };
+
+typedef struct {
+    const char *word[WORDS]; /* name, value, name, value, ..., NULL */
+} words;
+
+static rb_case *case_of(rb_case_purpose purpose, const words *w, const char *name,
+                        double value)
+{
+    rb_message why = {""};
+    rb_case *c = rb_case_create(purpose);
+    assert_non_null(c);
+    for (int k = 0; w->word[k]; k += 2)
+        if (rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
+            fail_msg("%s", why.text);
+    if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    if (rb_case_resolve(c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+/* ---- Histories --------------------------------------------------------------------- */
+
+static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history,
+                      int step, int steps, void *context)
+{
+    rb_rolling_states *states = context;
+    (void)history;
+    if (step == 0) {
+        rb_rolling_states_free(states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
+            return 1;
+    }
+    rb_rolling_states_set(model, step, states);
+    return 0;
+}
+
+typedef struct {
+    rb_case *c;
+    rb_case_result r;
+    rb_rolling_states states;
+} run;
+
+static run run_of(const words *w, const char *name, double value)
+{
+    rb_message why = {""};
+    run it = {.c = case_of(RB_CASE_SINGLE, w, name, value)};
+    const rb_resolved_case *c = rb_case_resolved(it.c);
+    if (rb_case_solve(c, keep_state, &it.states, &it.r, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    it.states.program = c->program.n > 0 ? &c->program : NULL;
+    it.states.half_width = it.r.history.half_width;
+    return it;
+}
+
+static void run_free(run *it)
+{
+    rb_rolling_states_free(&it->states);
+    rb_case_result_free(&it->r);
+    rb_case_free(it->c);
+}
+
+static const double place[] = {-2.0, -1.0, 1.0, 2.0}, weight[] = {1.0, -8.0, 8.0, -1.0};
+
+/* Of the number of column k and all columns by it: the worst deviation, of the largest
+ * value that the result has over its input; -1: zones change between the values. */
+static double deviation(const words *w, const run *at, const rb_case_slopes *s, int k,
+                        double value, char worst[200])
+{
+    const double step = 2e-4 * fabs(value);
+    run near[4];
+    double most = 0.0;
+    int same = 1;
+
+    for (int j = 0; j < 4; j++) {
+        near[j] = run_of(w, s->of[k].input, value + place[j] * step);
+        same = same && near[j].states.n == at->states.n &&
+               near[j].states.steps == at->states.steps &&
+               memcmp(near[j].states.zone, at->states.zone,
+                      sizeof(int) * (size_t)at->states.n * (size_t)at->states.steps) == 0;
+    }
+    for (int i = 0; i < s->n && same; i++) {
+        double scale = 0.0;
+        if (strcmp(s->of[i].input, s->of[k].input) != 0)
+            continue;
+        for (int row = 0; row < s->rows; row++)
+            scale =
+                fmax(scale, fabs(rb_rolling_entry(s->of[i].result, &at->r.history, row)));
+        if (strcmp(s->of[i].result->name, "moment") == 0)
+            scale =
+                fmax(scale, 0.1 * at->r.solution.normal_load * at->r.solution.half_width);
+        if (strcmp(s->of[i].result->name, "shift") == 0)
+            scale = fmax(scale, pow(at->r.solution.half_width, 2.0) / 50.0);
+        for (int row = 0; row < s->rows; row++) {
+            double want = 0.0;
+            for (int j = 0; j < 4; j++)
+                want += weight[j] / (12.0 * step) *
+                        rb_rolling_entry(s->of[i].result, &near[j].r.history, row);
+            const double got = rb_case_slope_value(s, row, i),
+                         size = fmax(fabs(want), scale / fabs(value)),
+                         off = size > 0.0 ? fabs(got - want) / size : fabs(got);
+            if (!(off <= most)) {
+                most = off;
+                snprintf(worst, 200, "%s by %s, step %d: %g for %g",
+                         s->of[i].result->name, s->of[i].input, row + 1, got, want);
+            }
+        }
+    }
+    for (int j = 0; j < 4; j++)
+        run_free(&near[j]);
+    return same ? most : -1.0;
+}
+
+#define PLANES "support", "halfplane", "load", "500", "contact-elements", "30"
+#define ROLLS "formulation", "transient", "distance", "1"
+
+static const words histories[] = {
+    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}},
+    {{PLANES, ROLLS, "young-b", "70000", "creep", "-2e-3", "steps", "9"}},
+    {{PLANES, ROLLS, "similar", "yes", "force", "60", "interlayer-tangential", "1e-6",
+      "zone", "1.3"}},
+    {{PLANES, ROLLS, "young-b", "70000", "force-ratio", "-0.5"}},
+    {{PLANES, "formulation", "static", "young-b", "70000", "increments", "4", "shift",
+      "1e-3"}},
+    {{PLANES, "formulation", "static", "similar", "yes", "increments", "5", "force-ratio",
+      "0.6"}},
+    {{"support", "hub", "load", "500", "contact-elements", "20", "outer-elements", "60",
+      ROLLS, "creep-ratio", "0.5"}},
+    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "relaxation-time", "1e-3",
+      "relaxation-ratio", "1", "speed", "1000", "zone", "2"}},
+    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "conductivity", "50",
+      "heat-capacity", "3.5", "speed", "1000"}},
+    {{PLANES, ROLLS, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
+      "base-poisson", "0.3"}},
+    {{"support", "halfplane", "contact-elements", "30", "formulation", "transient",
+      "similar", "yes", "history", "tests/data/slopes_history.tsv"}},
+};
+
+static void histories_have_derivatives(void **state)
+{
+    (void)state;
+    for (size_t h = 0; h < sizeof histories / sizeof *histories; h++) {
+        rb_message why = {""};
+        rb_case_slopes s;
+        rb_case_number number[RB_CASE_NUMBERS_MAX];
+        int numbers, compared = 0;
+        run at = run_of(&histories[h], NULL, 0.0);
+        CHECK_STATUS(rb_case_slopes_choose(at.c, &rb_rolling_history_columns, "all",
+                                           RB_CASE_SLOPES_MAX, &s, &why),
+                     RB_OK);
+        if (rb_case_slopes_of_steps(at.c, &at.states, &s, &why) != RB_OK)
+            fail_msg("history %d: %s", (int)h, why.text);
+        assert_int_equal(s.rows, at.r.history.n);
+        CHECK_STATUS(rb_case_numbers(at.c, number, &numbers, &why), RB_OK);
+        for (int k = 0; k < numbers; k++) {
+            int column = 0;
+            char worst[200] = "";
+            while (strcmp(s.of[column].input, number[k].name) != 0)
+                column++;
+            if (number[k].input.value == 0.0 || number[k].entry > 0)
+                continue;
+            const double off =
+                deviation(&histories[h], &at, &s, column, number[k].input.value, worst);
+            if (!(off <= 1e-8))
+                fail_msg("history %d: %.2g: %s", (int)h, off, worst);
+            compared += off >= 0.0;
+        }
+        if (compared < 3)
+            fail_msg("history %d: %d numbers compared", (int)h, compared);
+        rb_case_slopes_free(&s);
+        run_free(&at);
+    }
+}
+
+static void refusals_of_histories(void **state)
+{
+    static const struct {
+        words w;
+        const char *words;
+    } bad[] = {
+        {{{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "yield-stress", "30",
+           "interlayer-tangential", "1e-6"}},
+         "interface that yields"},
+        {{{PLANES, ROLLS, "similar", "yes", "creep", "-1e-3", "friction-law", "rational",
+           "mu", "0.2", "mu-fall", "0.1", "slip-scale", "5", "speed", "1000"}},
+         "friction that depends on the state"},
+        {{{"support", "halfplane", ROLLS, "similar", "yes", "creep", "1e-3", "approach",
+           "0.01", "contact-elements", "30"}},
+         "give a load"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_message why = {""};
+        rb_case_slopes s;
+        run at = run_of(&bad[k].w, NULL, 0.0);
+        CHECK_STATUS(rb_case_slopes_choose(at.c, &rb_rolling_history_columns,
+                                           "tangential_load", 100, &s, &why),
+                     RB_OK);
+        CHECK_STATUS(rb_case_slopes_of_steps(at.c, &at.states, &s, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, bad[k].words));
+        rb_case_slopes_free(&s);
+        run_free(&at);
+    }
+}
+
+/* ---- Curves ------------------------------------------------------------------------ */
+
+/* Every point has the derivatives of the single case that it is. */
+static void points_are_single_cases(void **state)
+{
+    static const struct {
+        words w;
+        rb_rolling_range range;
+        const char *over;
+    } curve[] = {{{{PLANES, "mesh", "uniform", "similar", "yes", "zone", "1.2"}},
+                  {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3},
+                  "creep-ratio"},
+                 {{{PLANES, "mesh", "uniform", "young-b", "70000",
+                    "interlayer-tangential", "1e-6"}},
+                  {RB_OVER_CREEP, -2e-3, 1e-3, 4},
+                  "creep"},
+                 {{{PLANES, "mesh", "uniform", "similar", "yes", "relaxation-time",
+                    "1e-3", "relaxation-ratio", "1", "creep", "1e-3", "zone", "2"}},
+                  {RB_OVER_SPEED, 100, 10000, 3},
+                  "speed"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
+        rb_message why = {""};
+        rb_case_slopes s, want = {0};
+        rb_rolling_curve points;
+        const rb_case_purpose purpose =
+            curve[k].range.over == RB_OVER_SPEED ? RB_CASE_SPEEDS : RB_CASE_CURVE;
+        rb_case *c = case_of(purpose, &curve[k].w, NULL, 0.0);
+        if (rb_case_curve_choose(c, &curve[k].range, "all", &s, &why) != RB_OK ||
+            rb_case_curve_solve(c, &curve[k].range, rb_case_resolved(c)->rc.mu, &points,
+                                &s, &why) != RB_OK)
+            fail_msg("curve %d: %s", (int)k, why.text);
+        assert_int_equal(s.rows, curve[k].range.points);
+        for (int row = 0; row < s.rows; row++) {
+            words one = curve[k].w;
+            rb_case_result r;
+            int at = 0;
+            while (one.word[at])
+                at += 2;
+            one.word[at] = "formulation";
+            one.word[at + 1] = "steady";
+            const double value = curve[k].range.over == RB_OVER_SPEED ? points.speed[row]
+                                 : curve[k].range.over == RB_OVER_CREEP
+                                     ? points.creepage[row]
+                                     : points.creep_ratio[row];
+            rb_case *single = case_of(RB_CASE_SINGLE, &one, curve[k].over, value);
+            CHECK_STATUS(rb_case_solve(rb_case_resolved(single), NULL, NULL, &r, &why),
+                         RB_OK);
+            CHECK_STATUS(rb_case_slopes_choose(single, s.table, "all", RB_CASE_SLOPES_MAX,
+                                               &want, &why),
+                         RB_OK);
+            CHECK_STATUS(rb_case_slopes_alloc(1, &want), RB_OK);
+            CHECK_STATUS(rb_case_slopes_at(single, &r.model, &want, want.value, &why),
+                         RB_OK);
+            assert_int_equal(want.n, s.n);
+            for (int j = 0; j < s.n; j++) {
+                const double x = rb_case_slope_value(&s, row, j),
+                             y = rb_case_slope_value(&want, 0, j);
+                const double size = fabs(rb_rolling_number(s.of[j].result, &r.solution));
+                double scale = 1e300;
+                rb_case_number number[RB_CASE_NUMBERS_MAX];
+                int numbers;
+                CHECK_STATUS(rb_case_numbers(single, number, &numbers, &why), RB_OK);
+                for (int i = 0; i < numbers; i++)
+                    if (strcmp(number[i].name, s.of[j].input) == 0)
+                        scale = number[i].input.scale;
+                if (!(isnan(x) && isnan(y)))
+                    CHECK_ABS(x, y, 1e-8 * fabs(y) + 1e-8 * size / scale,
+                              "curve %d, %s by %s, point %d", (int)k,
+                              s.of[j].result->name, s.of[j].input, row);
+            }
+            rb_case_slopes_free(&want);
+            rb_case_result_free(&r);
+            rb_case_free(single);
+        }
+        int at = 0;
+        while (strcmp(s.of[at].result->name, "tangential_load") != 0 ||
+               strcmp(s.of[at].input, "radius") != 0)
+            at++;
+        const double in_mm = rb_case_slope_value(&s, 1, at);
+        rb_case_slopes_convert(&s, RB_UNITS_SI);
+        CHECK_REL(rb_case_slope_value(&s, 1, at), 1e6 * in_mm, 1e-12, "N/m by m");
+        rb_case_slopes_free(&s);
+        rb_rolling_curve_free(&points);
+        rb_case_free(c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(histories_have_derivatives),
+        cmocka_unit_test(refusals_of_histories),
+        cmocka_unit_test(points_are_single_cases),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
