@@ -1,9 +1,9 @@
 /* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver
  * -> solution.  Each arrow is a public function that takes the structs before it and
- * fills the next one, so that a program can use each one alone and print what it has
- * found. Conventions (theory.md 2): A rolls towards +x, material passes the contact from
- * +x to -x; creepage xi > 0 is a braked wheel: A's surface slides towards +x over the
- * ground, the friction on A points to -x, Q < 0.  Loads are per unit length (plane
+ * fills the next one, so that a program can call each step alone and look at its result.
+ * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to
+ * -x; a creepage xi > 0 means a braked wheel: A's surface slides towards +x over the
+ * ground, the friction on A points to -x, and Q < 0.  Loads are per unit length (plane
  * strain). Equation tags (K1) ... (K6): docs/theory.md. */
 #ifndef ROLLBEM_ROLLING_H
 #define ROLLBEM_ROLLING_H
@@ -27,20 +27,22 @@ typedef enum {
 /* A of steady rolling (theory.md 4.2): the difference to the element upstream, or the
  * second-order difference of equal elements. */
 typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
-/* From so many equal elements on half-planes no matrix exists: they are solved by Fourier
- * transforms; in steady rolling by Coulomb's law from fewer on, where a matrix can be
- * added (rb_rolling_model_add_matrix). */
+/* With RB_ROLLING_LARGE or more equal elements on half-planes no matrix is formed; the
+ * products are computed by Fourier transforms.  In steady rolling with Coulomb's law this
+ * begins at RB_ROLLING_TRANSFORMS elements; a matrix can then be added
+ * (rb_rolling_model_add_matrix). */
 enum { RB_ROLLING_LARGE = 1500, RB_ROLLING_TRANSFORMS = 150 };
-/* Close to a load a wheel answers by its boundary elements alone, as in *Addi*, or by the
- * exact strip on the half-plane with the boundary elements solving for the rest (B10). */
+/* How displacements of a wheel close to a load are computed: by its boundary elements
+ * alone, as in *Addi*, or by the exact solution of a strip load on the half-plane plus
+ * boundary elements for the remainder (B10). */
 typedef enum {
     RB_NEAR_FIELD_AUTO, /* exact on fitted meshes */
     RB_NEAR_FIELD_PLAIN,
     RB_NEAR_FIELD_EXACT
 } rb_rolling_near_field;
 
-/* Relaxation of a viscoelastic half-plane (V1): creep compliance
- * J(t) = J_g [1 + sum f_k (1 - exp(-t/tau_k))], Poisson's ratio constant. */
+/* Viscoelasticity (V1): creep compliance J(t) = J_g [1 + sum f_k (1 - exp(-t/tau_k))],
+ * Poisson's ratio constant. */
 enum { RB_ROLLING_TERMS = 16 };
 typedef struct {
     int n;                          /* 0: elastic */
@@ -48,8 +50,8 @@ typedef struct {
     double ratio[RB_ROLLING_TERMS]; /* f_k >= 0 */
 } rb_rolling_memory;
 
-/* How a body conducts the heat of friction (T1).  Units: with N, mm, s the conductivity
- * is N/(s K) = W/(m K) and the heat capacity MPa/K = MJ/(m^3 K). */
+/* Thermal properties of a body for frictional heating (T1).  Units: with N, mm, s the
+ * conductivity is N/(s K) = W/(m K) and the heat capacity MPa/K = MJ/(m^3 K). */
 typedef struct {
     double conductivity;  /* [force/(time temperature)]; 0: no heat enters this body */
     double heat_capacity; /* density times specific heat [stress/temperature] */
@@ -57,78 +59,83 @@ typedef struct {
 } rb_rolling_heat;
 
 typedef struct {
-    double young, poisson; /* [stress], [-]; the glassy modulus of a body with memory */
-    double radius;         /* [length]; body B only: INFINITY: a plane; < 0: a bore that A
-                              lies in */
+    double young, poisson; /* [stress], [-]; of a viscoelastic body the glassy
+                              (instantaneous) modulus */
+    double radius; /* [length]; of body B also INFINITY: a plane; < 0: a bore around A */
     rb_bem_support support;
     double arc;              /* half-angle of the clamped arc [degrees] */
     double hub_ratio;        /* radius of the rigid hub / radius */
     double datum;            /* half-plane: depth of zero displacement; 0: 2R/e */
-    double datum_tangential; /* homogeneous half-plane: the same along the surface, as of
-                                the strips of CONTACT; 0: datum */
+    double datum_tangential; /* homogeneous half-plane: the same for tangential
+                                displacements, as for the strips of CONTACT; 0: datum */
     double layer; /* half-plane: thickness of a layer of this material, bonded to a
                      base [length]; 0: no layer */
-    double base_young, base_poisson; /* of that base; young 0: rigid */
+    double base_young, base_poisson; /* of the base; young 0: rigid */
     double cover; /* hub: thickness of a cover of this material, bonded to a core
                      [length]; 0: none */
-    double core_young, core_poisson; /* of that core, a ring on the hub; young 0: rigid,
-                                        all below the cover */
-    rb_rolling_memory memory;        /* rolling: of a half-plane */
+    double core_young, core_poisson; /* of the core, a ring on the rigid hub; young 0:
+                                        everything below the cover is rigid */
+    rb_rolling_memory memory;        /* viscoelasticity of the material; n = 0: elastic */
 } rb_rolling_body;
 
-/* What a body can do, and what is so of it. */
+/* Properties of a body, as bits. */
 typedef enum {
     RB_BODY_FLAT = 1,        /* its surface is a plane, otherwise a circle */
-    RB_BODY_BOUNDARY = 2,    /* has elements outside the contact too */
-    RB_BODY_HOMOGENEOUS = 4, /* of one elastic material: Hertz's half-width means what it
-                                says, and heat spreads alike everywhere */
-    RB_BODY_ELASTIC = 8,     /* loses no energy */
-    RB_BODY_STRESS = 16,     /* the stress inside is known */
-    RB_BODY_TURNS = 32       /* answers alike at every angle of its turn */
+    RB_BODY_BOUNDARY = 2,    /* has boundary elements outside the contact, too */
+    RB_BODY_HOMOGENEOUS = 4, /* of one elastic material: Hertz's half-width applies, and
+                                the formulas of heat conduction, too */
+    RB_BODY_ELASTIC = 8,     /* elastic: no hysteresis */
+    RB_BODY_STRESS = 16,     /* the stress inside can be computed */
+    RB_BODY_TURNS =
+        32 /* rotationally symmetric: its stiffness is the same at every angle */
 } rb_rolling_ability;
 
-/* An option that means nothing to other bodies; body B's has "-b" behind its name. */
+/* An option that applies to some bodies only; the option of body B has the suffix
+ * "-b". */
 typedef struct {
     const char *option;                              /* NULL ends the list */
-    int (*has_meaning)(const rb_rolling_body *body); /* NULL: where the row holds */
-    const char *reason; /* of refusing it elsewhere; NULL: it is "of the support ..." */
+    int (*has_meaning)(const rb_rolling_body *body); /* NULL: every body of the row */
+    const char *reason; /* end of the error message for other bodies; NULL: "of the
+                           support ..." */
 } rb_rolling_parameter;
 
-/* The words of the option `support`; a NULL name ends them. */
+/* The allowed words of the option `support`; an entry with name NULL ends the list. */
 extern const rb_choice rb_rolling_supports[];
 
-/* 1: the body can all of `abilities`, a sum of them. */
+/* 1: the body has all properties of the sum `abilities`. */
 int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
 
-/* Values y at n places x [length], which increase.  Borrowed. */
+/* Values y at n increasing abscissae x [length].  Borrowed. */
 typedef struct {
     int n; /* 0: none */
     const double *x, *y;
 } rb_rolling_table;
 
-/* A measured gap g_0(x) [length]: n points, x increasing, as a cubic spline, whose
- * curvature, which the pressure follows, is continuous.  noise: 0: the spline goes
- * through the points; > 0: the standard deviation of their noise [length], and the spline
- * is the smoothest curve that stays so close to them (root mean square).  RB_EINVAL with
- * the row: too few points, x that does not increase, the smallest gap at an end, so that
- * the table does not enclose a contact; RB_ENOMEM. */
+/* A measured gap g_0(x) [length]: n points with increasing x, interpolated by a cubic
+ * spline; the pressure follows the curvature of the gap, and that of a spline is
+ * continuous.  noise 0: the spline passes through the points.  noise > 0: standard
+ * deviation of the noise of the points [length]; the spline is the smoothest curve whose
+ * root mean square distance to the points is that small.  RB_EINVAL: too few points, x
+ * does not increase, or the smallest gap is at an end, so that the table does not enclose
+ * a contact; why names the row.  RB_ENOMEM. */
 typedef struct rb_rolling_profile rb_rolling_profile;
 rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
                                     double noise, rb_rolling_profile **profile,
                                     rb_message *why);
 void rb_rolling_profile_free(rb_rolling_profile *profile);
-/* First and last x. */
+/* The first and the last x of the profile. */
 void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
                               double *to);
-/* At any x; straight on beyond the ends, where no contact is accepted. */
+/* The gap at any x.  Beyond the ends it is extrapolated by straight lines; a contact
+ * there is not accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
 /* ---- Friction laws (theory.md 4.11) ------------------------------------------------ */
 
 /* A law gives the coefficient of an element from its state: place x, slip velocity v,
- * temperature.  A row: its name, and one line about it.  Its function stands in
- * src/rolling/law.c; option, help, JSON and messages are made from the row.  mu: the
- * coefficient of the case, m and s: its falls and slip scales. */
+ * temperature.  Each row of this table has the name of a law and one line about it.  The
+ * function of the law is in src/rolling/law.c; option, help, JSON and messages are made
+ * from the row.  mu: the coefficient of the case; m and s: fall and slip_scale below. */
 #define RB_ROLLING_FRICTION_LAWS(LAW)                                                    \
     LAW(constant, "mu everywhere")                                                       \
     LAW(exponential, "mu + sum m 2^(-v/s) at the slip velocity v")                       \
@@ -138,76 +145,85 @@ double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 #define RB_FRICTION_LAW_NAME(name, help) RB_FRICTION_##name,
 typedef enum {
     RB_ROLLING_FRICTION_LAWS(RB_FRICTION_LAW_NAME)
-        RB_FRICTION_table, /* of mu over x, which has no word: a file names it */
+        RB_FRICTION_table, /* mu over x from a file; the option for it is the file's name
+                            */
     RB_FRICTION_LAWS
 } rb_rolling_friction_law;
 #undef RB_FRICTION_LAW_NAME
 
 typedef struct {
     rb_rolling_friction_law law;
-    /* RB_FRICTION_table: mu over x, linear between the points, constant beyond them; the
-     * case's mu is not read. */
+    /* RB_FRICTION_table: mu over x, linear between the points and constant beyond them;
+     * mu of the case is ignored. */
     rb_rolling_table table;
-    double fall[2], slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; m = 0: no term */
-    /* Memory over the slid distance d: dmu/dt = -(max(v, s0)/d)(mu - mu(v)). */
+    double fall[2],
+        slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; a term with m = 0 is absent */
+    /* Friction memory with the sliding distance d: dmu/dt = -(max(v, s0)/d)(mu -
+     * mu(v)). */
     double memory, memory_slip; /* d [length], 0: none; s0 > 0 [length/s] */
     /* mu changes linearly by heat while the surface temperature rises from heat_from to
      * heat_from + heat_range. */
     double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
-    int follows_way; /* 1: the case's mu is that of each row of a history, see mu of
-                        rb_rolling_program, which sets it */
-    /* Where the first coefficients of the iteration are not those at rest; a law that
-     * falls steeply has several solutions (kappa > 1), and finds the one nearby. */
-    const rb_rolling_table *start; /* or NULL; borrowed */
+    int follows_way; /* 1: mu of the case is taken from each row of a history; set by
+                        rb_rolling_program if it has a column mu */
+    /* First coefficients of the iteration; NULL: those at rest.  A law that falls steeply
+     * has several solutions (kappa > 1), and the iteration then finds one close to its
+     * start. */
+    const rb_rolling_table *start; /* borrowed */
 } rb_rolling_friction;
 
-/* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
- * rb_rolling_case_defaults() is the example of *Addi* (theory.md 7). */
+/* All inputs of one case.  Of quantities with the comment "one of" at most one is given;
+ * the others are NAN. rb_rolling_case_defaults() is the example of *Addi* (theory.md
+ * 7). */
 typedef struct {
     rb_bem_plane plane; /* strain, or stress of thin discs */
     rb_rolling_body a, b;
-    int elastic_b; /* 0: B is a rigid plane and b is not read */
+    int elastic_b; /* 0: B is a rigid plane and b is ignored */
 
-    rb_rolling_heat heat_a, heat_b; /* temperatures where A's conductivity is > 0; B's
-                                       counts also where B is rigid */
+    rb_rolling_heat heat_a, heat_b; /* temperatures are computed if A's conductivity is >
+                                       0; heat_b is used also if B is rigid */
 
     rb_rolling_gap gap;
     const rb_rolling_profile *profile; /* RB_GAP_TABLE; borrowed */
-    /* What a surface has too little (> 0) or too much (< 0) of where it is irregular,
-     * added to the gap: points that begin and end with 0 and lie at these x before
-     * rolling.  It rides with the material, towards -x; `passed` of a mesh says how far.
-     * Not in steady. */
+    /* An irregularity of the surface that is added to the gap: a dent (> 0) or a bump (<
+     * 0).  The first and the last value are 0; x is the place before rolling.  It moves
+     * with the material towards -x; `passed` of a mesh is the distance moved. Not for
+     * steady rolling. */
     rb_rolling_table irregularity;
-    /* What is worn off the surfaces in the contact frame, added to the gap: linear
-     * between the points, nothing beyond them [length]. */
+    /* Worn depth in the contact frame, added to the gap: linear between the points, zero
+     * beyond them [length]. */
     rb_rolling_table worn;
 
-    /* Compliance of an interface between the surfaces, which yields under each point by
-     * the traction there alone [length/stress]; 0: none. */
+    /* Compliance of an interface between the surfaces (third body), whose deformation at
+     * a point depends on the traction at this point only [length/stress]; 0: none. */
     double interlayer_normal, interlayer_tangential;
-    /* The friction by which that interface yields [stress], 0: it does not, and what this
-     * grows per plastic slip [stress/length]; < 0: it softens. */
+    /* Yield stress of this interface in shear [stress], 0: it does not yield; and its
+     * increase per plastic slip [stress/length], < 0: softening. */
     double yield_stress, hardening;
 
-    double mu; /* Coulomb's coefficient; of laws that fall, what they fall to */
+    double mu; /* Coulomb's coefficient; of velocity-dependent laws the limit at large
+                  slip velocity */
     rb_rolling_friction friction;
 
     double approach, load, half_width; /* one of; all NAN: approach = R/2 */
 
-    /* static: one of shift, force, force_ratio loads the contact (all NAN: a tenth of the
-     * given approach, as in *Addi*; 0 under load control); creep or creep_ratio only
-     * enter (12). steady, transient: one of creep, creep_ratio, force, force_ratio. */
+    /* static: one of shift, force, force_ratio loads the contact (all NAN: the shift is a
+     * tenth of the given approach, as in *Addi*, or 0 under load control); creep or
+     * creep_ratio only enter (12). steady, transient: one of creep, creep_ratio, force,
+     * force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
-    int free_axle; /* steady: nothing drives A's axle, Q = -M/R_A (theory.md V4); in the
-                      place of these */
+    int free_axle; /* steady: A's axle is free of torque, Q = -M/R_A (theory.md V4), and
+                      creepage and force are not given */
 
     rb_rolling_formulation formulation;
-    int increments;   /* static, transient: above 1 the bodies are pressed, then loaded
-                         tangentially, in so many increments each (theory.md 5.3) */
-    double speed;     /* of rolling [length/s]; > 0 where a body that rolls has memory or
-                         conducts, or where friction depends on the slip velocity */
-    double time_step; /* static program of bodies that relax: the longest step between two
-                         of its rows [s]; 0: a step for each row */
+    int increments; /* static, transient: if above 1, the bodies are first pressed and
+                       then loaded tangentially, each in this number of increments
+                       (theory.md 5.3) */
+    double
+        speed; /* rolling speed [length/s]; must be > 0 if a rolling body is viscoelastic
+                  or conducts heat, or if friction depends on the slip velocity */
+    double time_step; /* static program of viscoelastic bodies: longest time step between
+                         two rows [s]; 0: one step per row */
     double distance;  /* transient: rolled distance / Hertz half-width */
     int steps;        /* transient */
 
@@ -216,52 +232,54 @@ typedef struct {
                            */
     double zone;          /* half-width of the potential contact [length]; 0: automatic */
     int outer_elements;   /* 0: automatic */
-    double outer_refinement; /* so many times the elements of wheels outside the contact;
-                                0: 1 */
+    double outer_refinement; /* factor on the number of elements of wheels outside the
+                                contact; 0: 1 */
     rb_bem_normals normals;
     rb_rolling_near_field near_field;       /* of wheels */
     rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
 
-    /* How the contact problem is solved (contact.h); force_unit and sliding are not read:
-     * the formulation gives them. */
+    /* How the contact problem is solved (contact.h); force_unit and sliding are ignored,
+     * because the formulation sets them. */
     rb_contact_options contact;
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);
 
-/* What a body is made of, as the plane problem of the case takes it; the second one: what
- * is below its layer or cover. */
+/* The elastic constants of a body for the plane problem of the case; the second function:
+ * those of the base or core below its layer or cover. */
 rb_bem_material rb_rolling_material(const rb_rolling_case *rc,
                                     const rb_rolling_body *body);
 rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
                                          const rb_rolling_body *body);
 
-/* The largest coefficient that the friction law has: the scale of Q/(mu P) and of
- * xi R/(mu a). */
+/* The largest coefficient of the friction law; it is the mu of Q/(mu P) and of xi R/(mu
+ * a). */
 double rb_rolling_largest_mu(const rb_rolling_case *rc);
-/* 1 where the coefficients depend on the state, so that they are iterated: in rolling,
- * where the law depends on the slip velocity or on the temperature. */
+/* 1 if the coefficients depend on the solution, so that they have to be iterated: in
+ * rolling, if the law depends on the slip velocity or on the temperature. */
 int rb_rolling_law_depends_on_state(const rb_rolling_case *rc);
-/* 1: A, and B where it is elastic, can all of `abilities`. */
+/* 1: A, and B if it is elastic, have all properties of `abilities`. */
 int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 
-/* 1 where Carter's law holds: steady rolling of similar homogeneous half-planes, no table
- * as gap. */
+/* 1 if Carter's law applies: steady rolling of similar homogeneous half-planes whose gap
+ * is not a table. */
 int rb_rolling_carter_holds(const rb_rolling_case *rc);
-/* 1: a body of the case has memory. */
+/* 1: a body of the case is viscoelastic. */
 int rb_rolling_relaxes(const rb_rolling_case *rc);
 
-/* Ranges and contradictions.  RB_EINVAL with one line in why. */
+/* Checks ranges and contradictions.  RB_EINVAL with one line in why. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
 
-/* What follows from a case before anything is solved. */
+/* Quantities that follow from a case without solving it. */
 typedef struct {
-    double radius;     /* 1/R = 1/R_A + 1/R_B [length] */
-    double modulus;    /* E* [stress] */
-    double dundurs;    /* beta [-] */
-    double load;       /* given, or of the given half-width; NAN: the approach is given */
-    double approach;   /* given, or R/2; NAN: the load is given */
-    double half_width; /* a: Hertz's of the load, or estimated from the approach */
+    double radius;   /* 1/R = 1/R_A + 1/R_B [length] */
+    double modulus;  /* E* [stress] */
+    double dundurs;  /* beta [-] */
+    double load;     /* given, or computed from the given half-width; NAN: the approach is
+                        given */
+    double approach; /* given, or R/2; NAN: the load is given */
+    double half_width; /* a: Hertz's half-width of the load, or an estimate from the
+                          approach */
     double stress;     /* E* a/(2R), Hertz's p0: the scale of the tractions */
 } rb_rolling_derived;
 
@@ -270,22 +288,23 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
 double rb_rolling_radius(const rb_rolling_case *rc);
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
-/* 1: a body has a thickness, as a layer, a cover or a wheel on a hub. */
+/* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);
-/* Of A and B; A's where B is a plane. */
+/* The larger radius of A and B; A's if B is a plane. */
 double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
 /* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
-/* How a case is discretised: what a search for its mesh varies while the case stays. */
+/* How a case is discretised.  A search for the mesh varies these values and leaves the
+ * case unchanged. */
 typedef struct {
     int elements; /* in the potential contact, or across that of a fitted mesh */
     rb_rolling_near_field near_field;
     int outer_elements;
-    double outer_refinement; /* the four as of the case */
+    double outer_refinement; /* all four: as in rb_rolling_case */
 } rb_rolling_plan;
 
-/* That of the case itself, which builders follow where they get no plan (NULL). */
+/* The plan with the values of the case; functions that get plan NULL use it. */
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc);
 
 /* The potential contact: n elements between ends[0] and ends[n] and the upstream element
@@ -294,7 +313,7 @@ typedef struct {
     int n;
     double *ends;  /* n + 2 abscissae [length]; owned */
     double *gap;   /* n: g_0 at the midpoints, without approach [length]; owned */
-    double passed; /* by how much the irregularity has come nearer [length] */
+    double passed; /* distance by which the irregularity has moved towards -x [length] */
 } rb_rolling_mesh;
 
 /* Equal elements between from and to. */
@@ -313,26 +332,27 @@ typedef struct {
     int are_equal;
 } rb_rolling_elements;
 
-/* The mesh that they were: equal elements from the outer ends alone, fitted ones from
- * each of them. */
+/* Reconstructs the mesh of a result: equal elements from the two outer ends, fitted
+ * elements from every element. */
 rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
                                     const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
-/* The undeformed gap of the profile at x, with what is worn off. */
+/* The undeformed gap of the profile at x, including the worn depth. */
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
 
-/* The bodies of a case on a contact mesh.  The factored systems stay for later solves. */
+/* The bodies of a case on a contact mesh.  The factorised systems are kept for later
+ * solves. */
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
     rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
-    const double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; f's; NULL where
-                        products with f serve instead (large contacts) */
-    rb_bem_flexibility transforms; /* f once more, as products, where Newton's method is
+    const double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1, owned by f; NULL if
+                        products with f are used instead (large contacts) */
+    rb_bem_flexibility transforms; /* the same operator as products, if Newton's method is
                                       faster with them than with F; n = 0: none; owned */
-    double *memory[2]; /* of A and B, 2m x 2n each, in its own frame: what its memory adds
-                          to its flexibility; NULL where it has none, and without
-                          wheels; owned */
+    double *memory[2]; /* of A and B, 2m x 2n each, in the frame of the body: the
+                          viscoelastic part of its flexibility; NULL if the body is
+                          elastic or no body is a wheel; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -344,12 +364,12 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w);
 
-/* A row of the table of bodies (src/rolling/body.c): whoever asks what a body is asks its
- * rows.  A body has the row of its support and one for each addition to it (layer, cover,
- * memory); it can what all its rows can. */
+/* A row of the table of bodies (src/rolling/body.c).  A body has the row of its support
+ * and one row for each addition (layer, cover, viscoelasticity).  It has those properties
+ * that all its rows have. */
 typedef struct rb_rolling_body_kind rb_rolling_body_kind;
 
-/* Row k = 0, 1, ...; NULL: there are no more. */
+/* Row k = 0, 1, ... of the table; NULL after the last one. */
 const rb_rolling_body_kind *rb_rolling_body_kind_get(int k);
 /* The row of the body's support. */
 const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
@@ -357,28 +377,30 @@ const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
 int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind);
 const char *rb_rolling_kind_name(const rb_rolling_body_kind *kind); /* in pictures */
 rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind);
-/* The options that not every body knows; the last one has no name. */
+/* The options that apply to some bodies only; an entry without a name ends the list. */
 const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind);
 
 /* ---- The formulation as a contact problem (contact.h) ------------------------------ */
 
-/* The state that a static history or a transient starts from. */
+/* The state from which a step of a static history or of transient rolling starts. */
 typedef struct {
-    const double
-        *w_T; /* transient: at the former places x + c; static: at the same place */
-    const double *yielded; /* there, by an interface that yields; NULL: nothing */
+    const double *w_T; /* displacements before the step: transient: at the former places x
+                          + c; static: at the same places */
+    const double *yielded; /* accumulated plastic slip of the interface at these places;
+                              NULL: zero */
     double step;           /* rolled distance c of a transient step [length] */
 } rb_rolling_past;
 
-/* Builds (A, d_T) for the formulation of the case; the solvers do not know which it is.
- * past NULL: from rest. */
+/* Builds the contact problem with A and d_T of the case's formulation; the solvers are
+ * the same for all formulations.  past NULL: the step starts from rest. */
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
                                     const rb_rolling_past *past,
                                     rb_contact_problem *problem, rb_message *why);
 
-/* Solves it by the solver of the case.  warm: the zones of the state are a start. */
+/* Solves the problem with the solver of the case.  warm: 1 to start from the zones of the
+ * state. */
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,
                                    int warm, rb_contact_state *state, rb_message *why);
 
@@ -386,10 +408,11 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
 
 /* A part of the contact with separated elements on either side. */
 typedef struct {
-    double from, to;                     /* edges [length] */
-    double normal_load, tangential_load; /* its part of P and Q [force/length] */
-    double max_pressure, peak;           /* [stress], its place [length] */
-    int contact, stick;                  /* elements */
+    double from, to; /* edges [length] */
+    double normal_load,
+        tangential_load; /* the part of P and Q that this patch carries [force/length] */
+    double max_pressure, peak; /* largest pressure [stress] and its place [length] */
+    int contact, stick;        /* elements */
 } rb_rolling_patch;
 
 typedef struct {
@@ -401,11 +424,12 @@ typedef struct {
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
     int *zone;       /* rb_contact_zone */
-    double *plastic; /* what the interface has yielded, of either direction [length]; NULL
-                        where it does not */
-    double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
-    double *worn;                        /* depth [length]; NULL where nothing is worn */
-    double *mu;                          /* of the friction law; NULL: one for all */
+    double *plastic; /* accumulated plastic slip of the interface [length]; NULL if it
+                        does not yield */
+    double *temperature,
+        *temperature_b; /* of the surfaces; NULL if the case has no heat conduction */
+    double *worn;       /* worn depth [length]; NULL if nothing is worn */
+    double *mu;         /* friction coefficients; NULL: the same for all elements */
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -414,57 +438,64 @@ typedef struct {
     rb_status status;
     rb_rolling_formulation formulation;
     rb_rolling_slip_operator slip_operator;
-    rb_contact_solver solver; /* that gave the answer */
-    const char *cone_solver;  /* its name, RB_SOLVER_CONE; borrowed from the case */
-    int large;             /* 1: products by Fourier transforms, no matrix was formed */
+    rb_contact_solver solver; /* the solver that found the solution */
+    const char *cone_solver;  /* name of the cone solver if solver is RB_SOLVER_CONE;
+                                 borrowed from the case */
+    int large;             /* 1: solved with Fourier transforms; no matrix was formed */
     int boundary_elements; /* of both bodies; 0: half-planes have none */
-    int hierarchical;      /* 1: a boundary's matrix was a hierarchical one */
+    int hierarchical;      /* 1: a boundary element matrix was hierarchical */
     rb_contact_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,
                         shift */
-    double residual_gap, residual_slip; /* the physical ones: [length], [length] */
-    double residual_friction;           /* [stress] */
+    double residual_gap,
+        residual_slip; /* largest violations of the gap and slip conditions [length] */
+    double residual_friction; /* and of the friction condition [stress] */
 
     double normal_load, tangential_load; /* P = sum p h, Q = sum q h [force/length] */
     double load_error;                 /* |P - wanted|/wanted; NAN without load control */
     double support_balance;            /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift; /* delta; rigid shift (static) [length] */
-    double creepage, free_creepage;    /* xi; xi at Q = 0 (steady), else NAN, also
-                                          where no such xi was found */
-    double hertz_half_width; /* of P and the combined radius: scale of the ratios */
+    double creepage, free_creepage;  /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
+                                        such xi was found */
+    double hertz_half_width;         /* a of the load P and the combined radius; used in
+                                        creep_ratio */
     double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
     double half_width;               /* of the contact, from edge to edge [length] */
     double datum;                    /* of A; NAN where it has none [length] */
     double contact_from, contact_to; /* outermost edges (theory.md 5.1) */
-    double nip_width;                /* the one less the other [length] */
-    int edges_bounded; /* 1: p does not fall as theory.md (E1) has it at some edge, which
-                          the elements beside it bound */
+    double nip_width;                /* contact_to - contact_from [length] */
+    int edges_bounded; /* 1: at some edge p does not fall to zero like (E1) of theory.md;
+                          this edge is only known to lie within one element */
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double max_pressure;          /* p0 [stress] */
-    int contact, stick, slipping; /* elements; slipping: or yielding */
-    int yielding; /* those whose interface yields; -1: it has no yield stress */
-    double stick_from, stick_to; /* outermost ends of stuck elements; NAN without */
-    double stick_length;         /* of all of them, less than from ... to where slip
-                                    lies between [length] */
-    int slip_violations;         /* slip that does not oppose the friction */
-    double dissipation;          /* power per unit speed [force/length] */
-    double resistance_moment;    /* M = int x p dx [force]; NAN in static, as the ratio */
-    double resistance_ratio;     /* M/(P R), the coefficient of rolling resistance */
-    double hysteresis; /* power per unit speed that the bodies lose [force/length];
-                          NAN but in steady */
-    double torque_a;   /* M + Q R_A: external torque on A's axle, > 0 the way A rolls, so
-                          that it drives A [force]; NAN in static */
-    double torque_b;   /* M - Q R_B: the same of B; NAN also where B is a plane */
-    double strain_energy; /* of both bodies per thickness, from w_N = w_T = 0 [force];
-                             NAN of bodies that relax and of an interface that yields */
-    double max_strain;    /* compression of a layer, cover or rim over its thickness, the
-                             larger one of both bodies; without one a/(2R) */
-    double max_temperature;    /* in contact; NAN where not asked for, as below */
+    int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
+    int yielding; /* number of elements whose interface yields; -1: no yield stress */
+    double stick_from,
+        stick_to; /* outermost ends of the sticking elements; NAN if nothing sticks */
+    double stick_length; /* total length of the sticking elements, less than stick_to -
+                            stick_from if some in between slip [length] */
+    int slip_violations; /* number of elements whose slip does not oppose the friction */
+    double dissipation;  /* power per unit speed [force/length] */
+    double resistance_moment; /* M = int x p dx [force]; NAN in static, like the ratio */
+    double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
+    double hysteresis;        /* power per unit speed that viscoelasticity dissipates
+                                 [force/length]; steady only, otherwise NAN */
+    double torque_a; /* M + Q R_A: external torque on A's axle [force]; > 0: in the
+                        direction in which A rolls, so it drives A; NAN in static */
+    double torque_b; /* M - Q R_B: the same for B; NAN also if B is a plane */
+    double
+        strain_energy; /* of both bodies per unit thickness, from w_N = w_T = 0 [force];
+                          NAN for viscoelastic bodies and for an interface that yields */
+    double
+        max_strain; /* compression of a layer, cover or rim divided by its thickness, the
+                       larger value of both bodies; for bodies without one a/(2R) */
+    double max_temperature;    /* maximum in the contact; this and the next two are NAN if
+                                  the case has no heat conduction */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
-    double kappa;              /* of a friction law that depends on the state (F3); above
-                                  1 there may be several solutions; else NAN */
+    double kappa; /* (F3) for a friction law that depends on the state; above 1 there may
+                     be several solutions; otherwise NAN */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -478,7 +509,8 @@ typedef enum {
     RB_RESULT_SECONDS /* a number: time spent on it */
 } rb_rolling_result_kind;
 
-/* What a result with an error bar is made of, and its rounding is measured in. */
+/* The scale of a result with an error bar; its rounding error is proportional to this
+ * scale. */
 typedef enum {
     RB_SCALE_NONE,
     RB_SCALE_ONE,
@@ -498,32 +530,34 @@ typedef enum {
     RB_SCALE_HEAT      /* rise of the temperature */
 } rb_rolling_error_scale;
 
-/* Which cases have a result at all.  Of the others a number is NAN, a column NULL, and
- * reports leave both out. */
+/* Which cases have a result.  For all other cases a number is NAN, a column is NULL, and
+ * reports omit both. */
 typedef enum {
     RB_FOR_ALL,
     RB_FOR_HEAT,
     RB_FOR_WORN,
-    RB_FOR_LAW,        /* coefficients of friction that differ */
-    RB_FOR_MOVING_LAW, /* and depend on the state */
-    RB_FOR_WAY,        /* that follow a history's column */
+    RB_FOR_LAW,        /* friction coefficients that differ between elements */
+    RB_FOR_MOVING_LAW, /* friction coefficients that depend on the state */
+    RB_FOR_WAY,        /* friction coefficient from a column of a history */
     RB_FOR_MEMORY,
     RB_FOR_YIELD,
     RB_FOR_CYLINDER_B
 } rb_rolling_condition;
 
-/* One result: whatever shows results, studies and error bars are made from these. */
+/* Description of one result.  Tables, JSON, studies and error bars are made from these
+ * rows. */
 typedef struct {
     const char *name; /* in JSON */
     const char *unit; /* "mm"; NULL: none */
     rb_rolling_result_kind kind;
-    size_t offset; /* of the value, or of a column's pointer, in its owner */
+    size_t offset; /* of the value, or of the pointer to the column, in its struct */
     rb_rolling_error_scale
         error_bar;     /* RB_SCALE_NONE: no discretisation error is estimated
                         */
-    int study;         /* which column of a study it is; 0: none */
-    int is_mean;       /* of a rolled step: 1: mean over it, 0: value at its end */
-    int no_derivative; /* 1: a proof, or known to an element only */
+    int study;         /* number of its column in a study; 0: none */
+    int is_mean;       /* in a rolled step: 1: mean over the step, 0: value at its end */
+    int no_derivative; /* 1: has no derivative: a residual, or a place known only to
+                          within one element */
     rb_rolling_condition condition;
     const char *symbol; /* heads the column instead of the name; NULL: the name */
     const char *meaning;
@@ -534,52 +568,54 @@ typedef struct {
     const rb_rolling_result *row;
 } rb_rolling_results;
 
-/* Of rb_rolling_solution: its numbers, and its columns with an entry per element. */
+/* The numbers of rb_rolling_solution, and its columns with one entry per element. */
 extern const rb_rolling_results rb_rolling_solution_scalars, rb_rolling_solution_columns;
-/* Of rb_rolling_patch. */
+/* The numbers of rb_rolling_patch. */
 extern const rb_rolling_results rb_rolling_patch_scalars;
-/* Columns of rb_rolling_history, an entry per step, and of rb_rolling_curve, an entry per
- * creepage. */
+/* The columns of rb_rolling_history, one entry per step, and of rb_rolling_curve, one
+ * entry per creepage. */
 extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
-/* Of rb_rolling_wear_history, an entry per step. */
+/* The columns of rb_rolling_wear_history, one entry per step. */
 extern const rb_rolling_results rb_rolling_wear_columns;
-/* Of rb_rolling_stress, at a point, and of rb_rolling_stress_maxima: of each largest
- * value three rows, itself and its place. */
+/* The numbers of rb_rolling_stress, and of rb_rolling_stress_maxima: three rows for each
+ * maximum, its value and its place. */
 extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars;
 
-/* All of them, for those who list them; the last row has no name. */
+/* All these tables; an entry without a name ends the list. */
 typedef struct {
     const char *name, *title;
     const rb_rolling_results *results;
 } rb_rolling_result_table;
 extern const rb_rolling_result_table rb_rolling_result_tables[];
 
-/* 1 where the case has that result. */
+/* 1 if the case has this result. */
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
-/* 1 where the owner has that column. */
+/* 1 if the struct `owner` has this column. */
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
-/* The number, or entry i of the column, whatever its kind; owner: the struct that the
- * table belongs to. */
+/* The number, or entry i of the column, as a double; owner: the struct that the table
+ * describes. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner);
 double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
 
-/* The name with its unit, as columns are headed: "max_pressure_MPa".  Returns heading. */
+/* Writes the name with its unit, as in the heads of columns: "max_pressure_MPa".  Returns
+ * heading. */
 enum { RB_ROLLING_HEADING = 40 };
 const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
                                char heading[RB_ROLLING_HEADING]);
 
-/* Column k = 1, 2, ... of a study; NULL: there are no more. */
+/* Column k = 1, 2, ... of a study; NULL after the last one. */
 const rb_rolling_result *rb_rolling_study_column(int k);
 
 /* Friction power per area and unit speed [stress], n values with sum power h =
- * dissipation: the energy that a wear law takes.  In steady rolling the slip is
- * known between midpoints, and half of it counts for either element (theory.md 6).  NAN
- * in static. */
+ * dissipation; wear laws use it.  In steady rolling the slip is known between midpoints,
+ * and half of it is assigned to each of the two elements (theory.md 6).  NAN in
+ * static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
-/* A line each where a result must be read with care: linear elasticity far exceeded,
- * `static` with a creepage, steady rolling without one, full sliding, an arc support that
- * rolls, slip that does not oppose the friction, a layer that is computed as flat. */
+/* Notes on results that must be read with care, one line each: linear elasticity far
+ * exceeded, `static` with a creepage, steady rolling without one, full sliding, an arc
+ * support that rolls, slip that does not oppose the friction, a layer that is computed as
+ * flat. */
 enum { RB_ROLLING_NOTES = 12 };
 typedef struct {
     int n;
@@ -587,13 +623,13 @@ typedef struct {
 } rb_rolling_note_list;
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
                                            const rb_rolling_solution *s);
-/* A friction power that is negative by more than rounding: an error of the mesh, and what
- * to say of it. */
+/* 1: the friction power is negative by more than rounding errors, which is an error of
+ * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);
 extern const char rb_rolling_below_zero[];
 
-/* Rise of the temperature at a point of the surface, from a unit heat per area and time
- * that enters the body between the distances from < to upstream of it (T1), at any Peclet
+/* Temperature rise at a point of the surface caused by a unit heat flux that enters the
+ * body between the distances `from` < `to` upstream of the point (T1), at any Peclet
  * number; conductivity > 0. */
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
                                 double to);
