@@ -111,6 +111,43 @@ static void equals_the_matrix_that_it_helps(void **state)
     compare_with_matrix(&rc);
 }
 
+/* A layer that yields, by products and by the matrix: pairs, controls, hardening as a
+ * share of that of the bodies, softening, both ways that it follows the material. */
+static void equals_the_matrix_where_a_layer_yields(void **state)
+{
+    (void)state;
+    static const double hardening[] = {0.0, 1e4, 1e7, -1e4};
+    int yielding = 0, slipping = 0;
+
+    for (int k = 0; k < 24; k++) {
+        const int is_static = k % 3 == 2, given_force = (k / 4) % 2;
+        rb_rolling_case rc = steady((pairing)(k % 3), is_static ? 260 : 200);
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.slip_operator = k % 2 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        rc.interlayer_normal = k % 5 ? 0.0 : 1e-6;
+        rc.interlayer_tangential = k % 5 == 1 ? 2e-6 : 0.0;
+        rc.creep_ratio = given_force || is_static ? NAN : k % 2 ? 0.7 : -0.7;
+        rc.force_ratio = given_force ? -0.35 : NAN;
+        if (is_static) {
+            rc.formulation = RB_STATIC;
+            rc.slip_operator = RB_SLIP_UPSTREAM;
+            rc.shift = given_force ? NAN : 1e-3;
+            rc.half_width = NAN;
+            rc.approach = given_force ? NAN : 2e-3;
+            rc.load = given_force ? 200.0 : NAN;
+        }
+        rc.hardening = hardening[k % 4];
+        rc.yield_stress = 0.5 * rc.mu * rb_rolling_derive(&rc).stress;
+        compare_with_matrix(&rc);
+        rb_rolling_solution s = solved(&rc);
+        CHECK_MAX(s.residual, 1e-10, "case %d", k);
+        yielding += s.yielding > 15;
+        slipping += s.slipping > 5;
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(yielding >= 12 && slipping >= 20);
+}
+
 /* Where it is asked for, a model that was solved without one has the matrix of the bodies
  * with a tangential third body, and its state satisfies the problem of that matrix. */
 static void the_matrix_can_be_added(void **state)
@@ -201,7 +238,7 @@ static void watch(rb_contact_problem *p, watched *by)
     *by = (watched){.K = rb_contact_operator_matrix(p->op), .n = p->n};
     by->room = rb_alloc((size_t)p->n, 2);
     const rb_contact_products products = {watched_apply, watched_precondition,
-                                          watched_free, by};
+                                          watched_free, by, NULL};
     CHECK_STATUS(rb_contact_operator_products(p->n, &products, &op), RB_OK);
     rb_contact_operator_add_products(p->op, op);
 }
@@ -485,6 +522,7 @@ int main(void)
         cmocka_unit_test(equals_the_matrix_in_steady_rolling),
         cmocka_unit_test(equals_the_matrix_in_static_contact),
         cmocka_unit_test(equals_the_matrix_that_it_helps),
+        cmocka_unit_test(equals_the_matrix_where_a_layer_yields),
         cmocka_unit_test(the_matrix_can_be_added),
         cmocka_unit_test(a_small_tolerance_is_met_by_the_matrix),
         cmocka_unit_test(the_matrix_stands_in_for_products),

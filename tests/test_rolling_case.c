@@ -493,7 +493,8 @@ static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.contact.solver = RB_SOLVER_LEMKE);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.mesh = RB_MESH_ALIGNED);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.mesh = RB_MESH_FITTED);
-    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.yield_stress = 1.0);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.yield_stress = 1.0);
+    HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.yield_stress = 1.0);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.interlayer_tangential = 1e-6);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.slip_operator = RB_SLIP_SECOND);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.slip_operator = RB_SLIP_SECOND;

@@ -34,6 +34,8 @@ typedef struct {
     void (*precondition)(void *context, int tangential, double *line);
     void (*free)(void *context);
     void *context;
+    /* Of 1 + hardening F_TT, hardening > 0; NULL: none. */
+    void (*precondition_yielding)(void *context, double hardening, double *line);
 } rb_contact_products;
 
 /* Takes ownership of the context, also on failure.  RB_ENOMEM. */

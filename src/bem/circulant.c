@@ -12,6 +12,7 @@ struct rb_bem_circulant {
     int n;
     double *inverse;          /* size/2 + 1: 1/(transform of the kernel), over `size` */
     fftw_complex *difference; /* size/2 + 1: that over the symbol of A */
+    double *tangential;       /* size/2 + 1: the transform of F_TT's kernel */
     double *work;
     rb_fourier fourier;
 };
@@ -24,6 +25,7 @@ void rb_bem_circulant_free(rb_bem_circulant *c)
     fftw_free(c->work);
     free(c->inverse);
     free(c->difference);
+    free(c->tangential);
     free(c);
 }
 
@@ -81,7 +83,9 @@ static void set_inverses(const double stencil[4], const double local[4], double 
         c->inverse[k] = 1.0 / ((body + own[0]) * size);
         c->difference[k][0] = creal(x);
         c->difference[k][1] = cimag(x);
+        c->tangential[k] = body + own[1];
     }
+    c->tangential[0] = 4.0 * c->tangential[1];
     c->inverse[0] = 0.25 * c->inverse[1];
     c->difference[0][0] = 0.5 * c->inverse[0];
 }
@@ -98,9 +102,10 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
         c->n = f->n;
         c->inverse = rb_alloc(half, 1);
         c->difference = calloc(half, sizeof *c->difference);
+        c->tangential = rb_alloc(half, 1);
         c->work = rb_fourier_alloc(&c->fourier);
     }
-    if (!c || !c->inverse || !c->difference || !c->work ||
+    if (!c || !c->inverse || !c->difference || !c->tangential || !c->work ||
         kernel_scale(f, &scale) != RB_OK) {
         rb_bem_circulant_free(c);
         return RB_ENOMEM;
@@ -134,6 +139,22 @@ void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *
         const double a = z[k][0], b = z[k][1], *x = c->difference[k];
         z[k][0] = a * x[0] - b * x[1];
         z[k][1] = a * x[1] + b * x[0];
+    }
+    rb_fourier_backward(&c->fourier, c->work);
+    for (int i = 0; i < c->n; i++)
+        r[i] = c->work[i];
+}
+
+void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
+                                     const double *w, double *r)
+{
+    fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
+
+    for (int k = 0; k <= c->fourier.size / 2; k++) {
+        const double factor =
+            1.0 / ((1.0 + hardening * c->tangential[k]) * c->fourier.size);
+        z[k][0] *= factor;
+        z[k][1] *= factor;
     }
     rb_fourier_backward(&c->fourier, c->work);
     for (int i = 0; i < c->n; i++)

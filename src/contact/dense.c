@@ -126,9 +126,8 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
     rb_status s = RB_OK;
     int converged = 0;
 
-    by_products.op = ((const rb_contact_dense *)p->op)->products;
-    if (by_products.op && r->size >= LEAST_BY_PRODUCTS &&
-        by_products.op->kind->solve(&by_products, state, r) == RB_OK)
+    by_products.op = rb_contact_operator_by_products(p->op, r->size);
+    if (by_products.op && by_products.op->kind->solve(&by_products, state, r) == RB_OK)
         return RB_OK;
     for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !converged; lu++)
         s = solve_by(p, (rb_contact_lu)lu, state, r, &converged);
@@ -173,4 +172,13 @@ void rb_contact_operator_add_products(rb_contact_operator *dense,
 int rb_contact_dense_has_products(const rb_contact_operator *op)
 {
     return op->matrix.F && ((const rb_contact_dense *)op)->products;
+}
+
+rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op,
+                                                     int unknowns)
+{
+    if (!op->matrix.F)
+        return op;
+    return unknowns >= LEAST_BY_PRODUCTS ? ((const rb_contact_dense *)op)->products
+                                         : NULL;
 }

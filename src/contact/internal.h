@@ -67,7 +67,41 @@ void rb_contact_reduced_right_side(const rb_contact_problem *problem,
 rb_status rb_contact_reduced_add(const rb_contact_problem *problem,
                                  const rb_contact_reduced *r, rb_contact_state *state);
 
+/* ---- gmres.c ----------------------------------------------------------------------- */
+
+/* [A B; C 0]: inner unknowns, and at most two at the border.  The functions get `of`. */
+typedef struct {
+    int inner, borders;
+    void (*multiply)(const void *of, const double *x, double *y);
+    void (*precondition)(const void *of, const double *b, double *x); /* x ~ A^-1 b */
+    void (*border_column)(const void *of, int k, double *column);     /* of B */
+    void (*border_rows)(const void *of, const double *x, double *y);  /* y = C x */
+    const void *of;
+} rb_contact_linear;
+
+/* Kept from solve to solve: fresh memory costs more than the arithmetic.  Zeros but for
+ * the size to begin with. */
+enum { RB_CONTACT_BASIS = 100 };
+typedef struct {
+    size_t size;                         /* the most unknowns */
+    double *basis[RB_CONTACT_BASIS + 1]; /* on demand; owned, as work */
+    double *work;
+} rb_contact_gmres_room;
+void rb_contact_gmres_free(rb_contact_gmres_room *room);
+
+/* From x.  RB_OK also where the residual no longer falls: then it is rounding, or the
+ * residual of the whole problem tells it.  RB_ENOMEM. */
+rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_room *room,
+                           const double *b, double *x);
+
 /* ---- operator.c: what every kind has ----------------------------------------------- */
+
+/* Of F_NN, A F_TT, or 1 + hardening F_TT. */
+typedef enum {
+    RB_INVERSE_NORMAL,
+    RB_INVERSE_TANGENTIAL,
+    RB_INVERSE_YIELDING
+} rb_contact_inverse;
 
 typedef struct {
     void (*add)(rb_contact_operator *op, const double *p, const double *q, double *gap,
@@ -75,6 +109,12 @@ typedef struct {
     /* Solves the reduced problem for the zones of the state.  RB_SINGULAR, RB_ENOMEM. */
     rb_status (*solve)(const rb_contact_problem *problem, rb_contact_state *state,
                        rb_contact_reduced *r);
+    /* Of products; NULL: matrices.  Linear problems other than the reduced one, and what
+     * makes an approximate inverse of them (line: n, overwritten). */
+    rb_status (*gmres)(rb_contact_operator *op, const rb_contact_linear *linear,
+                       const double *b, double *x);
+    void (*precondition)(rb_contact_operator *op, rb_contact_inverse of, double hardening,
+                         double *line);
     /* What earlier solves have left for later ones; NULL: nothing. */
     void (*forget)(rb_contact_operator *op);
     /* The operator of the elements in pairs; NULL: pairs do not start a solve. */
@@ -101,6 +141,10 @@ rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
 
 /* 1: matrices with products at their side, whose solves end at a tolerance of GMRES. */
 int rb_contact_dense_has_products(const rb_contact_operator *op);
+/* The operator whose products solve a system of so many unknowns sooner than an LU: op
+ * itself or what it has at its side; NULL: none. */
+rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op,
+                                                     int unknowns);
 
 /* ---- pairs.c ----------------------------------------------------------------------- */
 

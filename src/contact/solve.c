@@ -279,15 +279,12 @@ static rb_status complete_newton(rb_contact_problem *problem, rb_status s,
     return t < 0 ? t : s;
 }
 
-/* On large contacts an element whose traction is rounding may come and go: a cycle that
- * ends in a solution is one. */
-static rb_status solve_newton(rb_contact_problem *problem,
-                              const rb_contact_options *options, int warm,
-                              rb_contact_state *state)
+/* What Newton has ended with, as s says.  On large contacts an element whose traction is
+ * rounding may come and go: a cycle that ends in a solution is one. */
+static rb_status end_newton(rb_contact_problem *problem,
+                            const rb_contact_options *options, rb_status s,
+                            rb_contact_state *state)
 {
-    rb_phase("contact by Newton's method");
-    rb_status s = rb_contact_newton(problem, warm, state);
-
     s = complete_newton(problem, s, state);
     /* GMRES ends at a tolerance of its own; for a smaller one the matrix solves alone */
     if (s == RB_OK && !is_solved(s, problem, options, state) &&
@@ -299,6 +296,14 @@ static rb_status solve_newton(rb_contact_problem *problem,
         is_solved(RB_OK, problem, options, state))
         s = RB_OK;
     return s;
+}
+
+static rb_status solve_newton(rb_contact_problem *problem,
+                              const rb_contact_options *options, int warm,
+                              rb_contact_state *state)
+{
+    rb_phase("contact by Newton's method");
+    return end_newton(problem, options, rb_contact_newton(problem, warm, state), state);
 }
 
 /* ---- Without a matrix: by way of less friction ------------------------------------- */
@@ -459,7 +464,7 @@ static rb_status solve_yield_newton(rb_contact_problem *problem,
 {
     const rb_status s = rb_contact_yield_newton(problem, follows, state);
 
-    return proven(complete_newton(problem, s, state), problem, options, state);
+    return proven(end_newton(problem, options, s, state), problem, options, state);
 }
 
 /* Where the friction of the surfaces without the layer stays below its yield stress, that
@@ -488,13 +493,10 @@ static rb_status solve_yielding(rb_contact_problem *problem,
                                 const rb_contact_options *options, int warm,
                                 rb_contact_state *state, rb_message *why)
 {
-    const int lemke = options->solver == RB_SOLVER_LEMKE;
+    const int lemke = options->solver == RB_SOLVER_LEMKE &&
+                      rb_contact_operator_matrix(problem->op).F != NULL;
     rb_status s = RB_MAXITER;
 
-    if (!rb_contact_operator_matrix(problem->op).F)
-        return rb_fail(why, RB_EINVAL,
-                       "%d contact elements are too many for a layer that yields",
-                       problem->n);
     if (lemke) {
         s = proven(solve_lemke(problem, options, state, why), problem, options, state);
     } else if (warm) {
@@ -508,7 +510,8 @@ static rb_status solve_yielding(rb_contact_problem *problem,
     }
     if (s > 0)
         s = solve_from_coulomb(problem, options, 1, state, why);
-    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO)
+    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO &&
+        rb_contact_operator_matrix(problem->op).F)
         s = solve_lemke(problem, options, state, why);
     return proven(s, problem, options, state);
 }

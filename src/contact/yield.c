@@ -1,7 +1,8 @@
 /* A layer between the surfaces that yields (theory.md, Y1): beside Coulomb's bound mu p
  * the friction has a second one, which follows what the layer has yielded.  With every
- * element's law known the problem is linear, as in newton.c; here it is assembled anew in
- * each step, because the rows of elements that yield hold those of all upstream. */
+ * element's law known the problem is linear, as in newton.c: solved by GMRES where there
+ * are products, else by a matrix that is assembled anew in each step, because the rows of
+ * elements that yield hold those of all upstream. */
 #include "contact/internal.h"
 
 #include <cblas.h>
@@ -20,13 +21,21 @@ static const double LEAST_STEP = 1e-3;
  * SOFTENED: nothing is left of the yield stress. */
 typedef enum { SEPARATED, STICK, SLIP, YIELD, SLIP_AND_YIELD, SOFTENED } law;
 
+/* Tractions, and the gaps and slips that they and the motion of the bodies make; n each,
+ * one after the other. */
+typedef struct {
+    double *p, *q, *gap, *lambda;
+} motion;
+
 typedef struct {
     const rb_contact_problem *p;
-    law *law;              /* n; owned, as the rest */
-    double *sign;          /* n */
-    int *at_p, *at_q;      /* n: number of the unknown, or -1 */
-    int contacts, size;    /* unknowns: pressures, frictions, delta, xi */
-    double *gap, *yielded; /* n */
+    law *law;                        /* n; owned, as the rest */
+    double *sign;                    /* n */
+    int *at_p, *at_q;                /* n: number of the unknown, or -1 */
+    int inner, size;                 /* unknowns: pressures and frictions; delta, xi */
+    double *gap, *yielded, *control; /* n, n, 2n: the row of the given force */
+    motion room;
+    rb_contact_operator *by; /* whose products solve; NULL: the matrices; borrowed */
 } laws;
 
 static void laws_free(laws *k)
@@ -35,6 +44,7 @@ static void laws_free(laws *k)
     free(k->sign);
     free(k->at_p);
     free(k->gap);
+    free(k->room.p);
 }
 
 static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
@@ -45,13 +55,20 @@ static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
                 .law = calloc(n, sizeof(law)),
                 .sign = rb_alloc(n, 1),
                 .at_p = calloc(2 * n, sizeof(int)),
-                .gap = rb_alloc(n, 2)};
-    if (!k->law || !k->sign || !k->at_p || !k->gap) {
+                .gap = rb_alloc(n, 4),
+                .room = {.p = rb_alloc(n, 4)}};
+    if (!k->law || !k->sign || !k->at_p || !k->gap || !k->room.p) {
         laws_free(k);
         return RB_ENOMEM;
     }
     k->at_q = k->at_p + n;
     k->yielded = k->gap + n;
+    k->control = k->yielded + n;
+    k->room.q = k->room.p + n;
+    k->room.gap = k->room.q + n;
+    k->room.lambda = k->room.gap + n;
+    if (p->force_given)
+        rb_contact_force_row(p, k->control, k->control + n);
     return RB_OK;
 }
 
@@ -117,13 +134,12 @@ static void number_unknowns(laws *k)
 {
     const rb_contact_problem *p = k->p;
 
-    k->size = 0;
+    k->inner = 0;
     for (int i = 0; i < p->n; i++)
-        k->at_p[i] = k->law[i] != SEPARATED ? k->size++ : -1;
-    k->contacts = k->size;
+        k->at_p[i] = k->law[i] != SEPARATED ? k->inner++ : -1;
     for (int i = 0; i < p->n; i++)
-        k->at_q[i] = k->law[i] == STICK || k->law[i] == YIELD ? k->size++ : -1;
-    k->size += p->load_given + p->force_given;
+        k->at_q[i] = k->law[i] == STICK || k->law[i] == YIELD ? k->inner++ : -1;
+    k->size = k->inner + p->load_given + p->force_given;
 }
 
 /* Friction of element i per unit of its pressure. */
@@ -133,130 +149,233 @@ static double friction_of(const laws *k, int i)
     return slides ? k->sign[i] * k->p->bound[i] : 0.0;
 }
 
-/* Adds the form a_N'p + a_T'q of the unknowns, times factor; rows of matrices have a
- * stride. */
-static void add_form(const laws *k, double factor, const double *a_N, const double *a_T,
-                     size_t stride, double *form)
+/* What the equations of contacts, sticks and yielding elements lack, scaled, for these
+ * tractions and motions; constants: 0 leaves out what no unknown moves. */
+static void inner_rows(const laws *k, const motion *m, int constants, double *y)
 {
-    const double unit = factor * k->p->stress;
+    const rb_contact_problem *p = k->p;
+    const double friction = rb_contact_friction_scale(p);
+    double next = 0.0, second = 0.0;
 
-    for (int i = 0; i < k->p->n; i++) {
+    for (int i = p->n - 1; i >= 0; i--) {
+        const double yield = constants ? p->yield[i] : 0.0;
+        double u = p->recall[0] * next + p->recall[1] * second;
+        if (k->law[i] == YIELD || k->law[i] == SOFTENED)
+            u -= p->own * k->sign[i] * m->lambda[i];
+        else if (k->law[i] == SLIP_AND_YIELD)
+            u = (p->bound[i] * m->p[i] - yield) / p->hardening;
         if (k->at_p[i] >= 0)
-            form[k->at_p[i]] += unit * (a_N[(size_t)i * stride] +
-                                        friction_of(k, i) * a_T[(size_t)i * stride]);
-        if (k->at_q[i] >= 0)
-            form[k->at_q[i]] += unit * a_T[(size_t)i * stride];
+            y[k->at_p[i]] = m->gap[i] / p->gap_length;
+        if (k->law[i] == STICK)
+            y[k->at_q[i]] = m->lambda[i] / p->slip_length;
+        else if (k->law[i] == YIELD)
+            y[k->at_q[i]] = (k->sign[i] * m->q[i] - yield - p->hardening * u) / friction;
+        second = next;
+        next = u;
     }
 }
 
-/* Forms have size + 1 entries, the last one is their constant. */
-static void add_slip(const laws *k, int i, double factor, double *form)
+static void control_rows(const laws *k, const motion *m, int constants, double *y)
 {
     const rb_contact_problem *p = k->p;
-    const double *S = rb_contact_operator_matrix(p->op).S + i;
-    const size_t n = (size_t)p->n;
+    const double *control_T = k->control + p->n;
 
-    add_form(k, factor, S, S + n * n, n, form);
-    form[k->size] += factor * p->d_T[i];
+    if (p->load_given)
+        *y++ = (cblas_ddot(p->n, p->load_N, 1, m->p, 1) +
+                cblas_ddot(p->n, p->load_T, 1, m->q, 1)) /
+                   p->load -
+               constants;
     if (p->force_given)
-        form[k->size - 1] += factor * p->slip_length * p->e_T[i] / p->e_T[0];
-    else
-        form[k->size] += factor * p->xi * p->e_T[i];
+        *y = (cblas_ddot(p->n, k->control, 1, m->p, 1) +
+              cblas_ddot(p->n, control_T, 1, m->q, 1) - constants * p->force) /
+             rb_contact_force_scale(p);
 }
 
-static void add_gap(const laws *k, int i, double *form)
+/* Tractions of the unknowns x, which the motion has room for; no motion. */
+static void set_tractions(const laws *k, const double *x, motion *m)
+{
+    const rb_contact_problem *p = k->p;
+
+    for (int i = 0; i < p->n; i++) {
+        m->p[i] = k->at_p[i] >= 0 ? p->stress * x[k->at_p[i]] : 0.0;
+        m->q[i] =
+            k->at_q[i] >= 0 ? p->stress * x[k->at_q[i]] : friction_of(k, i) * m->p[i];
+        m->gap[i] = m->lambda[i] = 0.0;
+    }
+}
+
+/* delta opens no gap, xi makes slip: adds both, in their scales. */
+static void add_borders(const laws *k, const double *border, motion *m)
+{
+    const rb_contact_problem *p = k->p;
+    const double delta = p->load_given ? border[0] * p->gap_length : 0.0;
+    const double xi =
+        p->force_given ? border[p->load_given] * p->slip_length / p->e_T[0] : 0.0;
+
+    for (int i = 0; i < p->n; i++) {
+        m->gap[i] -= delta;
+        m->lambda[i] += xi * p->e_T[i];
+    }
+}
+
+static void multiply(const void *of_laws, const double *x, double *y)
+{
+    const laws *k = of_laws;
+    motion m = k->room;
+
+    set_tractions(k, x, &m);
+    rb_contact_operator_add(k->by, m.p, m.q, m.gap, m.lambda);
+    add_borders(k, x + k->inner, &m);
+    inner_rows(k, &m, 0, y);
+    control_rows(k, &m, 0, y + k->inner);
+}
+
+static void border_rows(const void *of_laws, const double *x, double *y)
+{
+    const laws *k = of_laws;
+    motion m = k->room;
+
+    set_tractions(k, x, &m);
+    control_rows(k, &m, 0, y);
+}
+
+static void border_column(const void *of_laws, int column, double *y)
+{
+    const laws *k = of_laws;
+    const size_t bytes = (size_t)k->p->n * sizeof(double);
+    double border[2] = {0.0, 0.0};
+    motion m = k->room;
+
+    border[column] = 1.0;
+    memset(m.p, 0, 4 * bytes);
+    add_borders(k, border, &m);
+    inner_rows(k, &m, 0, y);
+}
+
+/* The unknowns one group after another, as if it were alone; elements that yield have
+ * their own friction as the equation, and hardening moves it. */
+static void precondition(const void *of_laws, const double *b, double *x)
+{
+    const laws *k = of_laws;
+    const rb_contact_problem *p = k->p;
+    const rb_contact_kind *kind = k->by->kind;
+    const double friction = rb_contact_friction_scale(p);
+    double *line = k->room.p;
+    const size_t bytes = (size_t)p->n * sizeof *line;
+
+    memset(line, 0, bytes);
+    for (int i = 0; i < p->n; i++)
+        if (k->at_p[i] >= 0)
+            line[i] = b[k->at_p[i]] * p->gap_length / p->stress;
+    kind->precondition(k->by, RB_INVERSE_NORMAL, 0.0, line);
+    for (int i = 0; i < p->n; i++)
+        if (k->at_p[i] >= 0)
+            x[k->at_p[i]] = line[i];
+    for (int yields = 0; yields < 2; yields++) {
+        const law of = yields ? YIELD : STICK;
+        int count = 0;
+        memset(line, 0, bytes);
+        for (int i = 0; i < p->n; i++)
+            if (k->law[i] == of && ++count)
+                line[i] = b[k->at_q[i]] / p->stress *
+                          (yields ? k->sign[i] * friction : p->slip_length);
+        if (count > 0 && !(yields && p->hardening <= 0.0))
+            kind->precondition(k->by,
+                               yields ? RB_INVERSE_YIELDING : RB_INVERSE_TANGENTIAL,
+                               p->hardening, line);
+        for (int i = 0; i < p->n; i++)
+            if (k->law[i] == of)
+                x[k->at_q[i]] = line[i];
+    }
+}
+
+/* Column by column from the matrices. */
+static void assemble(const laws *k, double *A)
 {
     const rb_contact_problem *p = k->p;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const size_t n = (size_t)p->n, bytes = n * sizeof(double), size = (size_t)k->size;
+    const int length = p->n;
+    motion m = k->room;
 
-    add_form(k, 1.0, K.F + i, K.F + i + (size_t)p->n * (size_t)K.ldf, (size_t)K.ldf,
-             form);
-    form[k->size] += p->d_N[i];
-    if (p->load_given)
-        form[k->size - 1 - p->force_given] -= p->gap_length;
-    else
-        form[k->size] -= p->delta;
-}
-
-/* What element i has yielded, from the forms of the two elements upstream of it. */
-static void yielded_form(const laws *k, int i, const double *next, const double *second,
-                         double *form)
-{
-    const rb_contact_problem *p = k->p;
-
-    for (int j = 0; j <= k->size; j++)
-        form[j] = p->recall[0] * next[j] + p->recall[1] * second[j];
-    if (k->law[i] == YIELD || k->law[i] == SOFTENED)
-        add_slip(k, i, -p->own * k->sign[i], form);
-    if (k->law[i] == SLIP_AND_YIELD) {
-        memset(form, 0, ((size_t)k->size + 1) * sizeof *form);
-        form[k->at_p[i]] = p->bound[i] * p->stress / p->hardening;
-        form[k->size] = -p->yield[i] / p->hardening;
-    }
-}
-
-/* Row r of the system: form = 0, in units of scale. */
-static void set_row(const laws *k, int r, double scale, const double *form, double *A,
-                    double *b)
-{
-    for (int j = 0; j < k->size; j++)
-        A[r + (size_t)j * (size_t)k->size] = form[j] / scale;
-    b[r] = -form[k->size] / scale;
-}
-
-static void control_rows(const laws *k, double *form, double *A, double *b)
-{
-    const rb_contact_problem *p = k->p;
-    const size_t n = (size_t)p->n, bytes = ((size_t)k->size + 1) * sizeof *form;
-    double *control = k->gap; /* room for two rows */
-    int r = k->size - p->load_given - p->force_given;
-
-    if (p->load_given) {
-        memset(form, 0, bytes);
-        add_form(k, 1.0, p->load_N, p->load_T, 1, form);
-        form[k->size] = -p->load;
-        set_row(k, r++, p->load, form, A, b);
-    }
-    if (p->force_given) {
-        memset(form, 0, bytes);
-        rb_contact_force_row(p, control, control + n);
-        add_form(k, 1.0, control, control + n, 1, form);
-        form[k->size] = -p->force;
-        set_row(k, r, rb_contact_force_scale(p), form, A, b);
-    }
-}
-
-static void assemble(const laws *k, double *forms, double *A, double *b)
-{
-    const rb_contact_problem *p = k->p;
-    const size_t width = (size_t)k->size + 1, bytes = width * sizeof *forms;
-    double *row = forms, *u = forms + width, *next = u + width, *second = next + width;
-
-    memset(forms, 0, 4 * bytes);
-    for (int i = p->n - 1; i >= 0; i--) {
-        yielded_form(k, i, next, second, u);
-        if (k->at_p[i] >= 0) {
-            memset(row, 0, bytes);
-            add_gap(k, i, row);
-            set_row(k, k->at_p[i], p->gap_length, row, A, b);
+    memset(m.p, 0, 2 * bytes);
+    for (int i = 0; i < length; i++)
+        for (int tangential = 0; tangential < 2; tangential++) {
+            const int column = tangential ? k->at_q[i] : k->at_p[i];
+            const size_t from = (size_t)i + (size_t)tangential * n;
+            const double share = tangential ? 0.0 : friction_of(k, i);
+            if (column < 0)
+                continue;
+            (tangential ? m.q : m.p)[i] = p->stress;
+            memset(m.gap, 0, 2 * bytes);
+            cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
+            cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
+            if (share != 0.0) {
+                m.q[i] = share * p->stress;
+                cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1, m.gap,
+                            1);
+                cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
+            }
+            inner_rows(k, &m, 0, A + (size_t)column * size);
+            control_rows(k, &m, 0, A + (size_t)column * size + k->inner);
+            m.p[i] = m.q[i] = 0.0;
         }
-        if (k->law[i] == STICK) {
-            memset(row, 0, bytes);
-            add_slip(k, i, 1.0, row);
-            set_row(k, k->at_q[i], p->slip_length, row, A, b);
-        } else if (k->law[i] == YIELD) {
-            for (int j = 0; j <= k->size; j++)
-                row[j] = -p->hardening * u[j];
-            row[k->at_q[i]] += k->sign[i] * p->stress;
-            row[k->size] -= p->yield[i];
-            set_row(k, k->at_q[i], p->stress, row, A, b);
-        }
-        double *const free_now = second;
-        second = next;
-        next = u;
-        u = free_now;
+    for (size_t c = (size_t)k->inner; c < size; c++) {
+        memset(A + c * size, 0, size * sizeof *A);
+        border_column(k, (int)c - k->inner, A + c * size);
     }
-    control_rows(k, row, A, b);
+}
+
+/* x: the right side, then the solution. */
+static rb_status solve_by_matrix(const laws *k, double *x)
+{
+    const size_t size = (size_t)k->size;
+    double *A = rb_alloc(size, size);
+    lapack_int *pivots = calloc(size, sizeof *pivots);
+    rb_status s = A && pivots ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        assemble(k, A);
+        if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x,
+                               k->size) != 0)
+            s = RB_SINGULAR;
+    }
+    free(pivots);
+    free(A);
+    return s;
+}
+
+/* x as above; from the unknowns that the state has. */
+static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
+                                   double *x)
+{
+    const rb_contact_problem *p = k->p;
+    const rb_contact_linear linear = {.inner = k->inner,
+                                      .borders = k->size - k->inner,
+                                      .multiply = multiply,
+                                      .precondition = precondition,
+                                      .border_column = border_column,
+                                      .border_rows = border_rows,
+                                      .of = k};
+    double *start = rb_alloc((size_t)k->size, 1), *border = start + k->inner;
+    rb_status s = start ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i < p->n && s == RB_OK; i++) {
+        if (k->at_p[i] >= 0)
+            start[k->at_p[i]] = state->p[i] / p->stress;
+        if (k->at_q[i] >= 0)
+            start[k->at_q[i]] = state->q[i] / p->stress;
+    }
+    if (s == RB_OK && p->load_given)
+        *border++ = isfinite(state->delta) ? state->delta / p->gap_length : 0.0;
+    if (s == RB_OK && p->force_given)
+        *border = state->xi * p->e_T[0] / p->slip_length;
+    if (s == RB_OK)
+        s = k->by->kind->gmres(k->by, &linear, x, start);
+    if (s == RB_OK)
+        memcpy(x, start, (size_t)k->size * sizeof *x);
+    free(start);
+    return s;
 }
 
 /* Plastic slips from the slips, upstream first. */
@@ -284,36 +403,38 @@ static void set_plastic(const laws *k, rb_contact_state *state)
 static rb_status solve_laws(laws *k, rb_contact_state *state)
 {
     const rb_contact_problem *p = k->p;
+    motion m = k->room;
 
     number_unknowns(k);
-    const size_t size = (size_t)k->size;
-    double *A = rb_alloc(size + 1, size + 5), *b = A + size * (size + 1);
-    lapack_int *pivots = calloc(size + 1, sizeof *pivots);
-    rb_status s = A && pivots ? RB_OK : RB_ENOMEM;
+    double *x = rb_alloc((size_t)k->size, 1);
+    rb_status s = x ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
-        assemble(k, b + size, A, b);
-        if (size > 0 && LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size,
-                                           pivots, b, k->size) != 0)
-            s = RB_SINGULAR;
-        if (s == RB_OK && !isfinite(rb_norm_1(size, b, 1)))
+        memset(m.p, 0, 2 * (size_t)p->n * sizeof *m.p);
+        for (int i = 0; i < p->n; i++) {
+            m.gap[i] = p->d_N[i] - (p->load_given ? 0.0 : p->delta);
+            m.lambda[i] = p->d_T[i] + (p->force_given ? 0.0 : p->xi * p->e_T[i]);
+        }
+        inner_rows(k, &m, 1, x);
+        control_rows(k, &m, 1, x + k->inner);
+        cblas_dscal(k->size, -1.0, x, 1);
+        k->by = rb_contact_operator_by_products(p->op, k->size);
+        if (k->size > 0)
+            s = k->by ? solve_by_products(k, state, x) : solve_by_matrix(k, x);
+        if (s == RB_OK && !isfinite(rb_norm_1((size_t)k->size, x, 1)))
             s = RB_SINGULAR;
     }
     if (s == RB_OK) {
-        for (int i = 0; i < p->n; i++) {
-            state->p[i] = k->at_p[i] >= 0 ? p->stress * b[k->at_p[i]] : 0.0;
-            state->q[i] = k->at_q[i] >= 0 ? p->stress * b[k->at_q[i]]
-                                          : friction_of(k, i) * state->p[i];
-        }
-        state->delta = p->load_given
-                           ? p->gap_length * b[size - 1 - (size_t)p->force_given]
-                           : p->delta;
-        state->xi = p->force_given ? p->slip_length / p->e_T[0] * b[size - 1] : p->xi;
+        const double *border = x + k->inner;
+        set_tractions(k, x, &m);
+        memcpy(state->p, m.p, (size_t)p->n * sizeof *m.p);
+        memcpy(state->q, m.q, (size_t)p->n * sizeof *m.q);
+        state->delta = p->load_given ? p->gap_length * *border++ : p->delta;
+        state->xi = p->force_given ? p->slip_length / p->e_T[0] * *border : p->xi;
         rb_contact_kinematics(p, state, k->gap, state->lambda);
         set_plastic(k, state);
     }
-    free(pivots);
-    free(A);
+    free(x);
     return s;
 }
 

@@ -180,7 +180,7 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
     /* products know no more than one datum */
     const int two_datums =
         rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
-    return RB_TRANSFORMS && !two_datums && rc->yield_stress == 0.0 &&
+    return RB_TRANSFORMS && !two_datums &&
            (rc->contact.solver == RB_SOLVER_AUTO ||
             rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&

@@ -147,6 +147,14 @@ static void transforms_precondition(void *context, int tangential, double *line)
         rb_bem_circulant_apply(t->inverse, line, line);
 }
 
+static void transforms_precondition_yielding(void *context, double hardening,
+                                             double *line)
+{
+    const transforms *t = context;
+
+    rb_bem_circulant_apply_yielding(t->inverse, hardening, line, line);
+}
+
 /* A: taken over, also on failure. */
 static rb_status transform_operator(const rb_bem_flexibility *f, double compliance,
                                     kinematic *A, rb_contact_operator **op)
@@ -170,7 +178,7 @@ static rb_status transform_operator(const rb_bem_flexibility *f, double complian
         return s;
     }
     const rb_contact_products by = {transforms_apply, transforms_precondition,
-                                    transforms_free, t};
+                                    transforms_free, t, transforms_precondition_yielding};
     return rb_contact_operator_products(A->n, &by, op);
 }
 
@@ -302,7 +310,7 @@ static rb_status check_softening(const rb_rolling_case *rc, const rb_contact_pro
                                  rb_message *why)
 {
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    double most = 0.0;
+    double most = rb_contact_operator_response(p->op).slip;
 
     for (int i = 0; K.S && i < p->n; i++)
         most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);

@@ -159,6 +159,15 @@ void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *
     (void)r;
 }
 
+void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
+                                     const double *w, double *r)
+{
+    (void)c;
+    (void)hardening;
+    (void)w;
+    (void)r;
+}
+
 void rb_bem_circulant_free(rb_bem_circulant *circulant)
 {
     (void)circulant;
