@@ -576,14 +576,30 @@ static void friction_power_is_that_of_contact(void **state)
     (void)state;
     double q[] = {2.0, -3.0, 4.0}, shift[] = {0.1, -0.2, 0.3},
            plastic[] = {0.05, 0.03, 0.02};
+    double x[] = {0.0, 0.1, 0.2}, h[] = {0.1, 0.1, 0.1}, former[] = {0.01, 0.02, 0.015};
     rb_io_contact_case in = steel;
-    rb_rolling_solution s = {.n = 3, .q = q, .shift = shift};
-    CHECK_REL(rb_case_contact_power(&in, &s), -(0.2 + 0.6 + 1.2) * 100.0, 1e-14, "W");
+    rb_case_contact c;
+    rb_case_from_contact(&in, &c);
+    rb_rolling_solution s = {.n = 3, .x = x, .h = h, .q = q, .shift = shift};
+    CHECK_REL(rb_case_contact_power(&in, &c, NULL, &s), -(0.2 + 0.6 + 1.2) * 100.0, 1e-14,
+              "W");
     s.plastic = plastic;
-    CHECK_REL(rb_case_contact_power(&in, &s),
+    CHECK_REL(rb_case_contact_power(&in, &c, NULL, &s),
               -(2.0 * 0.08 + 3.0 * 0.19 + 4.0 * 0.28) * 100.0, 1e-14, "yielding");
+    /* a step of half an element: what had yielded comes from between the midpoints */
+    const rb_rolling_solution before = {
+        .n = 3, .x = x, .h = h, .q = q, .shift = shift, .plastic = former};
+    in.digit.T = 2;
+    c.goes_on = 1;
+    c.step = 0.05;
+    CHECK_REL(rb_case_contact_power(&in, &c, &before, &s),
+              -2.0 *
+                  (2.0 * (0.1 - 0.05 + 0.015) + 3.0 * (0.2 - 0.03 + 0.0175) +
+                   4.0 * (0.3 - 0.02 + 0.0075)) *
+                  100.0,
+              1e-13, "a step");
     in.digit.T = 1;
-    assert_true(isnan(rb_case_contact_power(&in, &s)));
+    assert_true(isnan(rb_case_contact_power(&in, &c, NULL, &s)));
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */

@@ -621,19 +621,36 @@ void rb_case_fit_free(rb_case_fit *fit);
 /* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 
 /* A two-dimensional case of CONTACT.  Its x is centre + sign x, its CKSI and FX are sign
- * times creepage and Q: sign < 0 where it rolls towards -x (CHI = 180 degrees). */
+ * times creepage and Q: sign < 0 where it rolls towards -x (CHI = 180 degrees).  rc may
+ * borrow from the struct itself, which stays where it is. */
 typedef struct {
     rb_rolling_case rc;
-    double from, to; /* ends of its line of elements, for rb_rolling_solve_between */
+    double from, to; /* ends of its line of elements */
+    double width;    /* that its forces act on, DY [mm] */
     double centre, sign;
+    int goes_on;            /* 1: from the state of the case before, P = 0 */
+    double step;            /* DQ of T = 2; 0: it does not roll, or steadily */
+    rb_rolling_table start; /* coefficients that a step is looked for from, INISLP */
+    double start_mu;
     int runs;           /* 0: it is none of those that can be run, left_out says why */
     char left_out[400]; /* what CONTACT does in it that is not done here; "" */
 } rb_case_contact;
 
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
+/* The case before (NULL: none) and its solution (n = 0: not solved): does not run where
+ * it cannot go on from them. */
+void rb_case_contact_follow(const rb_case_contact *before,
+                            const rb_rolling_solution *solution, rb_case_contact *c);
+/* One that runs.  before: as above; solution: overwritten; free it in any case.  Errors
+ * as rb_rolling_solve_between and rb_rolling_step_between. */
+rb_status rb_case_contact_solve(const rb_case_contact *c,
+                                const rb_rolling_solution *before,
+                                rb_rolling_solution *solution, rb_message *why);
 /* FRIC_POWER as CONTACT counts it [N m/s], < 0: each element's friction times its own
  * slip, without what the third body takes by yielding.  NAN where nothing rolls. */
-double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solution *s);
+double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
+                             const rb_rolling_solution *before,
+                             const rb_rolling_solution *s);
 
 /* ---- Whose fault it is ------------------------------------------------------------- */
 

@@ -11,8 +11,8 @@ RB_PUBLIC_BEGIN
 /* The control digits by their letters; those that decide nothing here are not kept. */
 typedef struct {
     int P, B, T, N, F, S;
-    int L, D, C, M, Z, E;
-    int H, G, X;
+    int V, L, D, C, M, Z, E;
+    int H, G, X, R;
 } rb_io_contact_digits;
 
 typedef struct {
@@ -26,15 +26,18 @@ typedef struct {
     double fstat, fkin;      /* of the slip laws L >= 2: at rest, and at large slip */
     double fall[2], slip_scale[2]; /* of L = 2, 3, 4: FLIN1, SABSH1 and so on [mm/s] */
     double memory, memory_slip;    /* MEMDST [mm], MEM_S0 [mm/s] */
-    double chi;                    /* degrees */
-    double dq, velocity;           /* DQ [mm], VELOC [mm/s] */
-    double poisson[2], shear[2];   /* POISS, GG [MPa] */
-    double ratio[2], time[2];      /* FG, TC [s]; M = 1 */
-    double layer_shear, layer;     /* GG3 [MPa], LAYTHK [mm]; M = 4, as the next two */
-    double yield, hardening;       /* TAU_C0 [MPa], K_TAU [MPa/mm] */
-    int potential;                 /* IPOTCN */
+    double start;        /* INISLP: slip is looked for from below (> 0), from above (< 0),
+                            from that of the case before (0) */
+    double chi;          /* degrees */
+    double dq, velocity; /* DQ [mm], VELOC [mm/s] */
+    double poisson[2], shear[2]; /* POISS, GG [MPa] */
+    double ratio[2], time[2];    /* FG, TC [s]; M = 1 */
+    double layer_shear, layer;   /* GG3 [MPa], LAYTHK [mm]; M = 4, as the next two */
+    double yield, hardening;     /* TAU_C0 [MPa], K_TAU [MPa/mm] */
+    int potential;               /* IPOTCN */
     int mx, my;
     double from, dx, dy;   /* x where the first element begins, DX, DY [mm] */
+    double hertz[3];       /* IPOTCN < 0: its three numbers behind MX and MY */
     int base, plan;        /* IBASE, IPLAN */
     double b[6];           /* IBASE = 1 */
     double centre, radius; /* XM, RX1; IBASE = 2 */

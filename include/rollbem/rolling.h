@@ -1145,6 +1145,15 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
  * is overwritten; free it in any case. */
 rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
                                    rb_rolling_solution *solution, rb_message *why);
+/* The same as one step from the tractions, coefficients of friction and yielded interface
+ * of the solution `before` on the same elements, in mm, N, MPa (NULL: nothing touched):
+ * rolled by `step` [length] (RB_TRANSIENT), or shifted or loaded at rest (RB_STATIC, step
+ * 0).  The coefficients of a friction law are looked for from those before, or from
+ * friction.start.  RB_EINVAL: steady rolling, other elements, bodies that relax,
+ * temperatures. */
+rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
+                                  const rb_rolling_solution *before, double step,
+                                  rb_rolling_solution *solution, rb_message *why);
 
 /* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
 

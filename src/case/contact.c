@@ -1,7 +1,7 @@
 /* What a case of CONTACT means here.  Signs: docs/contact.md. */
 #include "rollbem/case.h"
 
-#include <math.h>
+#include <gsl/gsl_math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,28 +22,60 @@ leave_out(rb_case_contact *c, const char *format, ...)
               clause);
 }
 
+/* A rectangle under Hertz's pressure, of given curvature or half-length. */
+static int is_line_contact(const rb_io_contact_case *in)
+{
+    return in->potential == -4 || in->potential == -5;
+}
+
+/* The same of how it goes on. */
+static int is_another_step(rb_case_contact *c, const rb_io_contact_case *in)
+{
+    const rb_io_contact_digits *d = &in->digit;
+    const int steps = d->T == 1 || d->T == 2;
+
+    if (d->B != 0)
+        leave_out(c, "approximate pressure (B = %d)", d->B);
+    else if (d->R > 1)
+        leave_out(c, "a case that the file itself does not calculate (R = %d)", d->R);
+    else if (steps && d->P != 0 && d->P != 2)
+        leave_out(c, "another state to go on from (P = %d; 0 and 2 are read)", d->P);
+    else if (steps && d->P == 0 && d->M == 1)
+        leave_out(c, "a step of viscoelastic bodies (M = 1)");
+    else if (d->T == 2 && !(in->dq > 0.0))
+        leave_out(c, "a step of no length (DQ = %g)", in->dq);
+    else
+        return 0;
+    return 1;
+}
+
 /* 1: what makes the case another one, so that it is not run. */
 static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
 {
     const rb_io_contact_digits *d = &in->digit;
     if (in->module != 3)
         leave_out(c, "module %d (module 3 alone is read)", in->module);
-    else if (in->potential < 0)
-        leave_out(c, "Hertzian input (IPOTCN = %d)", in->potential);
+    else if (d->V > 0)
+        leave_out(c, "friction of its own in every row of elements (V = %d)", d->V);
     else if (in->my > 1)
         leave_out(c, "three dimensions (MY = %d rows of elements)", in->my);
+    else if (in->potential < 0 && !is_line_contact(in))
+        leave_out(c, "a contact ellipse (IPOTCN = %d; -4 and -5 are of two dimensions)",
+                  in->potential);
+    else if (is_line_contact(in) &&
+             !(d->N == 1 && in->normal > 0.0 && in->hertz[0] > 0.0 &&
+               in->hertz[1] > 0.0 && in->hertz[2] > 0.0))
+        leave_out(
+            c, "Hertzian input without a positive load, radius or length (IPOTCN = %d)",
+            in->potential);
+    else if (is_line_contact(in))
+        return is_another_step(c, in);
     else if (in->base != 1 && in->base != 2)
         leave_out(c, "IBASE = %d (1 and 2 are read)", in->base);
     else if (in->base == 1 && !(in->b[0] > 0.0))
         leave_out(c, "a gap without curvature (B1 = %g)", in->b[0]);
-    else if (d->T == 2)
-        leave_out(c, "transient rolling that goes on from the case before (T = 2)");
-    else if (d->T == 1 && d->P == 0)
-        leave_out(c, "a shift that goes on from the case before (P = 0)");
-    else if (d->B != 0)
-        leave_out(c, "approximate pressure (B = %d)", d->B);
     else
-        return 0;
+        return is_another_step(c, in);
     return 1;
 }
 
@@ -66,7 +98,7 @@ static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
         leave_out(c, "%s (M = %d)", d->M < 4 ? materials[d->M] : "the material", d->M);
     if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
         leave_out(c, "CETA, FY and CPHI");
-    if (d->T == 3 && fabs(in->dq / in->dx - 1.0) > 0.01)
+    if (d->T == 3 && !is_line_contact(in) && fabs(in->dq / in->dx - 1.0) > 0.01)
         leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq,
                   in->dx);
     if (in->plan > 1)
@@ -80,15 +112,15 @@ static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
 /* A strip as wide as DY, whose ends the half-space holds: w_N = 0 at the depth DY, as in
  * the plane, but w_T at DY exp(nu/(1 - nu)), because Cerruti's displacement
  * (1 - nu)/r + nu x^2/r^3 has a second part. */
-static rb_rolling_body body_of(const rb_io_contact_case *in, int k)
+static rb_rolling_body body_of(const rb_io_contact_case *in, double width, int k)
 {
     const double nu = in->poisson[k];
     rb_rolling_body body = {.young = 2.0 * in->shear[k] * (1.0 + nu),
                             .poisson = nu,
                             .radius = INFINITY,
                             .support = RB_BEM_HALFPLANE,
-                            .datum = in->dy,
-                            .datum_tangential = in->dy * exp(nu / (1.0 - nu))};
+                            .datum = width,
+                            .datum_tangential = width * exp(nu / (1.0 - nu))};
     if (in->digit.M != 1 || in->ratio[k] == 0.0)
         return body;
     if (in->time[k] > 0.0)
@@ -96,6 +128,20 @@ static rb_rolling_body body_of(const rb_io_contact_case *in, int k)
     else
         body.young /= 1.0 + in->ratio[k]; /* it relaxes at once */
     return body;
+}
+
+/* The half-length of the rectangle, and the combined radius. */
+static double set_hertz(const rb_io_contact_case *in, double width, rb_rolling_case *rc)
+{
+    const double flexibility = (1.0 - in->poisson[0]) / (2.0 * in->shear[0]) +
+                               (1.0 - in->poisson[1]) / (2.0 * in->shear[1]); /* 1/E* */
+    const double square = 4.0 * in->normal / width * flexibility / M_PI;      /* a^2/R */
+    const double a =
+        in->potential == -4 ? sqrt(square * 0.5 / in->hertz[0]) : in->hertz[0];
+
+    rc->gap = RB_GAP_PARABOLA;
+    rc->a.radius = a * a / square;
+    return a;
 }
 
 /* Parabola or circle; where its lowest point is. */
@@ -106,8 +152,9 @@ static double set_gap(const rb_io_contact_case *in, rb_rolling_case *rc)
     return in->base == 2 ? in->centre : 0.0 - 0.5 * in->b[3] / in->b[0]; /* no -0 */
 }
 
-static void set_friction(const rb_io_contact_case *in, rb_rolling_case *rc)
+static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
 {
+    rb_rolling_case *rc = &c->rc;
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
 
@@ -122,22 +169,30 @@ static void set_friction(const rb_io_contact_case *in, rb_rolling_case *rc)
                               .slip_scale = {in->slip_scale[0], in->slip_scale[1]},
                               .memory = in->memory,
                               .memory_slip = in->memory > 0.0 ? in->memory_slip : 0.0};
+    if (in->start != 0.0 && in->digit.T == 2) {
+        c->start_mu = in->start < 0.0 ? in->fkin : in->fstat;
+        c->start = (rb_rolling_table){1, &c->centre, &c->start_mu};
+        rc->friction.start = &c->start;
+    }
 }
 
 /* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
-static void set_loading(const rb_io_contact_case *in, double sign, rb_rolling_case *rc)
+static void set_loading(const rb_io_contact_case *in, double width, double sign,
+                        rb_rolling_case *rc)
 {
+    static const rb_rolling_formulation formulations[] = {RB_STATIC, RB_STATIC,
+                                                          RB_TRANSIENT, RB_STEADY};
     const double tangential = sign * in->tangential;
-    rc->formulation = in->digit.T == 3 ? RB_STEADY : RB_STATIC;
+    rc->formulation = formulations[in->digit.T];
     if (in->digit.N == 1)
-        rc->load = in->normal / in->dy;
+        rc->load = in->normal / width;
     else
         rc->approach = in->normal;
     if (in->digit.T == 0)
         rc->shift = 0.0;
     else if (in->digit.F > 0)
         rc->force_ratio = tangential;
-    else if (in->digit.T == 3)
+    else if (in->digit.T >= 2)
         rc->creep = tangential;
     else
         rc->shift = tangential;
@@ -162,42 +217,97 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     if (is_outside(c, in))
         return;
     list_left_out(c, in);
+    const int hertz = is_line_contact(in), T = in->digit.T;
+    double from = in->from, to = in->from + in->mx * in->dx;
     c->runs = 1;
-    c->sign = fabs(fmod(in->chi, 360.0)) > 90.0 && in->digit.T == 3 ? -1.0 : 1.0;
-    c->rc.a = body_of(in, 0);
-    c->rc.b = body_of(in, 1);
+    c->width = hertz ? 2.0 * in->hertz[1] : in->dy;
+    c->goes_on = (T == 1 || T == 2) && in->digit.P == 0;
+    c->step = T == 2 ? in->dq : 0.0;
+    c->sign = fabs(fmod(in->chi, 360.0)) > 90.0 && T >= 2 ? -1.0 : 1.0;
+    c->rc.a = body_of(in, c->width, 0);
+    c->rc.b = body_of(in, c->width, 1);
     c->rc.elastic_b = 1;
-    c->centre = set_gap(in, &c->rc);
-    set_friction(in, &c->rc);
-    set_loading(in, c->sign, &c->rc);
+    if (hertz) {
+        to = in->hertz[2] * set_hertz(in, c->width, &c->rc);
+        from = -to;
+    } else {
+        c->centre = set_gap(in, &c->rc);
+    }
+    set_friction(in, c);
+    set_loading(in, c->width, c->sign, &c->rc);
     set_layer(in, &c->rc);
     if (!rb_rolling_can(&c->rc, RB_BODY_ELASTIC))
         c->rc.speed = in->velocity;
     c->rc.mesh = RB_MESH_UNIFORM;
     c->rc.slip_operator = RB_SLIP_UPSTREAM;
     c->rc.contact_elements = in->mx;
-    c->from = c->sign * (in->from - c->centre);
-    c->to = c->sign * (in->from + in->mx * in->dx - c->centre);
-    if (c->sign < 0.0) {
-        const double from = c->from;
-        c->from = c->to;
-        c->to = from;
-    }
+    c->from = c->sign * ((c->sign > 0.0 ? from : to) - c->centre);
+    c->to = c->sign * ((c->sign > 0.0 ? to : from) - c->centre);
     c->rc.zone = 0.5 * (c->to - c->from);
     if (!(c->from < c->to)) { /* far away, elements are less than the numbers' digits */
-        leave_out(c, "a potential contact at %g without width beside %g", in->from,
+        leave_out(c, "a potential contact at %g without width beside %g", from,
                   c->centre);
         c->runs = 0;
     }
 }
 
-double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solution *s)
+void rb_case_contact_follow(const rb_case_contact *before,
+                            const rb_rolling_solution *solution, rb_case_contact *c)
 {
-    const double *u = s->plastic;
+    if (!c->runs || !c->goes_on)
+        return;
+    if (!before || solution->n == 0)
+        leave_out(c, "a step from a case without a result");
+    else if (before->sign != c->sign)
+        leave_out(c, "a step against the direction of the case before (CHI)");
+    else
+        return;
+    c->runs = 0;
+}
+
+rb_status rb_case_contact_solve(const rb_case_contact *c,
+                                const rb_rolling_solution *before,
+                                rb_rolling_solution *solution, rb_message *why)
+{
+    return c->goes_on || c->step > 0.0
+               ? rb_rolling_step_between(&c->rc, c->from, c->to,
+                                         c->goes_on ? before : NULL, c->step, solution,
+                                         why)
+               : rb_rolling_solve_between(&c->rc, c->from, c->to, solution, why);
+}
+
+/* u of the particle of element i before: where a step finds it in the state before,
+ * linear between midpoints; steadily rolled one element upstream.  Nothing beyond the
+ * last one. */
+static double yielded_before(const rb_case_contact *c, const rb_rolling_solution *before,
+                             const rb_rolling_solution *s, int i)
+{
+    const rb_rolling_solution *from = c->step > 0.0 ? before : s;
+    const double way = c->step > 0.0 ? c->step / s->h[i] : 1.0;
+    const double ahead = i + floor(way + 1e-9), t = fmax(0.0, way + i - ahead);
+
+    if (!from || !from->plastic || !(ahead < from->n))
+        return 0.0;
+    const int j = (int)ahead;
+    return (1.0 - t) * from->plastic[j] +
+           (j + 1 < from->n ? t * from->plastic[j + 1] : 0.0);
+}
+
+double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
+                             const rb_rolling_solution *before,
+                             const rb_rolling_solution *s)
+{
     double power = 0.0;
+
+    if (in->digit.T < 2)
+        return NAN;
     for (int i = 0; i < s->n; i++) {
-        const double yields = u ? u[i] - (i + 1 < s->n ? u[i + 1] : 0.0) : 0.0;
-        power -= fabs(s->q[i]) * (fabs(s->shift[i]) - yields);
+        const double yields =
+            s->plastic
+                ? s->plastic[i] - yielded_before(c, c->goes_on ? before : NULL, s, i)
+                : 0.0;
+        const double rolled = c->step > 0.0 ? c->step / s->h[i] : 1.0;
+        power -= fabs(s->q[i]) * (fabs(s->shift[i]) - yields) / rolled;
     }
-    return in->digit.T == 3 ? power * in->dy * in->velocity * 1e-3 : NAN;
+    return power * c->width * in->velocity * 1e-3;
 }

@@ -30,10 +30,13 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
     "Runs the cases of an input file of CONTACT (module 3) that are two-dimensional:\n"
-    "one row of elements, MY = 1, a parabola or a circle as gap, Coulomb friction,\n"
-    "elastic or viscoelastic half-spaces, with a third body that may yield; pressed,\n"
-    "shifted or rolling steadily. The elements are those of the file. A line for each\n"
-    "reason says what is left out, and of which cases.\n"
+    "one row of elements, MY = 1, a parabola or a circle as gap or Hertzian input of a\n"
+    "line contact (IPOTCN = -4, -5), Coulomb friction or friction that falls with the\n"
+    "slip, elastic or viscoelastic half-spaces, with a third body that may yield;\n"
+    "pressed (T = 0), shifted (T = 1), rolled step by step (T = 2) or steadily (T = 3).\n"
+    "A case with P = 0 goes on from the case before. The elements are those of the "
+    "file.\n"
+    "A line for each reason says what is left out, and of which cases.\n"
     "docs/contact.md has the names and signs of both programs.";
 
 static const char notes[] =
@@ -49,7 +52,8 @@ static const char notes[] =
 typedef struct {
     const rb_io_contact_case *in;
     rb_case_contact c;
-    rb_rolling_solution s; /* n = 0: not run */
+    const rb_rolling_solution *before; /* of the case before; NULL: none */
+    rb_rolling_solution s;             /* n = 0: not run */
     rb_status status;
     rb_message why;
 } contact_run;
@@ -73,15 +77,15 @@ static void values_of(const contact_run *r, double x[COLUMNS - 2])
 {
     const rb_rolling_solution *s = &r->s;
     const rb_io_contact_case *in = r->in;
-    const double sign = r->c.sign, width = in->dy;
+    const double sign = r->c.sign, width = r->c.width;
     const double all[COLUMNS - 2] = {
         s->normal_load * width,
         sign * s->tangential_load * width,
         sign * s->force_ratio,
-        sign * (in->digit.T == 3 ? s->creepage : s->tangential_shift),
+        sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift),
         s->approach,
         s->max_pressure,
-        rb_case_contact_power(in, s),
+        rb_case_contact_power(in, &r->c, r->before, s),
         s->n,
         s->contact,
         s->stick,
@@ -207,11 +211,12 @@ static void say_left_out(const contact_runs *all, int k)
 static cli_exit run_case(const contact_runs *all, int k)
 {
     contact_run *r = &all->run[k];
-    say_left_out(all, k);
+    r->before = k > 0 ? &all->run[k - 1].s : NULL;
+    rb_case_contact_follow(k > 0 ? &all->run[k - 1].c : NULL, r->before, &r->c);
     if (!r->c.runs)
         return CLI_OK;
     cli_wait_begin();
-    r->status = rb_rolling_solve_between(&r->c.rc, r->c.from, r->c.to, &r->s, &r->why);
+    r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
     cli_wait_end();
     if (r->status == RB_OK)
         return CLI_OK;
@@ -236,6 +241,8 @@ static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
         worst = code > worst ? code : worst;
         ran += all->run[k].c.runs;
     }
+    for (int k = 0; k < all->n; k++)
+        say_left_out(all, k);
     const cli_exit code = cli_write_file(all->o->output, print, all);
     if (code != CLI_OK)
         worst = code;

@@ -1,6 +1,7 @@
 /* From case to solution in one call. */
 #include "history/internal.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Of a model whose solve has ended with status s; the status of both. */
@@ -74,6 +75,95 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
         solution->status = s;
     solution->seconds_total = rb_seconds() - start;
     rb_rolling_mesh_free(&mesh);
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+/* ---- One step alone -----------------------------------------------------------------
+ */
+
+/* Equal elements between from and to, with nothing solved on them. */
+static rb_status set_up_between(const rb_rolling_case *rc, double from, double to,
+                                rb_rolling_model *model, rb_message *why)
+{
+    const int n = rc->contact_elements;
+    const double h = (to - from) / n;
+    double *x = rb_alloc((size_t)n, 2);
+    if (!x)
+        return rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
+    const rb_rolling_elements elements = {.n = n, .x = x, .h = x + n, .are_equal = 1};
+
+    for (int i = 0; i < n; i++) {
+        x[i] = from + (i + 0.5) * h;
+        x[n + i] = h;
+    }
+    const rb_status s = rb_rolling_model_of_result(rc, &elements, model, why);
+    free(x);
+    return s;
+}
+
+/* The state of the solution before, as far as a step looks at it. */
+static rb_status take_state(const rb_rolling_solution *before, rb_rolling_model *model,
+                            rb_message *why)
+{
+    const size_t n = (size_t)model->mesh.n, bytes = n * sizeof(double);
+    const double *x = model->bodies.f.x, h = model->bodies.f.h[0];
+
+    if (before->n != model->mesh.n || fabs(before->x[0] - x[0]) > 1e-6 * h ||
+        fabs(before->x[n - 1] - x[n - 1]) > 1e-6 * h)
+        return rb_fail(why, RB_EINVAL,
+                       "a step: the state before it stands on other elements");
+    memcpy(model->state.p, before->p, bytes);
+    memcpy(model->state.q, before->q, bytes);
+    if (before->mu)
+        memcpy(model->problem.bound, before->mu, bytes);
+    if (before->plastic && model->carried.yielded)
+        memcpy(model->carried.yielded, before->plastic, bytes);
+    return RB_OK;
+}
+
+rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
+                                  const rb_rolling_solution *before, double step,
+                                  rb_rolling_solution *solution, rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_model model = {0};
+    rb_rolling_particles particles = {
+        .rc = rc, .model = &model, .step = step, .steps = 1, .keeps_elements = 1};
+    const rb_rolling_stride stride = {.c = step};
+    rb_status s = rb_rolling_case_check(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    if (s == RB_OK && (rc->formulation == RB_STEADY || rb_rolling_relaxes(rc) ||
+                       rb_rolling_has_heat(rc)))
+        s = rb_fail(why, RB_EINVAL,
+                    "a step: steady rolling has none, and bodies that relax or become "
+                    "warm remember more than the state before it");
+    if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
+        s = rb_fail(why, RB_EINVAL,
+                    "a step: its length %g: expected > 0 where it rolls, 0 at rest",
+                    step);
+    if (s == RB_OK)
+        s = set_up_between(rc, from, to, &model, why);
+    if (s == RB_OK)
+        s = rb_rolling_particles_create(&particles, why);
+    if (s == RB_OK && before)
+        s = take_state(before, &model, why);
+    if (s == RB_OK)
+        s = rb_rolling_particles_bring(&particles, &stride, why);
+    if (s == RB_OK) {
+        const rb_rolling_past past = {particles.w_T, model.carried.yielded, step};
+        if (!before || rc->friction.start)
+            rb_rolling_start_bounds(rc, &model.bodies, &model.problem);
+        rb_rolling_set_past(rc, &model.bodies, &past, &model.problem);
+        rb_rolling_set_control(rc, &model.problem);
+        s = rb_rolling_model_resolve(&model, 0, why);
+    }
+    s = take_solution(&model, s, solution, why);
+    if (s >= 0)
+        solution->status = s;
+    solution->seconds_total = rb_seconds() - start;
+    rb_rolling_particles_free(&particles);
     rb_rolling_model_free(&model);
     return s;
 }

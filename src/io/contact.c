@@ -18,20 +18,33 @@ typedef struct {
 
 /* ---- Lines ------------------------------------------------------------------------- */
 
-/* The next line that is neither blank nor a comment, ended; NULL: there is none. */
+/* What the next line that is neither blank nor a comment begins with; "": there is none.
+ */
+static char *find_line(reading *r)
+{
+    for (;;) {
+        char *line = r->at + strspn(r->at, " \t\r");
+        if (*line && *line != '%' && *line != '\n')
+            return line;
+        line += strcspn(line, "\n");
+        if (!*line)
+            return line;
+        r->at = line + 1;
+        r->line++;
+    }
+}
+
+/* That line, ended; NULL: there is none. */
 static char *next_line(reading *r)
 {
-    while (*r->at) {
-        char *line = r->at;
-        const size_t n = strcspn(line, "\n");
-        r->at += n + (line[n] == '\n');
-        line[n] = '\0';
-        r->line++;
-        line += strspn(line, " \t\r");
-        if (*line && *line != '%')
-            return line;
-    }
-    return NULL;
+    char *line = find_line(r);
+    const size_t n = strcspn(line, "\n");
+    if (n == 0)
+        return NULL;
+    r->line++;
+    r->at = line + n + (line[n] == '\n');
+    line[n] = '\0';
+    return line;
 }
 
 static int is_module_line(const char *line, int *module)
@@ -48,18 +61,28 @@ static void fail(reading *r, const char *names, const char *got)
                             r->path, r->line, names, got ? got : "the end of the file");
 }
 
-/* The first n numbers of the next line; what stands behind them is a comment.  A d behind
- * an angle says degrees, and *degrees; D is Fortran's exponent. */
+/* The next n numbers, of one line or more; what stands behind them is a comment.  A d
+ * behind an angle says degrees, and *degrees; D is Fortran's exponent.  x NULL: they are
+ * skipped. */
 static void read_numbers(reading *r, int n, double *x, const char *names, int *degrees)
 {
     const char *line = r->status == RB_OK ? next_line(r) : NULL, *at = line ? line : "";
     for (int k = 0; k < n && r->status == RB_OK; k++) {
         char *end;
-        x[k] = rb_read_number(at, &end);
-        if (end == at || !isfinite(x[k])) {
+        while (*at == '%' || *at == '\0' || *at == '\r') { /* they go on below */
+            at = next_line(r);
+            if (!at) {
+                fail(r, names, line);
+                return;
+            }
+        }
+        const double value = rb_read_number(at, &end);
+        if (end == at || !isfinite(value)) {
             fail(r, names, line);
             return;
         }
+        if (x)
+            x[k] = value;
         if (degrees && k == 0)
             *degrees = *end == 'd';
         at = end + (*end == 'd') + strspn(end + (*end == 'd'), " \t,");
@@ -101,28 +124,38 @@ static void read_control(reading *r, rb_io_contact_digits *d)
     read_digits(r, 6, x, "the digits P-B-T-N-F-S");
     *d = (rb_io_contact_digits){
         .P = x[0], .B = x[1], .T = x[2], .N = x[3], .F = x[4], .S = x[5]};
-    read_digits(r, 6, x, "the digits L-D-C-M-Z-E");
-    d->L = x[0];
-    d->D = x[1];
-    d->C = x[2];
-    d->M = x[3];
-    d->Z = x[4];
-    d->E = x[5];
+    read_digits(r, 7, x, "the digits L-D-C-M-Z-E");
+    d->V = x[0];
+    d->L = x[1];
+    d->D = x[2];
+    d->C = x[3];
+    d->M = x[4];
+    d->Z = x[5];
+    d->E = x[6];
     read_digits(r, 8, x, "the digits X-H-G-I-A-O-W-R");
     d->X = x[0];
     d->H = x[1];
     d->G = x[2];
+    d->R = x[7];
     if (d->X > 0 && r->status == RB_OK)
         next_line(r); /* of debugging */
 }
 
-static void skip_iteration(reading *r, const rb_io_contact_digits *d)
+static void read_iteration(reading *r, rb_io_contact_case *c)
 {
+    const int G = c->digit.G;
     double x[5] = {0};
-    if (d->G != 1)
+    if (G != 1)
         read_numbers(r, 5, x, "MAXGS, MAXIN, MAXNR, MAXOUT, EPS", NULL);
-    if (d->G > 1 && r->status == RB_OK)
+    if (G == 4) {
+        read_numbers(r, 2, x, "INISLP, OMGSLP", NULL);
+        c->start = x[0];
+    } else if (G == 2 || G == 3) {
+        read_numbers(r, 4, x, "OMEGAH, OMEGAS, INISLP, OMGSLP", NULL);
+        c->start = x[2];
+    } else if (G > 4 && r->status == RB_OK) {
         next_line(r);
+    }
 }
 
 static void read_friction(reading *r, rb_io_contact_case *c)
@@ -197,13 +230,15 @@ static void read_grid(reading *r, rb_io_contact_case *c)
         snprintf(got, sizeof got, "%d", c->potential);
         fail(r, "IPOTCN from 1 to 4, or negative", got);
     }
-    read_numbers(r, c->potential > 0 ? 6 : 5, x, "MX, MY and the grid", NULL);
+    read_numbers(r, c->potential > 0 || c->potential == -6 ? 6 : 5, x,
+                 "MX, MY and the grid", NULL);
     if (r->status == RB_OK) {
         c->mx = whole(r, x[0], "MX");
         c->my = whole(r, x[1], "MY");
     }
     if (r->status != RB_OK)
         return;
+    memcpy(c->hertz, x + 2, sizeof c->hertz);
     c->from = x[2];
     if (c->potential == 1 || c->potential == 3) {
         c->dx = x[4];
@@ -215,8 +250,9 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     }
     if (c->potential >= 3)
         c->from -= c->dx / 2;
-    if (c->potential > 0 && (c->mx < 1 || c->my < 1 || !isfinite(c->from) ||
-                             !(c->from + c->mx * c->dx > c->from)))
+    if (c->mx < 1 || c->my < 1 ||
+        (c->potential > 0 &&
+         (!isfinite(c->from) || !(c->from + c->mx * c->dx > c->from))))
         fail(r, "MX, MY >= 1 and DX > 0", "another grid");
 }
 
@@ -234,7 +270,24 @@ static void read_gap(reading *r, rb_io_contact_case *c)
         read_numbers(r, 5, x, "NN, XM, RX1, Y1, DY1", NULL);
         c->centre = x[1];
         c->radius = x[2];
+        read_numbers(r, whole(r, x[0], "NN"), NULL, "the NN heights", NULL);
     }
+    if (c->base == 3)
+        read_numbers(r, 8, NULL, "the numbers of IBASE = 3", NULL);
+    if (c->base == 9)
+        read_numbers(r, c->mx * c->my, NULL, "the heights of all elements", NULL);
+    if (c->plan == 2 || c->plan == 3)
+        read_numbers(r, c->plan == 2 ? 6 : 8, NULL, "the numbers of IPLAN", NULL);
+}
+
+/* 1: the module goes on with a case that has no line MODULE of its own, R = 0 or 2;
+ * behind points below the surface and the like it is not found. */
+static int stays(reading *r, const rb_io_contact_case *c)
+{
+    const rb_io_contact_digits *d = &c->digit;
+    int module;
+    return d->R % 2 == 0 && d->S < 2 && d->E < 9 && d->V == 0 && c->plan < 4 &&
+           isdigit((unsigned char)*find_line(r)) && !is_module_line(r->at, &module);
 }
 
 /* What a case has behind what is read here ends at the next line that says MODULE. */
@@ -257,30 +310,35 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
             continue;
         if (module == 0)
             break;
-        rb_io_contact_case *more = realloc(*cases, sizeof *more * (size_t)(*n + 1));
-        if (!more) {
-            r.status = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
-            break;
-        }
-        *cases = more;
         now.line = r.line;
-        now.module = module;
-        if (module == 3) {
-            double x[4] = {0};
-            read_control(&r, &now.digit);
-            skip_iteration(&r, &now.digit);
-            read_numbers(&r, 4, x, "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
-            now.normal = x[0];
-            now.tangential = x[1];
-            now.side = x[2];
-            now.spin = x[3];
-            read_friction(&r, &now);
-            read_material(&r, &now);
-            skip_heat(&r, &now.digit);
-            read_grid(&r, &now);
-            read_gap(&r, &now);
-        }
-        more[(*n)++] = now;
+        do {
+            rb_io_contact_case *more = realloc(*cases, sizeof *more * (size_t)(*n + 1));
+            if (!more) {
+                r.status = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+                break;
+            }
+            *cases = more;
+            now.module = module;
+            if (module == 3) {
+                double x[4] = {0};
+                read_control(&r, &now.digit);
+                read_iteration(&r, &now);
+                read_numbers(&r, 4, x, "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
+                now.normal = x[0];
+                now.tangential = x[1];
+                now.side = x[2];
+                now.spin = x[3];
+            }
+            if (module == 3 && now.digit.V == 0) { /* else friction stands elsewhere */
+                read_friction(&r, &now);
+                read_material(&r, &now);
+                skip_heat(&r, &now.digit);
+                read_grid(&r, &now);
+                read_gap(&r, &now);
+            }
+            more[(*n)++] = now;
+            now.line = r.line + 1;
+        } while (r.status == RB_OK && module == 3 && stays(&r, &now));
     }
     if (r.status == RB_OK && *n == 0)
         r.status =
