@@ -1,5 +1,5 @@
 /* The library for other languages: opaque handles, numbers, text and arrays of doubles.
- * The caller needs no struct.  The page in the browser uses this interface.
+ * The caller needs no struct of C.  The page in the browser uses this interface.
  *
  *     rb_api *a = rb_api_create();
  *     rb_api_set(a, "load", "500");
@@ -11,8 +11,9 @@
  *     rb_api_free(a);
  *
  * Options and results are those of rb_case_describe and of the tables of
- * rollbem/rolling.h.  A status is an rb_status: 0 solved, negative refused, positive
- * ended without a solution; rb_api_message then says why. */
+ * rollbem/rolling.h.  A status is an rb_status: 0: solved; negative: the input was
+ * refused; positive: the solver ended without a solution.  rb_api_message then has the
+ * reason. */
 #ifndef ROLLBEM_API_H
 #define ROLLBEM_API_H
 
@@ -22,11 +23,11 @@ RB_PUBLIC_BEGIN
 
 typedef struct rb_api rb_api;
 
-/* A case with the default options, to be solved.  NULL: no memory. */
+/* Creates a case with the default options for rb_api_solve.  NULL: no memory. */
 rb_api *rb_api_create(void);
-/* For the purpose of a command: "solve", "curve", "stress", "crack", "wear" or "sweep",
- * which differ in what they refuse and in some defaults.  NULL: another word, or no
- * memory. */
+/* The same for one of the commands "solve", "curve", "stress", "crack", "wear" or
+ * "sweep"; they differ in the options that they refuse and in some defaults.  NULL:
+ * unknown command, or no memory. */
 rb_api *rb_api_create_for(const char *purpose);
 void rb_api_free(rb_api *a);
 
@@ -35,11 +36,11 @@ int rb_api_read(rb_api *a, const char *path);
 
 /* Sets one option, with a text as in a case file.  A refused text changes no option; the
  * case is then refused with the same message until the option is set to a valid value (a
- * file: until it is read).
- * The call discards the solution.  If only friction, load, approach, shift, creepage or
- * force were set since the last solve, the next solve uses the same flexibility again. */
+ * file: until it is read). The call discards the solution.  If only friction, load,
+ * approach, shift, creepage or force were set since the last solve, the next solve reuses
+ * the flexibility. */
 int rb_api_set(rb_api *a, const char *name, const char *text);
-/* Whether the options agree with each other. */
+/* Checks that the options are consistent. */
 int rb_api_resolve(rb_api *a);
 /* Resolves and solves the case; of a sequence of steps every step is kept. */
 int rb_api_solve(rb_api *a);
@@ -48,13 +49,14 @@ int rb_api_solve(rb_api *a);
  */
 void rb_api_stop(rb_api *a);
 
-/* Of the last call that gave a status. */
+/* Status and message of the last call that returned a status. */
 int rb_api_status(const rb_api *a);
 const char *rb_api_message(const rb_api *a);
 
 /* ---- Descriptions, as text --------------------------------------------------------- */
 
-/* Each writes at most `size` bytes and returns text, or NULL: no such index or field. */
+/* Each of these functions writes at most `size` bytes and returns text, or NULL if there
+ * is no such index or field. */
 
 /* Field of option k = 0, 1, ...: "name", "section", "kind" (group, number, integer,
  * choice, flag, text), "unit", "expected" (the range in words), "from", "to", "choices"
@@ -65,7 +67,7 @@ const char *rb_api_option(int k, const char *field, char *text, int size);
  * "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
                           int size);
-/* Value of an option as resolved. */
+/* Value of an option after rb_api_resolve. */
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size);
 
 /* ---- Results ----------------------------------------------------------------------- */
@@ -85,11 +87,11 @@ const char *rb_api_word(const rb_api *a, const char *name);
 const char *rb_api_note(const rb_api *a, int k, char *text, int size);
 
 /* An array by name, rows x columns, column by column; borrowed until the case changes or
- * the array is made anew.  NULL: there is none, or no memory.
+ * the array is computed again.  NULL: there is no such array, or no memory.
  *   p, q, x, zone ...            columns of the solution, an entry per element
  *   friction_power               energy that wear takes, an entry per element
  *   patch.from ...               an entry per patch of the contact
- *   history.distance ...         of a sequence, an entry per step;
+ * history.distance ... of a case with steps, an entry per step;
  *                                history.error.distance ... where errors were asked for
  *   step.p step.q step.zone      elements x steps
  *   step.x                       its midpoints
@@ -133,12 +135,14 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
 
-/* Each makes the arrays named after it from the case as it was solved. */
+/* Each of these functions computes the arrays that are named after it from the solved
+ * case. */
 
-/* Steady rolling at so many creepage ratios from ... to, of a case that is resolved. */
+/* A creep curve of a resolved case: steady rolling at `points` creepage ratios between
+ * from and to. */
 int rb_api_curve(rb_api *a, double from, double to, int points);
-/* The same over "creep-ratio", "creep" or (bodies that relax) "speed", with errors where
- * the case asks for them. */
+/* The same over "creep-ratio", "creep" or (viscoelastic bodies) "speed", with error bars
+ * if the case has them. */
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
@@ -147,56 +151,58 @@ int rb_api_newton(rb_api *a);
 /* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none.
  */
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size);
-/* The linear problem of these zones (0 separated, 1 stick, 2 and 3 slip), right or wrong.
- */
+/* Solves the linear equations for the given zones (0 separated, 1 stick, 2 and 3 slip),
+ * whether they are right or wrong. */
 int rb_api_guess(rb_api *a, int n, const int *zone);
-/* Stress below the surface of A on nx x ny points, to a depth in length (0: automatic).
- */
+/* Stress below the surface of A on nx x ny points, down to a depth [length] (0:
+ * automatic). */
 int rb_api_stress(rb_api *a, int nx, int ny, double depth);
-/* Passes the contact of a handle for "crack" over a crack in body B, with n options of
- * `rollbem crack` by their names and texts ("crack-angle", "45"). */
+/* Moves the contact of a handle for "crack" over a crack in body B.  names and values: n
+ * options of `rollbem crack` ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
-/* Wears the case of a handle for "wear" as `rollbem wear` does: law "archard" or
- * "dissipation", coefficient K [1/MPa], share of B; A slides by `slide` [mm] or, where
- * that is NAN, frets or rolls for so many `cycles`; in so many steps, fretting with
- * `quarter` increments in a quarter of a cycle (rollbem/rolling.h). */
+/* Computes the wear of a handle for "wear" like `rollbem wear`: law "archard" or
+ * "dissipation", coefficient K [1/MPa], share of B.  A slides by `slide` [mm]; if that is
+ * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps; quarter:
+ * increments per quarter of a cycle of fretting (rollbem/rolling.h). */
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
                 double slide, double cycles, int steps, int quarter);
 /* Derivatives of every number and column of the solution with respect to every number of
- * the case, on the elements as they are; of one step, without error bars. */
+ * the case, on the elements of the solution.  The case must have one step and no error
+ * bars. */
 int rb_api_derivatives(rb_api *a);
-/* Input k = 0, 1, ... of these: "name" (of its option; "mu-fall-2": the second number of
- * its list), "unit", "refusal" (why it has no derivatives, or nothing).  NULL: there is
- * none. */
+/* Field of input k = 0, 1, ... of the derivatives: "name" (of its option; "mu-fall-2":
+ * the second number of its list), "unit", "refusal" (the reason why it has no
+ * derivatives, or ""). NULL: no such input or field. */
 const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
-/* At n points x0, y0, x1, y1, ... inside A, y > 0. */
+/* Stress at n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);
-/* The largest stresses and where they are, to a depth in length (0: automatic). */
+/* The largest stresses and their places, down to a depth [length] (0: automatic). */
 int rb_api_stress_maxima(rb_api *a, double depth);
 
-/* ---- Problems by themselves -------------------------------------------------------- */
+/* ---- Problems without a case ------------------------------------------------------- */
 
-/* The case of the handle is neither read nor changed. */
+/* These functions do not use or change the case of the handle. */
 
 /* z >= 0, M z + q >= 0, complementary; M n x n, column by column.  solver: "auto",
  * "lemke", "lemke-sparse" or "newton"; max_pivots 0: the solver's own limit. */
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots);
-/* Which residual decides from now on: "scaled" (at first), or "acary", (13) of Acary,
- * which depends on units.  rb_api_note says where a problem is solved in the scaled
- * measure alone. */
+/* Chooses the residual that decides whether a problem is solved: "scaled" (default), or
+ * "acary", (13) of Acary, which depends on units.  rb_api_note tells if a problem is
+ * solved in the scaled measure only. */
 int rb_api_friction_measure(rb_api *a, const char *measure);
-/* u = W r + q, Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one
- * first; W column by column, mu an entry per contact.  solver: a name of rollbem
- * friction.  Nine plain parameters: no struct has to be laid out in another language. */
+/* Solves u = W r + q with Coulomb's law, `dimension` (2 or 3) rows per contact, the
+ * normal one first; W column by column, one mu per contact.  solver: a name of `rollbem
+ * friction`. The function has nine plain parameters so that other languages need no
+ * struct. */
 int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
                     const double *q, const double *mu, const char *solver, double tol,
                     int max_iters);
 /* The same for the problem of a file, FCLib or Siconos. */
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
                          int max_iters);
-/* Cases of their own, each resolved by the call, solved by so many processes (0: one per
- * processor).  A case that is refused ends the call before anything is solved. */
+/* A sweep: solves n cases with `workers` processes (0: one per processor); the call
+ * resolves each case.  If a case is refused, the call ends before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 
 RB_PUBLIC_END

@@ -1,6 +1,6 @@
-/* A case by names: one table holds every option of a case (name, section, unit, range,
- * choices, default, help), and whatever reads or shows a case is made from it: the
- * command line, case files, JSON `inputs`, --help, studies, and callers of this library.
+/* A case whose options are set by name.  One table holds every option of a case (name,
+ * section, unit, range, choices, default, help).  The command line, case files, JSON
+ * `inputs`, --help, studies and callers of this library all use this table.
  *
  *     rb_case *c = rb_case_create(RB_CASE_SINGLE);
  *     rb_case_set(c, "support", "halfplane", RB_GIVEN_ARGUMENT, &why);
@@ -10,8 +10,9 @@
  *     rb_case_result_free(&result);
  *     rb_case_free(c);
  *
- * Nothing here prints.  A refusal is a status and a line: RB_EINVAL where an argument is
- * wrong, RB_EFORMAT where a file is, RB_ENOENT where there is no such file. */
+ * Nothing here prints.  An error is a status and a message of one line: RB_EINVAL if an
+ * argument is wrong, RB_EFORMAT if the content of a file is wrong, RB_ENOENT if there is
+ * no such file. */
 #ifndef ROLLBEM_CASE_H
 #define ROLLBEM_CASE_H
 
@@ -51,45 +52,49 @@ typedef struct {
     double value[RB_NUMBERS_MAX];
 } rb_numbers;
 
-/* What the file is for that an option names. */
+/* How the program uses the file that an option names. */
 typedef enum {
     RB_FILE_NONE, /* the option names no file */
     RB_FILE_READ,
     RB_FILE_WRITTEN,
-    RB_FILE_PICTURE, /* written too, its kind told by the end of the name */
-    RB_FILE_FOLDER   /* that is written into */
+    RB_FILE_PICTURE, /* written; the ending of the name gives the format */
+    RB_FILE_FOLDER   /* a folder into which files are written */
 } rb_option_file;
 
-/* One option: what it is called, what it may be, and where its value goes in the struct
- * that the table belongs to. */
+/* One option: its name, its allowed values, and the place of its value in the struct that
+ * the table describes. */
 typedef struct {
     const char *name; /* --name, and the key in a case file */
     rb_option_kind kind;
     size_t offset;    /* of the value in the set's target */
-    const char *unit; /* "mm"; "" for none; of a text: what stands for it in the help */
+    const char *unit; /* "mm"; "" for none; for a text its placeholder in the help */
     rb_range range;   /* numbers and integers */
-    const char *word; /* numbers: a word that stands for word_value, or NULL */
+    const char *word; /* numbers: a word that is allowed instead of a number and means
+                         word_value, or NULL */
     double word_value;
-    size_t list; /* numbers: when not 0, more of them may follow after commas; all are
-                    stored here (rb_numbers), the first one as the value */
-    const rb_choice *choices; /* ends with a NULL name */
-    size_t path; /* choices: when not 0, any other word is a name, stored here
-                    (const char *), and the value is path_value */
+    size_t
+        list; /* numbers: if not 0, several numbers separated by commas are allowed; all
+                 are stored at this offset (rb_numbers), and the first is the value */
+    const rb_choice *choices; /* an entry with name NULL ends the list */
+    size_t path; /* choices: if not 0, any other word is a name; it is stored at this
+                    offset (const char *), and the value is path_value */
     int path_value;
-    const char *path_name; /* of that other word in the help: FILE, NAME */
+    const char *path_name; /* placeholder of this name in the help: FILE, NAME */
     rb_option_file file;   /* texts, and choices with another word */
-    unsigned excludes;     /* of options that share a bit only one may be given */
-    int frozen; /* numbers: 1: of the mesh, the steps or the solver, with respect to which
-                   nothing is differentiated */
-    const char *alone;    /* texts: the value of the option without one: where the next
-                             argument is an option, a file or has a dot or slash; or NULL */
-    const char *unset;    /* help: what stands for the default; NULL: the value itself */
-    const char *one_only; /* why several numbers are refused; NULL: the range says it */
-    int common;           /* 1: --help begins with it */
+    unsigned excludes; /* bit mask; of options with a common bit only one may be given */
+    int frozen; /* numbers: 1: a number of the mesh, the steps or the solver; there are no
+                   derivatives with respect to it */
+    const char *alone; /* texts: value if the option is given without one, that is, if the
+                          next argument is an option, a file, or has a dot or slash; NULL:
+                          a value is required */
+    const char *unset; /* help: text shown as the default; NULL: the value itself */
+    const char *one_only; /* reason in the error message for several numbers; NULL: the
+                             general message */
+    int common;           /* 1: shown at the beginning of --help */
     const char *help;
 } rb_option;
 
-/* Ranges and lines of an option table: */
+/* Macros for the ranges and rows of an option table: */
 #define RB_ANY                                                                           \
     {                                                                                    \
         -INFINITY, INFINITY, 1, 1                                                        \
@@ -145,166 +150,178 @@ typedef struct {
         .help = __VA_ARGS__                                                              \
     }
 
-/* A table, which begins with a heading, and the struct its values go to. */
+/* An option table, which begins with a heading, and the struct that holds its values. */
 typedef struct {
     const rb_option *options;
     int n;
     void *target;
-    int *given; /* n: who gave the value, see below; NULL where nobody asks */
-    int *plain; /* n: 1 where it is a number that came without a unit; NULL likewise */
+    int *given; /* n: source of each value, see below; NULL: not recorded */
+    int *plain; /* n: 1 if the value is a number that was given without a unit; NULL: not
+                   recorded */
 } rb_option_set;
 
-/* Who gave a value: nobody (0), line k > 0 of the case file, an argument that wins over
- * the file, or rb_case_set_number. */
+/* Source of a value: 0: the default; k > 0: line k of the case file; RB_GIVEN_ARGUMENT:
+ * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number. */
 enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 
-/* The option of that name (its first `length` characters) among n sets: its set, and its
- * place there in *index; NULL: there is none, and guess has tried the others' names. */
+/* Finds the option whose name is the first `length` characters of `name` in n sets.
+ * Returns its set and writes its row into *index.  NULL: there is no such option; the
+ * names of all options were then passed to guess. */
 const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
                                     size_t length, int *index, rb_guess *guess);
 
-/* Who gave the option of that name, as in `given`; 0: it has its default. */
+/* Source of the value of the option `name`, as in `given`; 0: the default. */
 int rb_option_given(const rb_option_set *set, const char *name);
 
-/* One value for option k of the set, strictly, with its marks in given and plain; a
- * number may have a unit, a plain one stays as it is.  what: how messages call it
- * ("--mu", "case.ini:3: mu").  Text is borrowed.  RB_EINVAL: "what: expected ..., got
+/* Sets option k of the set from a text and records the source `by` in set->given, and in
+ * set->plain whether a number had no unit.  A number with a unit is converted; a number
+ * without one is stored as it is.  what: name of the option in messages ("--mu",
+ * "case.ini:3: mu").  The text is borrowed.  RB_EINVAL: "what: expected ..., got
  * '...'". */
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why);
 
-/* "a number >= 0", "lemke, newton or auto": what the option wants.  Returns text. */
+/* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
+ * Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
 
-/* The value as text of a case file; room for 64 bytes or the text itself. */
+/* The value as it is written in a case file.  Returns `room`, or the text itself for a
+ * text option. */
 const char *rb_option_text(const rb_option *option, const void *target, char room[64]);
 
-/* The file that the option names; NULL: none. */
+/* Name of the file that is the value of the option; NULL: none. */
 const char *rb_option_path(const rb_option *option, const void *target);
-/* Where an option came from in a message: "--load", "case.ini:3: load".  Returns room. */
+/* Writes the source of an option for messages: "--load", "case.ini:3: load".  Returns
+ * room. */
 const char *rb_option_source(const rb_option *option, int given, const char *path,
                              char *room, size_t size);
 
-/* 1: the whole of text is one finite number. */
+/* 1: the whole text is one finite number. */
 int rb_option_number(const char *text, double *value);
 
 /* ---- Cases ----------------------------------------------------------------------- */
 
 typedef struct rb_case rb_case;
 
-/* The purpose of a case.  Options that have no meaning for a purpose are refused. */
+/* The purpose of a case.  Options that do not apply to a purpose are refused. */
 typedef enum {
     RB_CASE_SINGLE,
     RB_CASE_CURVE,  /* a creep curve: steady by default, several mu */
-    RB_CASE_SPEEDS, /* a curve over the speed: the same */
+    RB_CASE_SPEEDS, /* a curve over the speed: likewise */
     RB_CASE_STRESS, /* the stress below the surface */
     RB_CASE_WEAR,   /* the wear of sliding, fretting or rolling */
     RB_CASE_CRACK,  /* the load of a crack */
     RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
 
-/* What a curve may run over: rb_rolling_variable. */
+/* The words for the variables of a curve, rb_rolling_variable. */
 extern const rb_choice rb_case_curve_variables[];
 
-/* The defaults, resolved already.  NULL: no memory. */
+/* Creates a case with the default values; it is already resolved.  NULL: no memory. */
 rb_case *rb_case_create(rb_case_purpose purpose);
-/* Changes a creep curve into one over the speed and back; resolve afterwards. */
+/* Changes a curve over the creepage into one over the speed and back; call
+ * rb_case_resolve afterwards. */
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
-/* Solvers that the option `solver` may name beside those of contact.h; borrowed.  Without
- * this there are none. */
+/* Sets cone solvers that the option `solver` may name in addition to the solvers of
+ * contact.h; borrowed. */
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers);
-/* For options from a file of somebody else, such as a result to be checked.  A file that
- * such an option names must be a regular file of at most 64 MB below the folder, after
- * links are followed (folder: borrowed; NULL: anywhere).  Messages do not quote what the
- * file holds. */
+/* Restricts files, for options from an untrusted source such as a result to be checked.
+ * A file that an option names must then be a regular file of at most 64 MB in the folder
+ * or below it, after links are followed (folder: borrowed; NULL: anywhere).  Messages do
+ * not quote the content of the file. */
 void rb_case_confine(rb_case *c, const char *folder);
-/* The text of a file that an option or the command line names, ended by a zero byte; the
- * caller owns the text.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* Reads a file that an option or the command line names.  The text ends with a zero byte,
+ * and the caller owns it.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
                              size_t *size, rb_message *why);
-/* The copy borrows files and texts of c, so that c must live longer.  NULL: no memory. */
+/* Copies a case.  The copy borrows files and texts of c, so free it before c.  NULL: no
+ * memory. */
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);
 
-/* The table with the values as given, for those who read or show them; borrowed. */
+/* The option table with the values as given; borrowed. */
 rb_option_set rb_case_options(rb_case *c);
-/* All n options and their headings, in the order of the help; their values stand in an
+/* All n options and headings, in the order of the help; their offsets refer to
  * rb_resolved_case. */
 const rb_option *rb_case_describe(int *n);
-/* The option of that name; NULL: there is none. */
+/* The option of this name, or NULL. */
 const rb_option *rb_case_option(const char *name);
-/* The word that option `name` has for one of its choices; NULL: it has none. */
+/* The word of option `name` for the choice `value`; NULL: there is none. */
 const char *rb_case_word(const char *name, int value);
-/* The section that it stands in. */
+/* Name of the section of an option. */
 const char *rb_case_section(const rb_option *option);
 
-/* by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is copied.  RB_EINVAL:
- * no such option, or a value out of its range. */
+/* Sets an option.  by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is
+ * copied.  RB_EINVAL: there is no such option, or the value is out of range. */
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
                       rb_message *why);
-/* Options of numbers only. */
+/* The same for options whose value is a number. */
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
 
-/* Reads a case file.  Values that an argument has given stay.  also: n further tables
- * whose keys the file may hold.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* Reads a case file.  Values that were set by an argument are kept.  also: n further
+ * tables whose keys the file may contain.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
                        rb_message *why);
 
-/* The same from the text of a case file; name: what messages call it. */
+/* The same from the text of a case file; name: name of the file in messages. */
 rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
                             rb_message *why);
 
-/* Makes a case from the given values: refuses contradictions, resolves body B and the
- * mesh, reads the files of gap and history, and checks the result.  Call it again after
- * every further change. */
+/* Computes rb_resolved_case from the given values: refuses contradictions, fills in body
+ * B and the mesh, reads the files of gap and history, and checks the result.  Call it
+ * again after every change. */
 rb_status rb_case_resolve(rb_case *c, rb_message *why);
 
-/* Relaxation as it is typed: the first number, and all of them. */
+/* Viscoelasticity as given by the user: the first number of each list, and the whole
+ * list. */
 typedef struct {
     double time, ratio;
     rb_numbers times, ratios;
 } rb_case_memory;
 
-/* Parameters of friction laws as they are typed: the first number, and all of them. */
+/* Parameters of friction laws as given by the user: the first number of each list, and
+ * the whole list. */
 typedef struct {
     double fall, slip_scale, memory, heat;
     rb_numbers falls, slip_scales, memories, heats;
 } rb_case_law;
 
-/* The values of a case, as resolved. */
+/* The values of a case after rb_case_resolve. */
 typedef struct {
     rb_rolling_case rc;
     rb_rolling_derived derived; /* what follows from rc */
     const char *gap_file;       /* profile of the initial gap, or NULL */
     double gap_smoothing;       /* standard deviation of its noise [length] */
-    int similar;                /* B is of A's material, with its layer, cover, memory */
+    int similar;                /* B has A's material, layer, cover and viscoelasticity */
     double young_b, poisson_b, radius_b;
     double conductivity_b, heat_capacity_b, temperature_b;
     rb_case_memory memory_a, memory_b;
-    rb_numbers mus;            /* more than one: for curves */
+    rb_numbers mus;            /* all values of mu; more than one only for curves */
     const char *friction_file; /* table of the friction law, or NULL */
     rb_case_law law;
     const char *irregularity_file; /* or NULL */
     const char *worn_file;         /* or NULL */
     const char *history_file;      /* or NULL */
-    rb_rolling_program program;    /* its history; n = 0: none */
+    rb_rolling_program program;    /* the history of that file; n = 0: none */
     int error;                     /* 1: estimate discretisation errors */
-    double accuracy;               /* refine until they are below this; 0: no */
-    rb_units units; /* of plain numbers, but for those of a case file, which says its own,
-                       and of what is shown; the values here are in mm, N, MPa */
+    double accuracy; /* refine until the errors are below this; 0: no refinement */
+    rb_units
+        units; /* units of arguments without a unit and of printed results; a case file
+                  names its own units.  The values in this struct are in mm, N, MPa */
 } rb_resolved_case;
 
-/* Borrowed, valid until c changes. */
+/* The resolved values; borrowed, valid until c changes. */
 const rb_resolved_case *rb_case_resolved(const rb_case *c);
-/* The system of the plain numbers of that giver: the case file (by > 0) has its own. */
+/* The units of numbers without a unit from the source `by`; the case file (by > 0) has
+ * its own. */
 rb_units rb_case_units(const rb_case *c, int by);
-/* Plain numbers of the set that were given, beside the case or in its file, become mm, N,
- * MPa in target, a struct like the set's. */
+/* Converts the given numbers of a set that have no unit to mm, N, MPa and stores them in
+ * target, a struct of the same type as set->target. */
 void rb_case_store(const rb_case *c, const rb_option_set *set, void *target);
-/* Rows of the table of the gap, 0: it comes from none; x, gap: borrowed until c changes.
- */
+/* Number of rows of the table of the gap; 0: there is no table.  x, gap: borrowed until c
+ * changes. */
 int rb_case_gap_rows(const rb_case *c, const double **x, const double **gap);
-/* 1: a column of the history stands in the place of the option. */
+/* 1: a column of the history replaces the value of the option. */
 int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */
 int rb_case_has_steps(const rb_resolved_case *resolved);
@@ -312,25 +329,27 @@ int rb_case_has_steps(const rb_resolved_case *resolved);
 /* ---- Solving ----------------------------------------------------------------------- */
 
 typedef struct {
-    rb_rolling_model model;       /* without state where there are error bars */
-    rb_rolling_solution solution; /* n = 0: there is none */
+    rb_rolling_model model;       /* without a state if error bars were computed */
+    rb_rolling_solution solution; /* n = 0: no solution */
     rb_rolling_history history;   /* n = 0: not a sequence of steps */
-    int has_errors;               /* of the solution; of a history each step has them */
+    int has_errors; /* 1: errors holds those of the solution; a history has errors of each
+                       step */
     rb_rolling_errors errors;
-    int elements; /* that the accuracy took; 0: not asked */
+    int elements; /* number needed for the required accuracy; 0: none required */
 } rb_case_result;
 
-/* Solves steady and static cases at once, transients and histories step by step, with the
- * error bars or the accuracy that the case asks for.  step is called with the model after
- * each step; it may be NULL.  Free the result in any case. */
+/* Solves a case: steady and static cases at once, transients and histories step by step,
+ * with error bars or to the accuracy given in the case.  step is called with the model
+ * after each step; it may be NULL.  Free the result in any case. */
 rb_status rb_case_solve(const rb_resolved_case *resolved, rb_rolling_step *step,
                         void *context, rb_case_result *result, rb_message *why);
-/* The same with the result of a case before it, or {0}, as rb_rolling_model_reuse takes
- * its model; steps and error bars begin anew. */
+/* The same, but result holds the result of an earlier case (or is {0}); its model is used
+ * again as by rb_rolling_model_reuse.  Steps and error bars are computed from the
+ * beginning. */
 rb_status rb_case_solve_again(const rb_resolved_case *resolved, rb_rolling_step *step,
                               void *context, rb_case_result *result, rb_message *why);
-/* Converts the result from mm, N, MPa to the units of the case, to show it; the model
- * keeps mm, N, MPa. */
+/* Converts the result from mm, N, MPa to the units of the case for printing; the model
+ * stays in mm, N, MPa. */
 void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
 
@@ -341,39 +360,43 @@ typedef struct {
     char name[40];    /* of the option; "mu-fall-2": the second number of its list */
     const char *unit; /* of the option */
     double value;     /* [unit] */
-    rb_status status; /* RB_OK, or there are none, and why says why not */
+    rb_status
+        status; /* RB_OK; otherwise there are no derivatives, and why has the reason */
     rb_message why;
     rb_sensitivity_derivative d;
 } rb_case_derivative;
 
-/* A number that has a meaning in the case, and how the case varies with it. */
+/* A number that the case uses, and how the case depends on it. */
 typedef struct {
     char name[40];
     const rb_option *option;
-    int entry; /* of its list, from 0 */
+    int entry; /* place in the list of the option, from 0 */
     rb_sensitivity_input input;
     const rb_case *c;
 } rb_case_number;
 
 enum { RB_CASE_NUMBERS_MAX = 64 };
 /* All numbers of a resolved case that can be varied; at most RB_CASE_NUMBERS_MAX. number:
- * each refers to its own place, so that the array must not move. RB_ENOMEM. */
+ * array of RB_CASE_NUMBERS_MAX entries; it must not be moved, because its entries contain
+ * pointers into it. RB_ENOMEM. */
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
                           rb_message *why);
 
 typedef struct {
     int n;
     rb_case_derivative *of;           /* in the order of the options; owned */
-    int degenerate;                   /* elements between two zones */
-    rb_sensitivity_elements elements; /* what they do while an input changes */
-    int n_x; /* elements; 0: no vectors (a law that depends on the state, no matrix) */
-    double *over_x; /* of every rb_case_over_x in turn: by the gap at each element
-                       [unit/length], then by its coefficient of friction, n_x each, on
-                       elements that stay and at the creepage as it is; owned */
+    int degenerate;                   /* number of elements on the border of two zones */
+    rb_sensitivity_elements elements; /* whether elements move when an input changes */
+    int n_x; /* number of elements; 0: over_x was not computed (law that depends on the
+                state, or no matrix) */
+    double
+        *over_x; /* for every rb_case_over_x in turn n_x derivatives with respect to the
+                    gap at each element [unit/length], then n_x with respect to its
+                    friction coefficient, with fixed elements and fixed creepage; owned */
     rb_units units; /* of results and numbers; mm at first */
 } rb_case_derivatives;
 
-/* What has derivatives by gap and mu of every element. */
+/* Results with derivatives with respect to gap and mu of every element. */
 typedef enum {
     RB_CASE_OVER_X_LOAD,
     RB_CASE_OVER_X_FORCE,
@@ -383,13 +406,13 @@ typedef enum {
 } rb_case_over_x;
 extern const char *const rb_case_over_x_names[RB_CASE_OVER_X_N];
 
-/* Of a solved model of the case, with respect to all of its numbers, or to those names
- * (n, or 0: all).  all: overwritten; free it in any case. */
+/* Differentiates the results of a solved model of the case with respect to the n named
+ * numbers (n = 0: all numbers).  all is overwritten; free it in any case. */
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why);
-/* A result that has derivatives; NULL: there is none of that name. *is_column: 1: it has
- * an entry per element. */
+/* The result `name` if it has derivatives, otherwise NULL.  *is_column is 1 if it has one
+ * entry per element. */
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);
 
 /* ---- Derivatives in columns: along a curve, over a study, step by step --------------
@@ -450,8 +473,8 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *slopes, rb_message *why);
 
-/* Uncertain inputs, as in "mu=0.02,radius=1%": a standard deviation each, the inputs
- * independent. */
+/* Uncertain inputs with their standard deviations, as in "mu=0.02,radius=1%"; the inputs
+ * are independent. */
 enum { RB_CASE_TOLERANCES_MAX = 32 };
 typedef struct {
     int n;
@@ -460,13 +483,13 @@ typedef struct {
         deviation[RB_CASE_TOLERANCES_MAX]; /* mm, N, MPa */
 } rb_case_tolerances;
 
-/* RB_EINVAL: what is no number of the case, or no deviation >= 0 (the line says which).
- */
+/* Reads such a text.  RB_EINVAL: a name is not a number of the case, or a deviation is
+ * not >= 0; why names it. */
 rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
                                   rb_case_tolerances *t, rb_message *why);
-/* To first order: the standard deviations of all results, in their places (NAN: none).
- * all: in mm, N, MPa, with those inputs among them.  RB_EINVAL: an input has no
- * derivatives. */
+/* Standard deviations of all results to first order, each in the field of the result
+ * (NAN: none).  all: derivatives in mm, N, MPa that include these inputs.  RB_EINVAL: an
+ * input has no derivatives. */
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
 
@@ -476,8 +499,9 @@ void rb_case_derivatives_free(rb_case_derivatives *all);
 
 /* ---- Cracks ------------------------------------------------------------------------ */
 
-/* A crack in body B under the contact of a case, as it is typed: lengths in half-widths
- * of the contact, Hertz's of its load, as distances of histories; angle in degrees. */
+/* A crack in body B under the contact of a case, as given by the user.  Lengths are in
+ * half-widths (Hertz's half-width of the load, as for distances of histories), the angle
+ * is in degrees. */
 typedef struct {
     double length, angle, mouth, depth, friction;
     int elements;
@@ -486,66 +510,68 @@ typedef struct {
     int fluid;            /* rb_crack_fluid */
     double remote_stress; /* [stress] */
     int unloaded, coupled;
-    double paris;              /* C; NAN: the crack does not grow */
-    rb_numbers paris_law;      /* C, m: in lengths and K of the case's units */
-    int paris_range;           /* rb_case_crack_range */
-    int tension;               /* 1: grows across the largest tension, 0: straight on */
+    double paris;         /* C; NAN: the crack does not grow */
+    rb_numbers paris_law; /* C and m, with lengths and K in the units of the case */
+    int paris_range;      /* rb_case_crack_range */
+    int tension; /* 1: grows perpendicular to the largest tension, 0: straight ahead */
     double threshold, grow_to; /* [K]; length in half-widths, NAN: twice the length */
     int grow_steps;
 } rb_case_crack;
 
-/* Which range of K over a pass makes a crack grow. */
+/* The range of K during a pass that determines the growth of the crack. */
 typedef enum {
     RB_CRACK_MIXED,  /* (dK_I^4 + 8 dK_II^4)^(1/4) (Tanaka) */
     RB_CRACK_MODE_II /* dK_II */
 } rb_case_crack_range;
 
-/* A crack that grows by da/dN = C dK^m, at its lower tip: an entry per length, the first
- * one as it is given; owned. */
+/* Growth of a crack at its lower tip by da/dN = C dK^m.  One entry per length; the first
+ * is the given length.  Arrays are owned. */
 typedef struct {
-    int n; /* 0: not asked for */
+    int n; /* 0: growth was not computed */
     double *length, *tip_x, *tip_y, *angle, *K_I_max, *delta_K_II, *delta_K, *rate,
-        *cycles;  /* until it has that length */
-    int rests;    /* 1: below the threshold at the last length */
-    int surfaced; /* 1: it came back to the surface: a piece breaks out */
+        *cycles; /* cycles until the crack has this length */
+    int rests; /* 1: the crack stops, because dK is below the threshold at the last length
+                */
+    int surfaced; /* 1: the crack has reached the surface again, so that a piece breaks
+                     out */
     rb_crack_path path;
 } rb_case_crack_growth;
 
 rb_case_crack rb_case_crack_defaults(void);
-/* The options of such a crack, section [crack]; their values stand in an rb_case_crack.
- */
+/* The options of the section [crack]; their offsets refer to rb_case_crack. */
 extern const rb_option rb_case_crack_options[];
 extern const int rb_case_crack_options_n;
 
 enum { RB_CASE_CRACK_NOTES = 6 };
 typedef struct {
-    rb_case_result contact; /* solution n = 0: unloaded */
+    rb_case_result contact; /* the contact; solution.n = 0: unloaded */
     double half_width;      /* [length] */
     int passes;
     rb_crack_shape shape;
     rb_crack_history history;
     rb_crack_summary summary;
     int has_errors;
-    rb_crack_summary errors; /* of each number of the summary */
+    rb_crack_summary errors; /* error of each number of the summary */
     rb_case_crack_growth growth;
     int notes;
-    char note[RB_CASE_CRACK_NOTES][200]; /* how the result is to be read */
-    rb_units units;                      /* of all values but shape and contact.model */
+    char note[RB_CASE_CRACK_NOTES][200]; /* notes on how to read the result */
+    rb_units units; /* of all values except shape and contact.model */
 } rb_case_crack_result;
 
-/* What is wrong with the crack and its positions, or with the case as its load. */
+/* Checks the crack, the positions, and whether the case can load a crack. */
 rb_status rb_case_crack_check(const rb_resolved_case *resolved,
                               const rb_case_crack *crack, rb_message *why);
-/* Solves the contact, passes it over the crack, and where the case asks for error bars
- * does so with twice as many elements too.  In transient rolling the contact stands at
- * `from` plus the rolled distance; in a static history it stays at `from`. Free the
+/* Solves the contact and moves it over the crack; if the case wants error bars, this is
+ * repeated with twice as many elements.  In transient rolling the position of the contact
+ * is `from` plus the rolled distance; in a static history it stays at `from`. Free the
  * result in any case. */
 rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
                               const rb_case_crack *crack, rb_case_crack_result *result,
                               rb_message *why);
 void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
 void rb_case_crack_free(rb_case_crack_result *result);
-/* Numbers of rb_crack_summary and columns of rb_crack_history. */
+/* The numbers of rb_crack_summary and the columns of rb_crack_history and of
+ * rb_case_crack_growth. */
 extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
     rb_case_crack_growth_columns;
 /* ---- Fits to measured creep curves (theory.md, D5) ----------------------------------
@@ -553,33 +579,33 @@ extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
 
 enum { RB_CASE_FIT_MAX = 12 };
 
-/* What the measured forces are. */
+/* The quantity that was measured as force. */
 typedef enum {
     RB_CASE_FORCE,          /* Q */
     RB_CASE_FORCE_RATIO,    /* Q/(mu P), mu the largest coefficient of the law */
     RB_CASE_FORCE_OVER_LOAD /* Q/P */
 } rb_case_measure;
 
-/* n measured points; NULL columns: not measured, the case has the value.  Borrowed; mm,
- * N, MPa. */
+/* n measured points.  A column is NULL if it was not measured; the value of the case then
+ * applies.  Borrowed; mm, N, MPa. */
 typedef struct {
     int n, is_ratio; /* 1: creep is xi R/(mu a) */
     rb_case_measure measure;
     const double *creep, *force;
     const double *load, *speed, *temperature;
-    const double *sigma; /* standard deviations of the forces; NULL: unknown, alike */
+    const double *sigma; /* standard deviations of the forces; NULL: unknown and equal */
 } rb_case_data;
 
-/* A number of the case by the name of its option, or "creep-offset": the true creepage is
- * the measured one plus it.  The caller sets name, start (NAN: what the case or the data
- * say), low and high (-INFINITY, INFINITY: the option's range). */
+/* A parameter of a fit: a number of the case, named as its option, or "creep-offset",
+ * which is added to the measured creepage.  The caller sets name, start (NAN: chosen from
+ * the case or the data), low and high (-INFINITY, INFINITY: the range of the option). */
 typedef struct {
     char name[40];
     double start, low, high;
     /* found: */
     const char *unit;
     double value, interval[2], deviation; /* Student's interval; standard deviation */
-    double correlation[RB_CASE_FIT_MAX];  /* with the others; NAN: not known */
+    double correlation[RB_CASE_FIT_MAX];  /* with the other parameters; NAN: not known */
     int identified, at_bound;
     double from, to, scale;
     int low_open, high_open, positive;
@@ -588,31 +614,33 @@ typedef struct {
 typedef struct {
     int n;
     rb_case_parameter parameter[RB_CASE_FIT_MAX];
-    double level; /* of the intervals, such as 0.95 */
+    double level; /* confidence level of the intervals, for example 0.95 */
     /* found: */
     rb_status status;
     int iterations, degrees_of_freedom, unidentified;
-    double chi_square, noise; /* noise: of a force, in units of its sigma where given */
-    double kappa;             /* the largest; 0: friction does not depend on the state */
+    double chi_square, noise; /* noise: standard deviation of a force, as a multiple of
+                                 sigma if sigma is given */
+    double kappa; /* the largest value; 0: friction does not depend on the state */
     double *model,
         *band; /* forces of the fit and half-widths of their intervals; owned */
-    char sentences[1000]; /* what the data do not tell, a line each */
+    char sentences[1000]; /* what the data do not determine, one line each */
 } rb_case_fit;
 
 typedef struct {
-    /* Sees each step; a value other than 0 ends the fit. */
+    /* Called after each step; a return value other than 0 ends the fit. */
     int (*step)(int iteration, double chi_square, int n, const double *value,
                 void *context);
     void *context;
 } rb_case_fit_observer;
 
-/* A falling friction law, a speed and the words beside them where the fit asks for
- * numbers of which the case says nothing.  Before it is resolved. */
+/* Sets options that a fit needs and the case does not give: a velocity-dependent friction
+ * law, a speed and related options.  Call it before rb_case_resolve. */
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
                               const rb_case_fit *fit, rb_message *why);
-/* The case's tangential control is not read.  RB_EINVAL: no such number, too few points;
- * RB_INACCURATE: kappa > 1; RB_MAXITER, RB_INTERRUPTED: values so far.  fit: n, names,
- * starts, bounds, level; free it in any case. */
+/* Fits the parameters to the data; the given creepage or force of the case is ignored.
+ * On entry fit has n, names, starts, bounds and level; free it in any case.  RB_EINVAL: a
+ * name is not a number of the case, or there are too few points; RB_INACCURATE: kappa >
+ * 1; RB_MAXITER, RB_INTERRUPTED: fit holds the last values. */
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                             const rb_case_fit_observer *observer, rb_case_fit *fit,
                             rb_message *why);
@@ -620,46 +648,48 @@ void rb_case_fit_free(rb_case_fit *fit);
 
 /* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 
-/* A two-dimensional case of CONTACT.  Its x is centre + sign x, its CKSI and FX are sign
- * times creepage and Q: sign < 0 where it rolls towards -x (CHI = 180 degrees).  rc may
- * borrow from the struct itself, which stays where it is. */
+/* A two-dimensional case of CONTACT.  The x of CONTACT is centre + sign x; its CKSI and
+ * FX are sign times creepage and Q.  sign is -1 if it rolls towards -x (CHI = 180
+ * degrees).  rc may contain pointers into the struct, so the struct must not be moved. */
 typedef struct {
     rb_rolling_case rc;
     double from, to; /* ends of its line of elements */
-    double width;    /* that its forces act on, DY [mm] */
+    double width;    /* width on which its forces act, DY [mm] */
     double centre, sign;
-    int goes_on;            /* 1: from the state of the case before, P = 0 */
-    double step;            /* DQ of T = 2; 0: it does not roll, or steadily */
-    rb_rolling_table start; /* coefficients that a step is looked for from, INISLP */
+    int goes_on;            /* 1: continues from the state of the case before, P = 0 */
+    double step;            /* DQ of T = 2; 0: static or steady */
+    rb_rolling_table start; /* first friction coefficients of the iteration, INISLP */
     double start_mu;
-    int runs;           /* 0: it is none of those that can be run, left_out says why */
-    char left_out[400]; /* what CONTACT does in it that is not done here; "" */
+    int runs;           /* 0: the case cannot be run, left_out has the reason */
+    char left_out[400]; /* features of the case that are not supported here; "" if none */
 } rb_case_contact;
 
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
-/* The case before (NULL: none) and its solution (n = 0: not solved): does not run where
- * it cannot go on from them. */
+/* For a case that continues the case before (NULL: none) with this solution (n = 0: not
+ * solved): sets runs to 0 if that is not possible. */
 void rb_case_contact_follow(const rb_case_contact *before,
                             const rb_rolling_solution *solution, rb_case_contact *c);
-/* One that runs.  before: as above; solution: overwritten; free it in any case.  Errors
- * as rb_rolling_solve_between and rb_rolling_step_between. */
+/* Solves a case with runs = 1.  before: the solution of the case before; solution is
+ * overwritten; free it in any case.  Errors as for rb_rolling_solve_between and
+ * rb_rolling_step_between. */
 rb_status rb_case_contact_solve(const rb_case_contact *c,
                                 const rb_rolling_solution *before,
                                 rb_rolling_solution *solution, rb_message *why);
-/* FRIC_POWER as CONTACT counts it [N m/s], < 0: each element's friction times its own
- * slip, without what the third body takes by yielding.  NAN where nothing rolls. */
+/* FRIC_POWER as defined in CONTACT [N m/s], < 0: sum over the elements of friction times
+ * slip, without the power dissipated by plastic deformation of the third body.  NAN if
+ * the case does not roll. */
 double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
                              const rb_rolling_solution *before,
                              const rb_rolling_solution *s);
 
-/* ---- Whose fault it is ------------------------------------------------------------- */
+/* ---- Sources of errors ------------------------------------------------------------- */
 
 /* 1: an option of body B that --similar copies from A. */
 int rb_case_is_copied_to_b(const char *option);
-/* Who gave the option of that name; 0: it has its default. */
+/* Source of the value of the option `name`; 0: the default. */
 int rb_case_given(const rb_case *c, const char *name);
-/* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line
- * where the error stands in one of them.  Returns the status that says which. */
+/* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value
+ * is in a file, the message gets the file and the line.  Returns the status to report. */
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why);
 
 RB_PUBLIC_END

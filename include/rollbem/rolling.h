@@ -467,7 +467,8 @@ typedef struct {
     double nip_width;                /* contact_to - contact_from [length] */
     int edges_bounded; /* 1: at some edge p does not fall to zero like (E1) of theory.md;
                           this edge is only known to lie within one element */
-    int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
+    int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
+                          contact edges did not converge */
     double max_pressure;          /* p0 [stress] */
     int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
     int yielding; /* number of elements whose interface yields; -1: no yield stress */
@@ -634,114 +635,125 @@ extern const char rb_rolling_below_zero[];
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
                                 double to);
 
-/* ---- A case at work ---------------------------------------------------------------- */
+/* ---- The model of a case
+ * ---------------------------------------------------------------- */
 
-/* What the surfaces bring into a step of a history besides their displacement: the state
- * variables of the friction law and of the interface. */
+/* State variables of the friction law and of the interface that a step of a history takes
+ * over from the step before, besides the displacements. */
 typedef struct {
-    double *temperature; /* n: of both surfaces after a rolled step; NULL: not known */
-    double *yielded;  /* n: what the interface had yielded before the last step where this
-                         found it [length]; NULL: nothing */
-    const double *mu; /* n: coefficients of the particles before the step; NULL: those at
-                         rest; borrowed, as heat */
-    struct rb_rolling_heat_track *heat; /* of the steps before; NULL: none */
+    double *temperature; /* n: of both surfaces after a rolled step; NULL: not computed */
+    double
+        *yielded; /* n: accumulated plastic slip of the interface before the last step, at
+                     the places where the particles were then [length]; NULL: zero */
+    const double *mu; /* n: friction coefficients of the particles before the step; NULL:
+                         those at rest; borrowed, like heat */
+    struct rb_rolling_heat_track *heat; /* heat of the earlier steps; NULL: none */
 } rb_rolling_carried;
 
 /* Everything between case and solution, kept for further solves on the same mesh. */
 typedef struct {
-    const rb_rolling_case *rc; /* a copy that nobody changes, in a history that of the
-                                  last step; borrows the profile; owned */
-    rb_rolling_plan plan;      /* of the mesh and bodies at hand */
+    const rb_rolling_case *rc; /* a constant copy of the case, in a history of the last
+                                  step's; borrows the profile; owned */
+    rb_rolling_plan plan;      /* of the present mesh and bodies */
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
     rb_contact_problem problem;
     rb_contact_state state;
-    double shift;      /* rigid shift before the state's own, in a history [length] */
-    int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
-    double first_from, first_to; /* ends of the equal elements that the search for these
-                                    edges began with; equal: none [length] */
-    double half_width; /* Hertz's, of the load found last: scale of the ratios */
+    double shift; /* in a history: rigid shift of the earlier steps, to be added to the
+                     state's [length] */
+    int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
+                          contact edges did not converge */
+    double first_from,
+        first_to; /* ends of the equal elements with which the search for the edges began;
+                     the same value twice: none [length] */
+    double half_width; /* Hertz's half-width of the last computed load; used in the creep
+                          ratio */
     double seconds_lcp;
     int iterations;  /* of all solves so far */
-    int same_bodies; /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
+    int same_bodies; /* 1: `bodies` need not be built again for `rc` on the same mesh */
     rb_rolling_carried carried;
 } rb_rolling_model;
 
-/* 1 where so many equal elements are solved by Fourier transforms, without a matrix. */
+/* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,
+ * without a matrix. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
- * positive status the model holds what there is; RB_ZONE: the contact does not end within
- * the given zone, the wheel or the table.  model: overwritten; free it in any case. */
+ * positive status the model holds the last iterate; RB_ZONE: the contact does not end
+ * within the given zone, the wheel or the table.  model: overwritten; free it in any
+ * case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
-/* The same for a model that solved a case of the same bodies and mesh, differing in
- * friction, load, approach, shift, creepage or force at most: its flexibility is used
- * again where equal elements end at the same places.  The result is that of create to the
- * last bit. */
+/* The same for a model that has solved a case which differs at most in friction, load,
+ * approach, shift, creepage or force.  Its flexibility is used again if the equal
+ * elements have the same ends.  The result is bitwise the same as that of
+ * rb_rolling_model_create. */
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why);
-/* A model of a copy of the case, with nothing made yet.  plan NULL: that of the case.
- * RB_ENOMEM; model: overwritten. */
+/* Makes an empty model with a copy of the case; mesh and bodies are built later.  plan
+ * NULL: that of the case. RB_ENOMEM; model: overwritten. */
 rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                  rb_rolling_model *model, rb_message *why);
-/* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
- * contact does not end within the mesh. */
+/* Takes ownership of the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and
+ * the contact does not end within the mesh. */
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why);
-/* Solves the model's problem again, with the times and counts kept, from its zones where
- * warm is 1.  RB_ZONE as above: every solve on any mesh comes here. */
+/* Solves the model's problem again and adds to its times and counts; warm: 1 to start
+ * from its zones.  RB_ZONE as above.  Every solve on any mesh calls this function. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
-/* The same on the present mesh under the controls that the model's case has now, from the
- * present zones. */
+/* The same on the present mesh, from the present zones, after the given load, force or
+ * motion of the model's case has changed. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
-/* Bodies and contact problem on the elements of a result, with a state of zeros: nothing
- * is solved.  model: all zeros before; free it in any case. */
+/* Builds bodies and contact problem on the elements of a result, with a state of zeros,
+ * and solves nothing.  model: all zeros before; free it in any case. */
 rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
                                      const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
-/* Forms the flexibility's matrix F and that of the problem for a model that was solved
- * without them, of fewer than RB_ROLLING_LARGE elements; others stay as they are.
- * RB_ENOMEM. */
+/* Forms the matrices of the flexibility and of the problem if the model was solved
+ * without them and has fewer than RB_ROLLING_LARGE elements; other models are not
+ * changed. RB_ENOMEM. */
 rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why);
 
-/* The LCP that gave the model's state, or the one that Lemke's method tries first. */
+/* The LCP whose solution is the model's state, or the one that Lemke's method tries
+ * first. */
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
                                rb_message *why);
 
-/* Gives the model's problem the coefficients of friction that its state has by the law,
- * and, where it is given, the force that is wanted of it: with them the residual proves
- * the state.  RB_ENOMEM. */
+/* Sets the friction coefficients of the model's problem to those that the friction law
+ * gives for its state, and likewise a given force; the residual of the state then
+ * includes the friction law.  RB_ENOMEM. */
 rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
 
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
- * solution stays; what it keeps for further solves changes. */
+ * solution is not changed, but the data that it keeps for further solves is. */
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
                                    rb_message *why);
 
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
-/* Q over the most that friction carries, mu P; NAN without friction or load. */
+/* Q divided by the maximum friction force mu P; NAN without friction or load. */
 double rb_rolling_force_ratio(const rb_rolling_model *model);
 /* The outer edges of all patches; NAN without contact. */
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_contact_state *state, double *from, double *to);
-/* Tractions, slip, zones, forces and the proof of them. */
+/* Computes the solution from the state: tractions, slip, zones, forces and their
+ * residuals. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
 
-/* A variant of a solved model: a case that differs from the model's by a little in some
- * number, on the same elements, with the model's state and zones; a flexibility that does
- * not change is borrowed from the model.  RB_INACCURATE: the boundary outside the
- * contact gets another number of elements.  results: 0: its equations alone are wanted.
- * variant: overwritten; free it in any case. */
+/* A variant of a solved model: a case that differs slightly from the model's in some
+ * number, on the same elements, with the model's state and zones.  If the flexibility is
+ * the same, it is borrowed from the model.  RB_INACCURATE: the number of elements outside
+ * the contact differs.  results: 0 if only the equations are needed. variant:
+ * overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     int results, rb_rolling_model *variant,
                                     rb_message *why);
-/* The model's own case on elements that are moved to shift + scale x. */
+/* A variant with the model's case on elements whose ends x are moved to shift + scale
+ * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
 /* Another case on elements that are moved to scale x, with a flexibility of its own
@@ -751,51 +763,53 @@ rb_status rb_rolling_variant_stretch(const rb_rolling_model *of,
                                      rb_rolling_model *variant, rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
-/* A variant that is solved, from the zones of the model. */
+/* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
-/* Gives it p, q, delta, xi of the model and `part` of those of `along` (NULL: 0). */
+/* Sets p, q, delta and xi of the variant to those of the model plus `part` times those of
+ * `along` (NULL: 0). */
 void rb_rolling_variant_set(const rb_rolling_model *of, const rb_contact_state *along,
                             double part, rb_rolling_model *variant);
-/* And what follows from them in its case: slip (0 in stick), coefficients of friction,
- * Hertz's half-width. */
+/* Computes from them slip (0 in stick), friction coefficients and Hertz's half-width of
+ * the variant. */
 rb_status rb_rolling_variant_complete(rb_rolling_model *variant, rb_message *why);
 
-/* kappa of the state (theory.md F3), where friction depends on it: above 1 an element by
- * itself, or a step, may have several states.  RB_ENOMEM. */
+/* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
+ * single element, or a step, may have several solutions.  RB_ENOMEM. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
 
-/* Solutions of one steady case, the largest force first. */
+/* Several solutions of one steady case, ordered by decreasing force. */
 typedef struct {
     int n;
-    rb_rolling_solution *solution; /* each proven by its own residual; owned */
-    int starts, failed;            /* that were tried, and that did not come to rest */
+    rb_rolling_solution *solution; /* the residual of each is computed; owned */
+    int starts, failed; /* starts of the iteration that were tried, and those that did not
+                           converge */
 } rb_rolling_solutions;
 
-/* Solutions that differ, of a solved steady model with a given creepage under a friction
- * law that depends on the state: its own, and those that the iteration finds on the
- * model's mesh from slip behind as many places as elements are in contact, at most 200
- * (theory.md F5).  What it does not come
- * to rest at is not found.  The model has the last state then.  RB_EINVAL: other cases.
- * all: overwritten; free it in any case. */
+/* Finds different solutions of a steady model with a given creepage under a friction law
+ * that depends on the state: the model's solution, and those to which the iteration
+ * converges on the model's mesh when slip is assumed behind a given place; up to 200
+ * places are tried (theory.md F5).  Solutions to which it does not converge are not
+ * found.  The model then holds the last state.  RB_EINVAL: other cases. all: overwritten;
+ * free it in any case. */
 rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solutions *all,
                                     rb_message *why);
 void rb_rolling_solutions_free(rb_rolling_solutions *all);
 
 /* ---- Histories: static increments and transient rolling ---------------------------- */
 
-/* Controls along the way, one row each; a NULL column keeps the value of the case, any
- * other one replaces it.  Without distance: increments of a static history.  With
- * distance: transient rolling; rows at distance 0 are static increments, the others are
- * rolled to, with load, approach and force linear in between and the creepage of each
- * step its mean.  mu is that of the whole contact at once, linear in between too; of a
- * friction law that depends on the state it is the case's mu in the formula, and a table
- * over x excludes it.  Distances do not decrease and count in half-widths: Hertz's of the
- * largest load of the program (of the load that its largest approach brings, at rest).
- * Static contact of bodies that relax needs the time [s] of each row, from 0 on, which
- * does not decrease: between two rows everything is linear in time, two rows at the same
- * time are a jump. */
+/* Prescribed quantities of a history, one row per time or distance.  A column replaces
+ * the value of the case; with NULL the value of the case applies.  Without distance the
+ * rows are increments of a static history.  With distance they are transient rolling:
+ * rows at distance 0 are static increments; between the others load, approach and force
+ * are linear, and each step has the mean creepage.  mu applies to the whole contact and
+ * is linear between rows, too; in a friction law that depends on the state it replaces
+ * the mu of the formula; it cannot be combined with a table over x.  Distances must not
+ * decrease; their unit is Hertz's half-width of the largest load of the program (or of
+ * the static load at its largest approach). Static contact of viscoelastic bodies needs
+ * the time [s] of each row, which starts with 0 and must not decrease: between two rows
+ * everything is linear in time; two rows at the same time are a jump. */
 typedef struct {
     int n;
     const double *distance, *time;
@@ -804,102 +818,111 @@ typedef struct {
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
 } rb_rolling_program;                                                /* all borrowed */
 
-/* The columns by their names in tables. */
+/* The columns of a program and their names in tables. */
 typedef struct {
     const char *name;
     size_t column; /* offset of its pointer in rb_rolling_program */
-    size_t value;  /* offset in rb_rolling_case of what it replaces; distance and time:
-                      SIZE_MAX */
-    int is_mean;   /* 1: a rolled step has the mean over its length, 0: the end's value */
+    size_t value; /* offset in rb_rolling_case of the value that it replaces; distance and
+                     time: SIZE_MAX */
+    int is_mean;  /* 1: a rolled step uses the mean over the step, 0: the value at its end
+                   */
 } rb_rolling_program_column;
 
 enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };
 extern const rb_rolling_program_column
     rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
-/* The case that results of the program refer to: where it has a column mu, its mu is the
- * largest one. */
+/* The case that results of the program refer to; if the program has a column mu, its mu
+ * is the largest value. */
 rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
                                         const rb_rolling_case *rc);
 
 /* One entry per step. */
 typedef struct rb_rolling_history {
     int n;
-    double *distance; /* rolled, at the end of the step, in half-widths; owned, as all */
+    double *distance; /* rolled, at the end of the step, in half-widths; owned, like all
+                         arrays here */
     double *creepage; /* mean over the step; 0 at rest */
     double *shift;    /* rigid shift so far (static steps) [length] */
     double *approach, *normal_load, *tangential_load, *force_ratio;
     double *residual;
     double *max_pressure;              /* p0 [stress]; 0 without contact */
     double *contact_from, *contact_to; /* edges [length]; NAN without contact */
-    double *dissipation;     /* power per unit speed [force/length]; 0 at rest */
-    double *moment;          /* int x p dx [force]; > 0: the load leads */
-    int *stick, *slipping;   /* elements */
-    double *max_temperature; /* at the end of the step; NULL where not asked for */
-    double *time;            /* at the end of the step [s]; NULL where no body relaxes */
-    double *lost_work;       /* that relaxation has taken so far [force]; NULL likewise */
-    double *mu; /* the case's mu at the end of the step; NULL where it is one for all */
-    double *torque_a, *torque_b; /* M + Q R_A and M - Q R_B [force]; torque_b: NULL where
-                                    B is a plane */
-    double half_width;           /* that distances count in [length] */
-    double step;                 /* c [length]; 0 in a static history */
-    int steady_from; /* first step of the steady state that the end is in, or -1 */
+    double *dissipation;   /* power per unit speed [force/length]; 0 at rest */
+    double *moment;        /* int x p dx [force]; > 0: the pressure is shifted towards the
+                              leading edge */
+    int *stick, *slipping; /* elements */
+    double *max_temperature; /* at the end of the step; NULL if the case has no heat
+                                conduction */
+    double *time;      /* at the end of the step [s]; NULL if no body is viscoelastic */
+    double *lost_work; /* energy dissipated by viscoelasticity so far [force]; NULL
+                          likewise */
+    double *mu; /* mu of the case at the end of the step; NULL if it is the same in all
+                   steps */
+    double *torque_a,
+        *torque_b; /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
+    double half_width; /* unit of the distances [length] */
+    double step;       /* c [length]; 0 in a static history */
+    int steady_from; /* first step from which the state is steady until the end, or -1 */
     rb_units units;  /* of all values here */
-    struct rb_rolling_history *errors; /* of every entry; NULL: not asked for; owned */
+    struct rb_rolling_history
+        *errors; /* error bar of every entry; NULL: not computed; owned */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
 
-/* 1: the case is a sequence of steps by itself, of rolling or of increments. */
+/* 1: the case, without a program, is a sequence of rolling steps or increments. */
 int rb_rolling_has_steps(const rb_rolling_case *rc);
 
-/* Sees the model after every step; a value other than 0 ends the run. */
+/* Called with the model after every step; a return value other than 0 ends the run. */
 typedef int rb_rolling_step(const rb_rolling_model *model,
                             const rb_rolling_history *history, int step, int steps,
                             void *context);
 
 typedef struct {
-    rb_rolling_step *step; /* NULL: nobody looks */
+    rb_rolling_step *step; /* NULL: not called */
     void *context;
 } rb_rolling_observer;
 
-/* Runs the program (NULL: the case's own controls: pressed at rest in its increments,
- * then rolled over rc->distance).  Transient steps: rc->steps of equal length; where that
- * is 0, so many that none is longer than an element.  The last one ends on the last row.
- * Where the contact outgrows an automatic zone the run begins anew on a wider one, with
- * step 0.  observer: NULL as well.  model and history: overwritten, hold the finished
- * steps also on RB_INTERRUPTED and other positive ends; model->rc is the case of the last
- * step; free them in any case.
- */
+/* Computes the steps of the program (NULL: the values of the case; the bodies are pressed
+ * at rest in its increments, then rolled over rc->distance).  A transient has rc->steps
+ * steps of equal length, or, if that is 0, so many that no step is longer than an
+ * element; the last step ends at the last row.  If the contact becomes wider than an
+ * automatic zone, the run starts again with step 0 on a wider zone.  observer may be
+ * NULL.  model and history are overwritten; they hold the finished steps also on
+ * RB_INTERRUPTED and other positive statuses.  model->rc is the case of the last step.
+ * Free both in any case. */
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  const rb_rolling_program *program,
                                  const rb_rolling_observer *observer,
                                  rb_rolling_model *model, rb_rolling_history *history,
                                  rb_message *why);
 
-/* What the steps of a history found: n elements, `steps` states. */
+/* The solutions of the steps of a history: n elements, `steps` states. */
 typedef struct {
-    const rb_rolling_program *program; /* whose steps; NULL: the case's own; borrowed */
+    const rb_rolling_program
+        *program; /* the program of the history; NULL: the values of the case; borrowed */
     int n, steps;
-    double *x, *h;          /* n: midpoints and lengths [length]; owned, as all */
+    double *x, *h; /* n: midpoints and lengths [length]; owned, like all arrays here */
     double *p, *q, *lambda; /* steps x n, one step after the other */
     int *zone;
     double *delta; /* steps: approach */
-    double *xi;    /* steps: what was slid at rest [length], creepage of a rolled step */
-    double half_width; /* that distances count in [length] */
+    double
+        *xi; /* steps: rigid shift of a static step [length], creepage of a rolled step */
+    double half_width; /* unit of the distances [length] */
 } rb_rolling_states;
 
-/* RB_ENOMEM leaves it empty. */
+/* On RB_ENOMEM states is empty. */
 rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
-/* The model's state as that of a step, counted from 0, and its elements. */
+/* Copies the state and the elements of the model into states; step is counted from 0. */
 void rb_rolling_states_set(const rb_rolling_model *model, int step,
                            rb_rolling_states *states);
 void rb_rolling_states_free(rb_rolling_states *states);
 
-/* Follows their program with these states and solves nothing: after each step the model
- * has its problem, with the past that the states before it left, and the state with its
- * residual.  Otherwise as rb_rolling_history_run.  RB_EINVAL: another number of steps;
- * friction that depends on the state, or an interface that yields. */
+/* Goes through the program of the given states without solving.  After each step the
+ * model has the contact problem of the step, which depends on the earlier states, and the
+ * given state with its residual.  Otherwise like rb_rolling_history_run.  RB_EINVAL: the
+ * number of steps differs, friction depends on the state, or an interface yields. */
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
@@ -935,45 +958,46 @@ typedef enum {
     RB_WEAR_DISSIPATION /* depth = K int |q| |ds| */
 } rb_rolling_wear_law;
 
-/* What wears A, and B by its share: sliding over B towards +x (static, `slides`), where
- * what B loses is spread over its track and leaves the gap alone; fretting between the
- * case's own shift or force and its opposite (static), where both wear in the contact; or
- * steady rolling, where round bodies stay round and their radii change. */
+/* Wear of A, and of B according to its share.  There are three cases.  Sliding over B
+ * towards +x (static, `slides`): B's wear is spread over its track and does not change
+ * the gap.  Fretting between the shift or force of the case and its opposite (static):
+ * both bodies wear in the contact.  Steady rolling: round bodies stay round, and their
+ * radii change. */
 typedef struct {
     rb_rolling_wear_law law;
     double coefficient; /* K [1/stress], of both bodies together */
     double share;       /* of B, 0 ... 1 */
     int slides;
-    double way;     /* slid in all [length]; or cycles, or turns */
-    int steps;      /* equal parts of it, each implicit and stable however long it is */
-    int increments; /* fretting: of a quarter of a cycle */
+    double way; /* total sliding distance [length], or number of cycles or turns */
+    int steps;  /* number of equal steps; each is implicit and stable for any length */
+    int increments; /* fretting: number of increments per quarter of a cycle */
 } rb_rolling_wear;
 
-/* One entry per step, the first before anything is worn; owned. */
+/* One entry per step; the first entry is the state before any wear.  Arrays are owned. */
 typedef struct {
     int n;
-    double *way;       /* slid so far [length]; or cycles, or turns */
-    double *worn;      /* volume of A per unit width [length^2] */
+    double *way;  /* sliding distance so far [length], or number of cycles or turns */
+    double *worn; /* volume of A per unit width [length^2] */
     double *max_depth; /* [length] */
     double *radius;    /* of A [length] */
-    /* The same of B; NULL where it has no share, radius_b also where it is a plane. Where
-     * A slides or rolls over a plane: the depth of one passage. */
+    /* The same of B; NULL if B does not wear, radius_b also if B is a plane.  If A slides
+     * or rolls over a plane: the depth of one passage. */
     double *worn_b, *max_depth_b, *radius_b;
-    double *work; /* of friction: per slid or rolled length [force/length], or of a
+    double *work; /* of friction: per sliding or rolling distance [force/length], or per
                      cycle [force] */
     double *approach, *normal_load, *max_pressure, *contact_from, *contact_to;
     double *residual; /* of the contact under the worn gap */
     double radius_before, radius_b_before;
-    int slides, rolls; /* 0, 0: it frets */
+    int slides, rolls; /* both 0: fretting */
     rb_units units;    /* of all values here */
 } rb_rolling_wear_history;
 
 void rb_rolling_wear_history_free(rb_rolling_wear_history *history);
-/* From mm, N, MPa to other units, once. */
+/* Converts from mm, N, MPa to other units; call it once only. */
 void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
 
-/* Sees the solution after each step (0: before the first one), which it may convert; a
- * value other than 0 ends the run. */
+/* Called with the solution after each step (0: before the first one); the function may
+ * convert the solution to other units.  A return value other than 0 ends the run. */
 typedef int rb_rolling_wear_step(rb_rolling_solution *solution,
                                  const rb_rolling_wear_history *history, int step,
                                  int steps, void *context);
@@ -983,11 +1007,11 @@ typedef struct {
     void *context;
 } rb_rolling_wear_observer;
 
-/* On equal elements that stay where they are; on half-planes more of them are added where
- * the scar outgrows an automatic zone.  last: the solution after the last finished step,
- * with what is worn off as a column.  observer: or NULL.  history and last: overwritten,
- * hold what there is also on RB_INTERRUPTED and other positive ends; free them in any
- * case.  RB_EINVAL: what wears nothing. */
+/* Computes wear on a fixed mesh of equal elements; on half-planes elements are added when
+ * the wear scar becomes wider than an automatic zone.  last: the solution after the last
+ * finished step, with the worn depth as a column.  observer may be NULL.  history and
+ * last are overwritten; they hold the finished steps also on RB_INTERRUPTED and other
+ * positive statuses.  Free both in any case.  RB_EINVAL: nothing would wear. */
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                               const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
@@ -995,11 +1019,11 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 
-/* What a curve runs over. */
+/* The variable of a curve. */
 typedef enum {
     RB_OVER_CREEP_RATIO,
     RB_OVER_CREEP,
-    RB_OVER_SPEED /* of bodies that relax */
+    RB_OVER_SPEED /* viscoelastic bodies only */
 } rb_rolling_variable;
 
 typedef struct {
@@ -1014,38 +1038,43 @@ typedef struct {
     double *creepage, *creep_ratio, *force_ratio;
     double *tangential_load, *normal_load;
     double *stick_ratio; /* stuck length / length in contact */
-    double stick_step;   /* what one element more or less is to it, at most */
+    double stick_step;   /* largest change of stick_ratio by one element */
     double *dissipation; /* power per unit speed */
     double *residual;
-    double *speed; /* [length/s]; 0 where none is given, because no body relaxes */
-    double *resistance_moment, *resistance_ratio, *hysteresis; /* as of a solution */
-    double *torque_a, *torque_b; /* likewise; torque_b: NULL where B is a plane */
-    double *max_temperature;     /* NULL where not asked for */
-    int *branch;                 /* 1: on the way from `from` to `to`, 2: on the way back;
-                                    NULL where friction does not depend on the state */
-    double *kappa;               /* as of a solution; NULL likewise */
-    int rising; /* points of the way there, before those of the way back */
+    double
+        *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
+    double *resistance_moment, *resistance_ratio,
+        *hysteresis;             /* as in rb_rolling_solution */
+    double *torque_a, *torque_b; /* likewise; torque_b: NULL if B is a plane */
+    double *max_temperature;     /* NULL if the case has no heat conduction */
+    int *branch;   /* 1: computed in the direction from `from` to `to`, 2: in the opposite
+                      direction; NULL if friction does not depend on the state */
+    double *kappa; /* as in rb_rolling_solution; NULL likewise */
+    int rising;    /* number of points of branch 1, which come first */
     double free_creepage, half_width, seconds;
     int iterations;
-    rb_rolling_solution last; /* at the last point, for notes: with the largest kappa and
-                                 the least dissipation of all points; n = 0: none */
-    rb_units units;           /* of all values here */
+    rb_rolling_solution
+        last; /* solution at the last point, for notes, but with the largest kappa and the
+                 smallest dissipation of all points; n = 0: none */
+    rb_units units; /* of all values here */
 } rb_rolling_curve;
 
-/* From mm, N, MPa to other units, once; the struct says which it has. */
+/* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells
+ * the present units. */
 void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units);
 void rb_rolling_history_convert(rb_rolling_history *h, rb_units units);
 void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 
 void rb_rolling_curve_free(rb_rolling_curve *curve);
 
-/* A friction law that depends on the state is followed to the last creepage and back to
- * the first one, each point from the one before it: 2 * points entries.
- * Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
- * `to`, under the load or approach of rc, whose own tangential control is not read.  One
- * mesh, one factorisation, warm starts; a fitted mesh is fitted again where an edge has
- * moved by more than 1 %.  Over the speed the points are equally spaced in its logarithm,
- * rc says the tangential control, and every speed has its own mesh and flexibility. */
+/* Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
+ * `to`, under the load or approach of rc; its given creepage or force is ignored.  All
+ * points use one mesh, one factorisation and warm starts; a fitted mesh is fitted again
+ * if an edge has moved by more than 1 %.  With RB_OVER_SPEED the points are equally
+ * spaced in the logarithm of the speed, creepage or force is that of rc, and every speed
+ * has its own mesh and flexibility.  If the friction law depends on the state, the curve
+ * is followed to the last creepage and back to the first, each point from the one before:
+ * 2 * points entries. */
 rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why);
 /* Sees the model at point k; its refusal ends the curve. */
@@ -1068,20 +1097,21 @@ typedef struct {
     double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
 } rb_rolling_stress;
 
-/* RB_EINVAL where the stress inside A is not known: a cover that relaxes on an elastic
- * core. */
+/* RB_EINVAL: the stress inside A cannot be computed, because A has a viscoelastic cover
+ * on an elastic core. */
 rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why);
 
 /* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points
- * must lie inside it or on its surface, of a half-plane at y >= 0: RB_EINVAL with the
- * number k of the first that does not, counted from 0 as in xy[2k]. */
+ * must lie inside it or on its surface, for a half-plane at y >= 0.  Otherwise RB_EINVAL;
+ * why has the number k of the first such point, counted from 0 as in xy[2k]. */
 rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
                                rb_rolling_stress *stress, rb_message *why);
 
 /* Height of A's surface at x: 0 for a half-plane. */
 double rb_rolling_surface(const rb_rolling_case *rc, double x);
 
-/* Value and place of a maximum, found by a simplex search from the best of a grid. */
+/* Value and place of a maximum, found by a simplex search that starts at the largest
+ * value on a grid. */
 typedef struct {
     double value, x, y;
 } rb_rolling_extremum;
@@ -1096,30 +1126,33 @@ typedef struct {
 void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
                                rb_rolling_stress_maxima *maxima, rb_units units);
 
-/* Over the width of the contact and a half-width beyond, to the given depth (0: 2.5
- * half-widths). */
+/* Finds the maxima below the contact and half a width on either side of it, to the given
+ * depth (0: 2.5 half-widths). */
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima,
                                         rb_message *why);
-/* The values again at the places that maxima names.  RB_EINVAL: one lies outside A. */
+/* Computes the values again at the places given in maxima.  RB_EINVAL: a place lies
+ * outside A. */
 rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
                                       rb_rolling_stress_maxima *maxima, rb_message *why);
 
-/* inside[k] = 1 where point k lies in A or on its surface: where rb_rolling_stress_at
- * has an answer.  RB_ENOMEM. */
+/* inside[k] = 1 if point k lies in A or on its surface, so that rb_rolling_stress_at can
+ * compute the stress there.  RB_ENOMEM. */
 rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
                             int *inside);
 
-/* Stress on a grid that follows A's surface: row by row, the first one on the surface. */
+/* Stress on a grid that follows A's surface, row by row; the first row is on the
+ * surface. */
 typedef struct {
     int nx, ny;
-    rb_rolling_stress *at; /* nx x ny; NAN but for x and y where not inside; owned */
-    int *inside;           /* nx x ny; owned */
+    rb_rolling_stress
+        *at;     /* nx x ny; stresses of points that are not inside are NAN; owned */
+    int *inside; /* nx x ny; owned */
 } rb_rolling_stress_grid;
 
-/* Shakedown of A, a half-plane that is rolled over again and again (theory.md S1): the
- * yield stress in shear k that it needs to end elastic, where, and the residual stress
- * along x that rolling leaves there. */
+/* Shakedown of A, a half-plane under repeated rolling (theory.md S1): the yield stress in
+ * shear k at which it just shakes down to elastic behaviour, the place that decides, and
+ * the residual stress along x that rolling leaves there. */
 typedef struct {
     double
         shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
@@ -1130,19 +1163,20 @@ typedef struct {
 /* RB_EINVAL: a wheel, a layer; RB_NO_CONTACT, RB_ENOMEM. */
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
                                     rb_rolling_shakedown *shakedown, rb_message *why);
-/* shear_yield again: what the stress at x, y needs with that residual stress. */
+/* Computes shear_yield again from the stress at x, y and the given residual stress. */
 rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
                                   rb_rolling_shakedown *shakedown, rb_message *why);
 
-/* Over the same width and depth as the maxima; nx, ny >= 2.  grid: overwritten. */
+/* Computes the stress on a grid over the same width and depth as the maxima; nx, ny >= 2.
+ * grid: overwritten. */
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
                                     double depth, rb_rolling_stress_grid *grid,
                                     rb_message *why);
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 
-/* A case on equal elements between from and to, wherever its contact lies between them;
- * mesh, zone and the elements of the case are not read but for their count.  The solution
- * is overwritten; free it in any case. */
+/* Solves a case on equal elements between from and to; the contact may lie anywhere in
+ * between.  Of the mesh options of the case only contact_elements is used.  solution is
+ * overwritten; free it in any case. */
 rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
                                    rb_rolling_solution *solution, rb_message *why);
 /* The same as one step from the tractions, coefficients of friction and yielded interface
@@ -1159,67 +1193,73 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
 
 /* Estimated discretisation errors. */
 typedef struct {
-    rb_rolling_solution scalar; /* of every result that has an error bar, in its place;
-                                   NAN where the result is, in the solution or in one of
-                                   the coarser runs, and where there is no estimate; no
-                                   columns */
-    rb_rolling_stress_maxima stress; /* of value and place; NAN unless asked */
+    rb_rolling_solution
+        scalar; /* the error of each result with an error bar, in the field of the result;
+                   NAN if the result is NAN in the solution or in a coarser run, or if
+                   there is no estimate; no columns */
+    rb_rolling_stress_maxima
+        stress; /* errors of values and places; NAN unless requested */
 } rb_rolling_errors;
 
-/* From the spread over n/2, 0.7 n and n contact elements and from the difference that
- * half the elements of wheels outside the contact make.  On a positive status the
- * solution holds what there is; free it in any case. */
+/* Solves a case and estimates errors from the spread over n/2, 0.7 n and n contact
+ * elements, and from the change when wheels have half as many elements outside the
+ * contact.  On a positive status the solution holds the last iterate; free it in any
+ * case. */
 rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why);
-/* The same of a case that is solved already, from its whole solution in mm, N, MPa;
- * stress: its maxima down to the usual depth, for their error bars, or NULL. */
+/* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
+ * MPa.  stress: its maxima down to the default depth if error bars for them are wanted,
+ * otherwise NULL. */
 rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
                                      const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
                                      rb_rolling_errors *errors, rb_message *why);
 
 /* Refines contact and boundary until the estimates of P, Q, p0, half-width and creepage
- * are at most `accuracy` relative.  *elements: contact elements that it took; 0: none
- * were solved.  RB_INACCURATE with the best estimate where memory, 6400 contact elements
- * or 64 times the usual boundary do not suffice. */
+ * are at most `accuracy` relative.  *elements: number of contact elements used at the
+ * end; 0: nothing was solved.  RB_INACCURATE, with the best estimate, if memory, 6400
+ * contact elements or 64 times the default boundary elements do not suffice. */
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, int *elements,
                                        rb_message *why);
 
-/* A curve and its errors: errors->force_ratio[k] and so on belong to the k-th creepage,
- * errors->residual means nothing.  Takes twice as long.  Free both in any case. */
+/* Computes a curve and its errors: errors->force_ratio[k] and the other columns belong to
+ * the k-th creepage; errors->residual has no meaning.  This takes twice as long as the
+ * curve alone.  Free both in any case. */
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
                                        const rb_rolling_range *range,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);
 
-/* A history with history->errors, whose residual means nothing.  The coarser runs have
- * longer steps, so that the errors are those of the steps too; the observer sees them
- * after the run itself, with model and history NULL.  Free both in any case. */
+/* Computes a history with history->errors (their residual has no meaning).  The coarser
+ * runs also have longer steps, so that the errors include those of the step length.
+ * After the main run the observer is called for the coarser runs with model and history
+ * NULL.  Free model and history in any case. */
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          const rb_rolling_program *program,
                                          const rb_rolling_observer *observer,
                                          rb_rolling_model *model,
                                          rb_rolling_history *history, rb_message *why);
 
-/* From case to solution in one call; of a case of steps the last one's.  On a positive
- * status the solution holds what there is.  solution: overwritten; free it in any case.
- */
+/* Solves a case in one call; of a case with several steps the solution is that of the
+ * last step.  On a positive status it holds the last iterate.  solution is overwritten;
+ * free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
 
-/* Bytes at the peak of that, to refuse absurd sizes beforehand: n contact elements on one
- * wheel of so many boundary elements (0: half-planes).  unknowns: of Newton's last linear
- * problem, contact and stuck elements together, at most 2n. */
+/* Peak memory in bytes that rb_rolling_solve needs; serves to refuse sizes that are too
+ * large.  n: contact elements; boundary: boundary elements of one wheel (0: half-planes);
+ * unknowns: size of Newton's last linear system, elements in contact plus sticking
+ * elements, at most 2n. */
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns);
 
-/* The same, with the model kept for what comes after (stress, further solves); free both
- * in any case. */
+/* The same as rb_rolling_solve, but the model is kept for stresses or further solves;
+ * free both in any case. */
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
-/* The same with a model as rb_rolling_model_reuse takes it. */
+/* The same for a model that has been solved before, see rb_rolling_model_reuse. */
 rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                        rb_rolling_solution *solution, rb_message *why);
 
@@ -1227,27 +1267,29 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
 
 enum { RB_ROW_OWN = 128 };
 
-/* What a study keeps of a case: numbers, NAN where there is none, and no columns. */
+/* The results of one case of a study: numbers only, no columns; NAN if a case has no such
+ * result. */
 typedef struct {
     rb_rolling_solution solution;    /* with the status of the case */
-    rb_rolling_errors errors;        /* NAN but with RB_ROW_ERRORS */
-    rb_rolling_stress_maxima stress; /* NAN but with RB_ROW_STRESS */
+    rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
+    rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
     double own[RB_ROW_OWN];          /* what the caller measures of a case; NAN else */
 } rb_rolling_row;
 
-enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits */
+enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
 
 /* From mm, N, MPa to other units. */
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
 
-/* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
- * processors), one thread each.  make and measure run in them, see and tick in the
- * caller: see gets the rows in order, tick comes every few milliseconds with the number
- * seen; a value other than 0 ends the run.  A process that dies is replaced and its case
- * tried once more; where it dies of it again, the case is left with RB_ENOMEM. */
+/* A study of the cases first ... first + count - 1, solved by processes of this machine
+ * (0: as many as it has processors), one thread each.  make and measure run in them, see
+ * and tick in the caller: see gets the rows in order, tick comes every few milliseconds
+ * with the number seen; a value other than 0 ends the run.  A process that dies is
+ * replaced and its case tried once more; where it dies of it again, the case is left with
+ * RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
-    unsigned also; /* what rows have besides the solution: bits of RB_ROW_... */
+    unsigned also; /* what to compute besides the solution: bits RB_ROW_... */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
     /* row->own of the case that make has made last, solved; or NULL */
     rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,
@@ -1257,29 +1299,33 @@ typedef struct {
     void *context;
 } rb_rolling_sweep;
 
-/* Case k in the caller's own process, as a process of the sweep solves it: its row, and
- * why it was not solved, where row->solution.status says so. */
+/* Solves case k in the calling process in the same way as a process of the study does.
+ * why: the reason if the case is not solved, see row->solution.status. */
 void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
                            rb_message *why);
-/* RB_INTERRUPTED: see or tick said so; no process is left in any case. */
+/* Runs the study.  RB_INTERRUPTED: `see` or `tick` ended it.  In any case no process is
+ * left running. */
 rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
 
-/* The processes that solve the cases, as the one that hands them out sees them. */
+/* A pool of worker processes, as seen by the process that distributes the cases. */
 typedef struct rb_rolling_pool {
-    int (*idle)(struct rb_rolling_pool *pool); /* how many more cases it takes now */
-    rb_status (*submit)(struct rb_rolling_pool *pool, int k); /* one, where one is idle */
-    /* 1: the row of case *k; 0: none came within so many milliseconds; a negative
-     * status: the pool cannot go on. */
+    int (*idle)(struct rb_rolling_pool
+                    *pool); /* number of further cases that the pool accepts now */
+    rb_status (*submit)(struct rb_rolling_pool *pool,
+                        int k); /* submits case k; idle() must be > 0 */
+    /* 1: case *k is done, and row is written; 0: no case was done within the given
+     * milliseconds; a negative status: the pool has failed. */
     int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k,
                    rb_rolling_row *row);
-    void (*stop)(struct rb_rolling_pool *pool); /* at once; its memory goes as well */
+    void (*stop)(
+        struct rb_rolling_pool *pool); /* ends all processes at once and frees the pool */
 } rb_rolling_pool;
 
-/* The processes of rb_rolling_sweep_run: sweep->workers of them, at most sweep->count;
- * sweep is borrowed. */
+/* Starts the pool of rb_rolling_sweep_run: sweep->workers processes, at most
+ * sweep->count.  sweep is borrowed. */
 rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool **pool,
                                 rb_message *why);
-/* rb_rolling_sweep_run by any pool, which is stopped in any case. */
+/* The same as rb_rolling_sweep_run with a given pool; the pool is stopped in any case. */
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why);
 
