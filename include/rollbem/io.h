@@ -1,5 +1,5 @@
-/* File formats: names and numbers only, nothing of mechanics.  Messages name the file and
- * the line. */
+/* File formats.  These functions read and write names and numbers; mechanics does not
+ * appear here.  Messages name the file and the line. */
 #ifndef ROLLBEM_IO_H
 #define ROLLBEM_IO_H
 
@@ -11,80 +11,89 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- Output written whole or not at all ------------------------------------------- */
+/* ---- Output files, written completely or not at all
+ * ------------------------------------------ */
 
-/* Everything goes to a file beside the target that has no name; commit names it.  So
- * nothing is left behind, whatever ends the program. */
+/* Output goes to an unnamed file in the folder of the target; commit gives it the
+ * target's name.  If the program ends before, no partial file is left. */
 typedef struct {
-    FILE *file;   /* write here; NULL when closed */
-    char *target; /* of a file; owned */
-    char *device; /* its name, written directly; owned.  Both NULL: stdout */
+    FILE *file;   /* write to this file; NULL when closed */
+    char *target; /* path of a file; owned */
+    char *device; /* path of a device, which is written directly; owned.  Both NULL:
+                     stdout */
 } rb_io_writer;
 
-/* path NULL or "-": stdout.  An existing target keeps its mode; a link is followed; a
- * device or pipe is written directly.  RB_EWRITE with the reason, RB_ENOMEM. */
+/* path NULL or "-": stdout.  An existing target keeps its permissions; links are
+ * followed; a device or pipe is written directly.  RB_EWRITE with the reason,
+ * RB_ENOMEM. */
 rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why);
 
-/* What rb_io_writer_open would say; the path stays as it is. */
+/* Returns what rb_io_writer_open would return, without changing anything. */
 rb_status rb_io_writer_check(const char *path, rb_message *why);
 
-/* The target appears with its whole content.  On RB_EWRITE (disk full, ...) nothing is
- * left behind and an old target is untouched.  Either way w is closed. */
+/* Makes the complete target visible and closes w.  On RB_EWRITE (disk full, ...) no file
+ * is left, and an old target is unchanged. */
 rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why);
 
-/* Nothing appears; w may be closed already. */
+/* Discards the output; w may be closed already. */
 void rb_io_writer_abandon(rb_io_writer *w);
 
 /* The path of `name` in a folder; owned by the caller, NULL: no memory. */
 char *rb_io_join(const char *folder, const char *name);
-/* Makes the folder unless it is there.  RB_EWRITE, RB_ENOMEM. */
+/* Makes the folder unless it exists.  RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_make_folder(const char *path, rb_message *why);
-/* What rb_io_make_folder and a file in the folder would say; nothing is made. */
+/* Checks that rb_io_make_folder, and writing a file in the folder, would succeed; makes
+ * nothing. */
 rb_status rb_io_folder_check(const char *path, rb_message *why);
 
-/* The text of an input file and a zero behind it; owned by the caller.  RB_ENOENT;
- * RB_EFORMAT: UTF-16, or a zero byte in it; a device other than a terminal or /dev/null;
- * more than 2 GB, of a pipe 256 MB; RB_ENOMEM. */
+/* Reads an input file into a text that ends with a zero byte; owned by the caller.
+ * RB_ENOENT; RB_EFORMAT: UTF-16, a zero byte in the file, a device other than a terminal
+ * or /dev/null, more than 2 GB (of a pipe 256 MB); RB_ENOMEM. */
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why);
 
-/* For paths that come from somebody else's file.  RB_EFORMAT unless path is a regular
- * file of at most 64 MB and lies, links followed, below the folder (NULL: anywhere);
- * RB_ENOENT.  Not against somebody who changes files meanwhile. */
+/* Checks a path that comes from an untrusted file.  RB_EFORMAT unless path is a regular
+ * file of at most 64 MB and, after links are followed, lies in the folder or below it
+ * (NULL: anywhere); RB_ENOENT.  It gives no protection if files are changed at the same
+ * time. */
 rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-/* Numbers between blanks or commas, a row per line; # starts a comment.  The columns are
- * named by a first line of words or by the last comment before the first row. */
+/* Numbers between blanks or commas, a row per line; # starts a comment.  A first line of
+ * words, or the last comment before the first row, names the columns. */
 typedef struct {
     int rows, columns;
-    char **name; /* columns; NULL: the file does not name them; owned, as all here */
+    char **name; /* columns; NULL: the file does not name them; owned, like all arrays
+                    here */
     double *x;   /* rows x columns, column-major */
-    int *line;   /* rows: where each stands in the file */
+    int *line;   /* rows: line number of each row in the file */
 } rb_io_table;
 
-/* RB_ENOENT; RB_EFORMAT with file, line and what was wanted: another count of numbers
- * than in the first row or than names, not a number, a name twice, no row; RB_ENOMEM.
- * t: overwritten, empty after a failure. */
+/* RB_ENOENT; RB_EFORMAT: the count of numbers differs from the first row or from the
+ * names, something is not a number, a name occurs twice, or there is no row; why names
+ * file, line and what was expected.  RB_ENOMEM.  t is overwritten and is empty after an
+ * error. */
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
-/* The same of a text that was read from path already; its lines are cut apart. */
+/* The same for a text that has already been read from path; the function changes the
+ * text. */
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t,
                             rb_message *why);
-/* The same for a table of exactly that many columns. */
+/* The same for a table that must have exactly `columns` columns. */
 rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
                                      rb_message *why);
 rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
                                    rb_message *why);
-/* rows numbers; NULL when there is no such column. */
+/* The `rows` numbers of a column; NULL if there is no such column. */
 const double *rb_io_table_column(const rb_io_table *t, const char *name);
-/* Column j, a quantity of that unit (rollbem/units.h), to mm, N, MPa: from the unit that
- * its name ends with, which is cut off, else from those of the system. */
+/* Converts column j, whose unit is `unit` in mm, N, MPa (rollbem/units.h), to this unit.
+ * If the column's name ends with a unit, the values are in that unit, and it is removed
+ * from the name; otherwise they are in the units of the system. */
 void rb_io_table_convert(rb_io_table *t, int j, const char *unit, rb_units system);
 void rb_io_table_free(rb_io_table *t);
 
 /* ---- Matrices ---------------------------------------------------------------------- */
 
-/* As a file has it: dense, or in coordinate form. */
+/* A matrix as stored in a file: dense, or in coordinate form. */
 typedef struct {
     int rows, cols;
     double *dense; /* rows x cols column-major, or NULL; owned */
@@ -92,32 +101,32 @@ typedef struct {
 } rb_io_matrix;
 
 void rb_io_matrix_free(rb_io_matrix *m);
-/* Afterwards m->dense is there and the entries are gone.  RB_ENOMEM. */
+/* Converts m to dense form; its coordinate entries are freed.  RB_ENOMEM. */
 rb_status rb_io_matrix_to_dense(rb_io_matrix *m);
 /* A copy in compressed columns; zeros of a dense matrix are left out.  RB_ENOMEM. */
 rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a);
 
-/* A dense matrix of somebody else: column-major, ld >= rows. */
+/* A borrowed dense matrix, column-major, ld >= rows. */
 typedef struct {
     int rows, cols;
     const double *x;
     int ld;
 } rb_io_dense;
 
-/* Matrix Market, "array real general": 17 digits, so that reading gives the same numbers.
- * comment (NULL: none): one line.  RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
+/* Writes Matrix Market "array real general" with 17 digits, so that the same numbers are
+ * read again. comment (NULL: none): one line.  RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char *comment,
                                     rb_message *why);
-/* "array" or "coordinate", "real" or "integer", "general" or "symmetric" (both triangles
- * are in m).  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* Reads "array" or "coordinate", "real" or "integer", "general" or "symmetric" (m then
+ * has both triangles).  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message *why);
 
 /* ---- Text format of Siconos ------------------------------------------------------- */
 
 /* Tokens separated by white space; matrices dense, by blocks, or as CSparse prints them.
- * All readers: RB_ENOENT; RB_EFORMAT with file, line, what was expected and what is there
- * (also NaN, infinity, and counts that the file has no room for); RB_ENOMEM.  After a
- * failure the problem is empty. */
+ * Errors of all readers: RB_ENOENT; RB_EFORMAT, also for NaN, infinity and counts too
+ * large for the file; why names file, line, what was expected and what was found;
+ * RB_ENOMEM.  After an error the problem is empty. */
 
 typedef enum {
     RB_IO_SICONOS_LCP,
@@ -126,14 +135,14 @@ typedef enum {
     RB_IO_SICONOS_FRICTION_GLOBAL
 } rb_io_siconos_kind;
 
-/* The kind, from the sizes at the head.  A single contact of d rows looks like a single
- * cone of d rows: it is taken for friction.  A global friction problem with as many
- * degrees of freedom as rows of contacts is taken for a local one, with d of them for
- * cones. */
+/* Guesses the kind from the sizes at the beginning of the file.  Some files are
+ * ambiguous: one contact of d rows looks like one cone of d rows and is read as friction.
+ * A global friction problem with as many degrees of freedom as contact rows is read as a
+ * local one; with d degrees of freedom it is read as cones. */
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind,
                               rb_message *why);
 
-/* w = M z + q.  What follows q in the file is a comment. */
+/* w = M z + q.  Text after q in the file is a comment. */
 typedef struct {
     int n;
     rb_io_matrix M;
@@ -145,9 +154,9 @@ void rb_io_lcp_free(rb_io_lcp *p);
 
 /* ---- Linear complementarity problems of any kind ----------------------------------- */
 
-/* The text format of Siconos; plain text: n, the rows of M, q; or M in Matrix Market with
- * q in a file of its own, which is NULL otherwise.  Behind a # stands a comment.  "-":
- * standard input.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* Reads the text format of Siconos, or plain text (n, the rows of M, q), or M in Matrix
+ * Market with q in the file q_path; for the other formats q_path is NULL.  # starts a
+ * comment.  "-": standard input.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
                          rb_message *why);
 /* n numbers in plain text or a Matrix Market matrix of n by 1; `what` names them in
@@ -159,8 +168,7 @@ rb_status rb_io_vector_read(const char *path, int n, const char *what, double **
 rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x,
                             rb_message *why);
 
-/* A bimatrix game: m, n, the m rows of A, the m rows of B.  Behind a # stands a comment.
- */
+/* A bimatrix game: m, n, the m rows of A, the m rows of B.  # starts a comment. */
 typedef struct {
     int m, n;
     double *A, *B; /* m x n column-major: payoffs of the row and of the column player */
@@ -182,7 +190,7 @@ rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
                                       rb_message *why);
 void rb_io_friction_free(rb_io_friction *p);
 
-/* M v = H r + f, u = H' v + w; the file calls f q and w b. */
+/* M v = H r + f, u = H' v + w; in the file f is named q and w is named b. */
 typedef struct {
     int dimension, contacts;
     rb_io_matrix M, H; /* n x n; n x dimension * contacts */

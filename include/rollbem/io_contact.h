@@ -1,6 +1,5 @@
-/* Input files of CONTACT (module 3): numbers and names, what they mean to a case is in
- * rollbem/case.h.  A case keeps what it does not read from the one before it, as there.
- */
+/* Input files of CONTACT (module 3).  rollbem/case.h converts them to cases.  As in
+ * CONTACT, values that a case does not read keep those of the case before. */
 #ifndef ROLLBEM_IO_CONTACT_H
 #define ROLLBEM_IO_CONTACT_H
 
@@ -8,7 +7,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* The control digits by their letters; those that decide nothing here are not kept. */
+/* The control digits by their letters; digits without an effect here are not stored. */
 typedef struct {
     int P, B, T, N, F, S;
     int V, L, D, C, M, Z, E;
@@ -17,13 +16,14 @@ typedef struct {
 
 typedef struct {
     int line;   /* of MODULE */
-    int module; /* the rest is read of module 3 alone */
+    int module; /* the other fields are read for module 3 only */
     rb_io_contact_digits digit;
     double normal;           /* FN [N], N = 1; PEN [mm], N = 0 */
     double tangential, side; /* CKSI or FX, CETA or FY */
     double spin;             /* CPHI */
-    int law;                 /* L of the last case that had its own */
-    double fstat, fkin;      /* of the slip laws L >= 2: at rest, and at large slip */
+    int law;                 /* digit L of the last case that set it */
+    double fstat, fkin;      /* friction coefficients at rest and, for the laws L >= 2, at
+                                large slip velocity */
     double fall[2], slip_scale[2]; /* of L = 2, 3, 4: FLIN1, SABSH1 and so on [mm/s] */
     double memory, memory_slip;    /* MEMDST [mm], MEM_S0 [mm/s] */
     double start;        /* INISLP: slip is looked for from below (> 0), from above (< 0),

@@ -1,9 +1,9 @@
 /* The FCLib format (HDF5): frictional contact problems as numbers; no mechanics here.
- * HDF5 runs in a process of its own (fork): where it crashes, for want of memory or on a
- * damaged file, these calls return RB_ENOMEM.  Of other files nothing is read: external
- * and symbolic links, raw data and virtual arrays are refused, and no filter is loaded.
- * Reading takes at most 16 * 1032 times the memory of the file (1032: what deflate packs
- * into a byte). */
+ * HDF5 runs in a child process (fork); if it crashes for lack of memory or because of a
+ * damaged file, these calls return RB_ENOMEM.  A file cannot make HDF5 read other files:
+ * external and symbolic links, raw data and virtual arrays are refused, and no filter is
+ * loaded.  Reading needs at most 16 * 1032 times the size of the file (deflate compresses
+ * by a factor of at most 1032). */
 #ifndef ROLLBEM_IO_FCLIB_H
 #define ROLLBEM_IO_FCLIB_H
 
@@ -22,14 +22,14 @@ typedef struct {
     int rolling;  /* 1: with mu_r */
     int spacedim; /* 2 or 3; 5 where rolling */
     int contacts;
-    int constraints; /* 0: none; else the columns of G, or of V and R */
+    int constraints; /* number of columns of G, or of V and R; 0: none */
     rb_sparse W;     /* all owned */
     rb_sparse M, H;
     rb_sparse G, V, R;
     double *q, *f, *w, *mu;
     double *b, *s;     /* constraints, or NULL */
     double *mu_r;      /* contacts, or NULL */
-    double *r, *u, *v; /* what the file holds as solution, or NULL: check it before use */
+    double *r, *u, *v; /* the solution stored in the file, not checked; or NULL */
 } rb_io_fclib;
 
 /* The three layouts of a matrix. */
@@ -37,16 +37,16 @@ typedef enum { RB_IO_FCLIB_TRIPLET, RB_IO_FCLIB_CSC, RB_IO_FCLIB_CSR } rb_io_fcl
 
 void rb_io_fclib_free(rb_io_fclib *problem);
 
-/* 1: the file begins like HDF5. */
+/* 1: the file begins with the signature of HDF5. */
 int rb_io_is_hdf5(const char *path);
 
-/* An M or R of which only one triangle is stored is completed.  RB_ENOENT; RB_EFORMAT,
- * with the place in why: not HDF5, truncated, no FCLib problem in it, sizes that
- * disagree, indices out of range, rolling friction in the local form. */
+/* If only one triangle of M or R is stored, the other one is added.  RB_ENOENT;
+ * RB_EFORMAT: not HDF5, truncated, no FCLib problem, inconsistent sizes, indices out of
+ * range, or rolling friction in the local form; why names the place. */
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why);
 
-/* title and description may be NULL.  The file appears whole or not at all (io.h).
- * RB_EWRITE, RB_ENOMEM. */
+/* title and description may be NULL.  The file is written completely or not at all
+ * (io.h). RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why);

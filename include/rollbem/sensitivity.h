@@ -1,12 +1,12 @@
-/* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4), by the
- * linear problem with the zones of the solution: tractions, approach and creepage change
- * along the tangent of this problem, and every result changes with them.  Elements that
- * the program has placed move with the contact, as they do in a solve with another value.
- * If the elements stay while the contact grows, the derivative has an error that does not
- * vanish with more elements (D6); elements that the case places do stay.  Derivatives are
- * exact up to rounding.  Differences are taken only of the data of a problem
- * (flexibility, gap, bounds, controls) and of how results depend on the tractions, never
- * of a solution.
+/* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4).  With
+ * the zones of the solution the problem is linear; its tangent gives the derivatives of
+ * tractions, approach and creepage, and from these follow the derivatives of all results.
+ * Elements that the program has placed move with the contact, as they do in a solve with
+ * another value. If the elements did not move while the contact grows, the derivative
+ * would have an error that does not vanish with more elements (D6).  Elements at places
+ * given in the case do not move.  Derivatives are exact up to rounding.  Differences are
+ * taken only of the data of a problem (flexibility, gap, bounds, controls) and of how
+ * results depend on the tractions, never of a solution.
  *
  * If an element is at the border of two zones (both sides of a complementary pair are 0),
  * the solution has two derivatives, one on each side, and both are given. */
@@ -21,27 +21,30 @@ RB_PUBLIC_BEGIN
 /* A solved model with the factors of its Jacobian; opaque. */
 typedef struct rb_sensitivity rb_sensitivity;
 
-/* results: 1: of all results, with the creepage of free rolling, which is a solution of
- * its own; 0: for tangents, adjoints and rates alone. model: solved, borrowed, unchanged
- * as long as s lives; of one step, or without results of a step of a history, whose past
- * stays.  RB_EINVAL: steps, or what has no derivative (the line says what); RB_SINGULAR,
- * RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
+/* results: 1: prepare derivatives of all results, including the free-rolling creepage,
+ * which needs another solution; 0: only tangents, adjoints and rates.  model: solved,
+ * borrowed; it must not change until s is freed.  With results = 1 it must be a case of
+ * one step; with 0 it may be a step of a history, whose earlier steps are kept fixed.
+ * RB_EINVAL: a case with steps, or a case without derivatives (why has the reason);
+ * RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
                                 rb_sensitivity **s, rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
-/* What the elements do while an input changes. */
+/* How the elements move while an input changes. */
 typedef enum {
-    RB_SENSITIVITY_FIXED, /* they stay: a given zone, several patches, a border */
-    RB_SENSITIVITY_HERTZ, /* equal ones of an automatic zone: as Hertz's half-width */
-    RB_SENSITIVITY_EDGES  /* fitted ones: with the edges of the contact */
+    RB_SENSITIVITY_FIXED, /* not at all: given zone, several patches, or an element at the
+                             border of two zones */
+    RB_SENSITIVITY_HERTZ, /* equal elements of an automatic zone: with Hertz's half-width
+                           */
+    RB_SENSITIVITY_EDGES  /* fitted elements: with the edges of the contact */
 } rb_sensitivity_elements;
 
 rb_sensitivity_elements rb_sensitivity_motion(const rb_sensitivity *s);
-/* Elements at the border of two zones. */
+/* Number of elements at the border of two zones. */
 int rb_sensitivity_degenerate(const rb_sensitivity *s);
 
-/* How the equations change with an input while the unknowns stay: their partial
- * derivatives, n each. */
+/* Partial derivatives of the equations with respect to an input, for fixed unknowns; n
+ * values each. */
 typedef struct {
     int n;
     double *gap, *slip;        /* of the gap [length/input], of T_T lambda */
@@ -55,21 +58,21 @@ void rb_sensitivity_rate_free(rb_sensitivity_rate *rate);
 /* to += times rate. */
 void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
                              rb_sensitivity_rate *to);
-/* What is left of the equations of the model's zones at the unknowns that the variant
- * has: as a rate has it, and without a difference. */
+/* Residual of the equations of the model's zones at the unknowns of the variant, in the
+ * form of a rate (but not a difference). */
 void rb_sensitivity_residual(const rb_rolling_model *base,
                              const rb_rolling_model *variant, rb_sensitivity_rate *left);
 
-/* D2: J y' = -R'.  y': p, q, delta, xi per unit of the input, for an input that grows
- * (side 1) or falls (-1); without degenerate elements both are the same.  RB_MAXITER: the
- * zones of a degenerate element were not found. */
+/* D2: J y' = -R'.  y': derivatives of p, q, delta, xi for a growing (side 1) or falling
+ * (-1) input; both are equal if no element is degenerate.  RB_MAXITER: the zones of a
+ * degenerate element were not found. */
 rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
                                  int side, rb_contact_state *tangent, rb_message *why);
 
-/* D3: weights of rates in the derivative of a number f = weight . (p, q, delta, xi):
- * f' = f_input + adjoint . R'.  One transposed solve per number, for any number of
- * inputs.  weight, adjoint: as a state and as a rate.  At a border: of the zones that the
- * state has.  RB_EINVAL: a problem without matrices. */
+/* D3: weights of rates in the derivative of a number f = weight . (p, q, delta, xi): f' =
+ * f_input + adjoint . R'.  One transposed solve per number, for any number of inputs.
+ * weight has the form of a state, adjoint that of a rate.  For elements at the border of
+ * two zones the zones of the state are used.  RB_EINVAL: a problem without matrices. */
 rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
                                  rb_sensitivity_rate *adjoint, rb_message *why);
 double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint,
@@ -77,39 +80,40 @@ double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint,
 
 /* ---- With respect to numbers of a case --------------------------------------------- */
 
-/* A number that a case is made from. */
+/* An input: a number of a case. */
 typedef struct {
     double value;
-    double scale;    /* > 0: differences are taken over a small part of it */
+    double scale;    /* > 0; difference steps are a small fraction of it */
     double from, to; /* its range */
-    /* The case with another value of it. */
+    /* Makes the case with another value of this number. */
     rb_status (*vary)(void *context, double value, rb_rolling_case *rc, rb_message *why);
     void *context;
 } rb_sensitivity_input;
 
-/* A first derivative from values at so many places, of fourth order. */
+/* Difference formula of fourth order for a first derivative. */
 enum { RB_SENSITIVITY_PLACES = 5 };
 typedef struct {
     int n;
     double place[RB_SENSITIVITY_PLACES], weight[RB_SENSITIVITY_PLACES]; /* in steps */
 } rb_sensitivity_stencil;
-/* Both ways where the range of the input allows it, else one way; NULL: neither. */
+/* A central formula if the range of the input allows it, otherwise a one-sided one; NULL:
+ * neither is possible. */
 const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
                                                         double step);
 
-/* How the equations change with the input; mu: how its largest coefficient does.  rate:
- * overwritten; free it in any case. */
+/* Computes the rate of the equations with respect to the input; mu: derivative of the
+ * largest friction coefficient.  rate: overwritten; free it in any case. */
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why);
 
-/* Derivatives of all results of the model, in the places of the results: value[0] for
- * a falling, value[1] for a growing input.  Whole numbers, proofs and places that are
- * known to an element only have none (NAN). */
+/* Derivatives of all results of the model, each in the field of the result: value[0] for
+ * a falling, value[1] for a growing input.  Integers, residuals and places known only to
+ * within one element have no derivative (NAN). */
 typedef struct {
     int sides;  /* 1: value[0] holds for both; 2: they differ, or the range ends here */
-    int has[2]; /* 0: the input cannot go there */
+    int has[2]; /* 0: the range of the input ends there */
     rb_rolling_solution value[2];
-    rb_sensitivity_rate rate; /* of the side that there is */
+    rb_sensitivity_rate rate; /* for the side that exists */
 } rb_sensitivity_derivative;
 
 /* derivative: overwritten; free it in any case. */
@@ -119,11 +123,11 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
                                        rb_message *why);
 void rb_sensitivity_derivative_free(rb_sensitivity_derivative *derivative);
 
-/* Multiplies all derivatives of a side. */
+/* Multiplies all derivatives of one side by factor. */
 void rb_sensitivity_scale(rb_rolling_solution *value, double factor);
 
-/* The change of a result over the scale of an input that is rounding: a part of its value
- * and of what is usual for its unit in this case. */
+/* Change of a result over the scale of an input below which it is a rounding error: a
+ * fraction of its value and of the typical size of its unit in this case. */
 double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *result,
                                double value);
 
