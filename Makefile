@@ -265,6 +265,7 @@ $(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/faul
 
 # the checker of the net shares nothing with the library; whoever builds a test that runs it gets it too
 $(B)/tests/test_net $(B)/tests/test_hostile $(B)/tests/test_certificates: | $(B)/tests/checker $(B)/rollbem
+$(B)/tests/test_commands: | $(B)/rollbem
 $(B)/tests/checker: tests/checker.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

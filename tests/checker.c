@@ -1068,10 +1068,11 @@ static void check_energy(const contact *c, const table *t)
     }
     if (relaxes)
         expect("energy of the surfaces", lost, creepage + surface, rounding);
-    /* the edges of the contact are what is lost: of second order in the elements */
+    /* the edges of the contact are what is lost: of second order in the elements, of
+     * which three in contact are all edge */
     const double edges = fmin(0.05, 3.0 * pow(coarseness(c, t), 2.0));
     if (strcmp(word(c->inputs, "gap"), "parabola") == 0 &&
-        (relaxes || coarseness(c, t) < 0.1))
+        (relaxes ? coarseness(c, t) < 0.5 : coarseness(c, t) < 0.1))
         expect("energy", lost, creepage + by_curvature, edges * size + rounding);
 }
 
@@ -1222,7 +1223,8 @@ static void check_summary(const contact *c, const char *path)
 
 static double last_of(const json_t *list)
 {
-    return json_number_value(json_array_get(list, json_array_size(list) - 1));
+    const json_t *last = json_array_get(list, json_array_size(list) - 1);
+    return json_is_number(last) ? json_number_value(last) : NAN;
 }
 
 /* The last step is what the table shows. */
@@ -1241,7 +1243,8 @@ static void check_history(const contact *c, const json_t *history, const rows *c
         const double want = number(c->summary, same[k]);
         if (json_array_size(list) == 0 || (c->mu == 0.0 && k == 3))
             continue;
-        expect(same[k], last_of(list), want, 1e-12 * fabs(want));
+        if (!isnan(want) || !isnan(last_of(list)))
+            expect(same[k], last_of(list), want, 1e-12 * fabs(want));
     }
     for (size_t i = 1; i < json_array_size(distance); i++)
         if (json_number_value(json_array_get(distance, i)) <

@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/solvers.h"
+#include "cli/wait.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -152,7 +153,9 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
     cli_exit code = r && u ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
     for (int s = 0; code == CLI_OK && s < c->solvers; s++) {
         run_result *one = &c->result[c->problems * c->solvers + s];
+        cli_wait_begin();
         one->status = rb_friction_solve(c->solver[s], p, &opt, &solution, &one->info);
+        cli_wait_end();
         if (one->status == RB_ENOMEM)
             code = cli_fail(CLI_INTERNAL, "%s: %s: out of memory", path, c->solver[s]);
     }

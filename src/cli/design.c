@@ -1,6 +1,7 @@
 /* rollbem design: the least or the largest of a result over numbers of a case. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
+#include "cli/wait.h"
 #include "rollbem/design.h"
 
 #include <jansson.h>
@@ -82,6 +83,7 @@ static int tell(int evaluation, double value, const double *x, void *context)
     const designing *f = context;
     const rb_design *d = &f->design;
     if (f->tells) {
+        cli_wait_rest();
         fprintf(stderr, "evaluation %d: %s %.8g", evaluation,
                 d->result ? d->result->name : "pressure_ripple", value);
         for (int j = 0; j < d->n && j < 4; j++)
@@ -117,7 +119,11 @@ static cli_exit run(designing *f, rb_case *words, cli_output *o)
     const rb_design_observer observer = {tell, f};
     f->tells = !o->quiet && isatty(STDERR_FILENO);
     cli_interrupts_catch();
+    if (!o->quiet)
+        cli_wait_begin();
     const rb_status s = rb_design_solve(words, &observer, &f->design, &why);
+    if (!o->quiet)
+        cli_wait_end();
     cli_interrupts_leave();
     cli_exit code = CLI_OK;
     const results r = {f, words, o};

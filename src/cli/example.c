@@ -2,6 +2,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/solvers.h"
+#include "cli/wait.h"
 
 #include "rollbem/io.h"
 #include "rollbem/report_fem.h"
@@ -58,7 +59,8 @@ static const rb_option options[] = {
                  "(FCLib)",
                  .unset = "none"),
     CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
-    RB_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
+    RB_FLAG_LINE("quiet", PLACE(quiet),
+                 "nothing on how long it takes; wall: no line per step"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -194,7 +196,11 @@ static cli_exit run_history(const example_options *o, const example *e, rb_statu
     rb_fem_history history;
     if (made != RB_OK)
         return cli_say(made, &why);
+    if (!o->quiet)
+        cli_wait_begin();
     const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
+    if (!o->quiet)
+        cli_wait_end();
     const example_run r = {o, e, model, &history};
     const int begun = s >= RB_OK && history.steps > 0;
     cli_exit code = CLI_OK;

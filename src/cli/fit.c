@@ -1,6 +1,7 @@
 /* rollbem fit: numbers of a case fitted to a measured creep curve. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
+#include "cli/wait.h"
 #include "rollbem/io.h"
 
 #include <jansson.h>
@@ -220,6 +221,7 @@ static int tell(int iteration, double chi_square, int n, const double *value,
 {
     const fitting *f = context;
     if (f->tells) {
+        cli_wait_rest();
         fprintf(stderr, "step %d: sum of squares %.6g;", iteration, chi_square);
         for (int j = 0; j < n; j++)
             fprintf(stderr, " %s=%.6g", f->fit.parameter[j].name, value[j]);
@@ -235,7 +237,11 @@ static cli_exit run(fitting *f, rb_case *words, cli_output *o)
     const rb_case_fit_observer observer = {tell, f};
     f->tells = !o->quiet && isatty(STDERR_FILENO);
     cli_interrupts_catch();
+    if (!o->quiet)
+        cli_wait_begin();
     const rb_status s = rb_case_fit_solve(words, &f->data, &observer, &f->fit, &why);
+    if (!o->quiet)
+        cli_wait_end();
     cli_interrupts_leave();
     cli_exit code = CLI_OK;
     const results r = {f, words, o};

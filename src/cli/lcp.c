@@ -1,6 +1,7 @@
 /* rollbem lcp FILE...: complementarity problems and bimatrix games from files. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/wait.h"
 
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
@@ -516,7 +517,11 @@ static cli_exit solve_file(void *context, const char *path)
                     .solutions = 1};
     run->file = path;
     run->pivots = is_json(run->o) && run->o->trace ? json_array() : NULL;
+    if (!run->o->trace)
+        cli_wait_begin();
     const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
+    if (!run->o->trace)
+        cli_wait_end();
     if (is_json(run->o))
         add_problem(run, &r);
     else

@@ -72,7 +72,7 @@ typedef struct {
     int worst;           /* exit code so far */
     int unsolved, no_memory, first;
     int unsolved_case; /* the first that may be solved again to say why; 0: none */
-    double start, shown;
+    double start, shown, told_next; /* seconds; of the last one from the start */
 } study;
 
 /* What varies: reads --cases and --vary-1 ...; 0 columns are refused. */

@@ -452,7 +452,8 @@ static int flush_rows(study *st)
     return 1;
 }
 
-/* Rows reach the file at least twice a second. */
+/* Rows reach the file at least twice a second.  Where nobody looks on, a line after ten
+ * seconds and whenever these have doubled says how far the study is. */
 static int tick(int seen, void *context)
 {
     study *st = context;
@@ -465,10 +466,16 @@ static int tick(int seen, void *context)
         return 0;
     st->shown = now;
     const int terminal = isatty(STDERR_FILENO);
-    if (seen > 0 && !st->o->quiet && (terminal || st->o->progress))
-        fprintf(stderr, "%scase %d of %d, %.0f s left%s", terminal ? "\r" : "",
-                st->first + seen, st->cases, spent / seen * left,
+    const int is_due = spent >= st->told_next;
+    while (st->told_next <= spent)
+        st->told_next *= 2.0;
+    if (!st->o->quiet && (is_due || (seen > 0 && (terminal || st->o->progress)))) {
+        fprintf(stderr, "%scase %d of %d, ", terminal ? "\r" : "", st->first + seen,
+                st->cases);
+        fprintf(stderr, seen > 0 ? "%.0f s left%s" : "%.0f s so far%s",
+                seen > 0 ? spent / seen * left : spent,
                 terminal && left > 0 ? "\033[K" : "\n");
+    }
     return !flush_rows(st);
 }
 
@@ -748,6 +755,7 @@ static cli_exit run(study *st)
 
     cli_interrupts_catch();
     st->start = st->shown = rb_seconds();
+    st->told_next = isatty(STDERR_FILENO) ? 2.0 : 10.0;
     const rb_status s = cli_pool_run(&sweep, &why);
     cli_interrupts_leave();
     const double spent = rb_seconds() - st->start;

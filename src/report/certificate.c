@@ -368,6 +368,25 @@ static double rounding_of_displacements(const rb_certificate *c)
                                                        : 2e-12;
 }
 
+/* Of the half-planes that thin layers would be without their bases: what these take away
+ * is subtracted from it. */
+static double displacement_without_bases(const rb_certificate *c)
+{
+    const rb_rolling_case *rc = c->model.rc;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    const rb_contact_state *state = &c->model.state;
+    double tractions = 0.0, compliance = 0.0;
+
+    for (int i = 0; i < c->model.problem.n; i++)
+        tractions += (fabs(state->p[i]) + fabs(state->q[i])) * c->model.bodies.f.h[i];
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
+        if (bodies[b]->layer > 0.0)
+            compliance += (1.0 - material.poisson) / material.shear;
+    }
+    return tractions * compliance;
+}
+
 /* The residual that the result prints is believed where it is below what was asked for.
  * Hierarchical matrices approximate: other ends of elements, by a rounding, other digits.
  */
@@ -382,8 +401,9 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
     c->displacement =
-        rounding_of_displacements(c) * (largest(json_object_get(c->table, "un_mm")) +
-                                        largest(json_object_get(c->table, "ut_mm")));
+        rounding_of_displacements(c) *
+        (largest(json_object_get(c->table, "un_mm")) +
+         largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
     c->tol = (c->hierarchical ? 100.0 : 10.0) * asked +
              c->displacement / fmin(p->gap_length, p->slip_length);
 }
@@ -607,23 +627,26 @@ static int slipping_at_trailing_edge(const rb_rolling_solution *s)
 /* The library's own formula against one that shares nothing with it.  What sticks up to
  * the trailing edge is set free there, in a slip zone that the elements do not resolve:
  * differences along the contact count that work as hysteresis, waves do not. */
-static void check_hysteresis(rb_certificate *c)
+static rb_status check_hysteresis(rb_certificate *c)
 {
     const double printed = c->summary ? rb_certificate_member(c->summary, "hysteresis")
                                       : c->again.hysteresis;
-    double allowed;
+    double waves, allowed;
 
     if (c->model.rc->formulation != RB_STEADY || !(c->again.n > 0) ||
         !rb_rolling_relaxes(c->model.rc))
-        return;
-    const double waves = rb_certificate_hysteresis(c, &allowed);
+        return RB_OK;
+    const rb_status s = rb_certificate_hysteresis(c, &waves, &allowed);
+    if (s != RB_OK)
+        return s;
     if (printed > waves) {
         const int slipping = slipping_at_trailing_edge(&c->again);
         if (slipping < UNRESOLVED)
-            return;
+            return RB_OK;
         allowed += 0.4 * (fabs(waves) + fabs(c->again.dissipation)) / slipping / slipping;
     }
     rb_certificate_expect(c, "hysteresis by waves", 0, printed, waves, allowed);
+    return RB_OK;
 }
 
 static rb_status compare_results(rb_certificate *c)
@@ -631,7 +654,8 @@ static rb_status compare_results(rb_certificate *c)
     json_t *summary = rb_report_json_summary(&c->again);
     json_t *table = c->summary ? rb_report_json_table(&c->again)
                                : rb_report_json_table_columns(&c->again);
-    if (summary && table) {
+    rb_status s = summary && table ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
         if (c->summary)
             rb_certificate_compare(c, "summary", 0, c->summary, summary,
                                    slack_of_summary);
@@ -639,12 +663,11 @@ static rb_status compare_results(rb_certificate *c)
         if (c->summary)
             compare_solver(c);
         rb_certificate_motion(c);
-        check_hysteresis(c);
+        s = check_hysteresis(c);
     }
-    const rb_status t = summary && table ? RB_OK : RB_ENOMEM;
     json_decref(summary);
     json_decref(table);
-    return t;
+    return s;
 }
 
 rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved,

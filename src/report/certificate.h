@@ -93,7 +93,8 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
 
 /* Power per unit speed that the bodies lose in steady rolling, from the state at hand;
  * allowed: what elements of this size may make of it. */
-double rb_certificate_hysteresis(const rb_certificate *c, double *allowed);
+rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power,
+                                    double *allowed);
 
 /* ---- certificate_stress.c ---------------------------------------------------------- */
 

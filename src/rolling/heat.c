@@ -229,6 +229,23 @@ static rb_status share_heat(const conductor *a, const conductor *b,
     return status;
 }
 
+/* Friction heats, it never cools.  Powers of elements that begin or end the contact may
+ * be negative on coarse meshes, because they hold a part of what opens beside them: then
+ * the others have as much less. */
+static void heat_of_power(const rb_rolling_case *rc, int n, const double *power,
+                          double *heat)
+{
+    double all = 0.0, heats = 0.0;
+
+    for (int i = 0; i < n; i++) {
+        all += power[i];
+        heats += fmax(power[i], 0.0);
+    }
+    const double share = all > 0.0 ? all / heats : 1.0;
+    for (int i = 0; i < n; i++)
+        heat[i] = rc->speed * (all > 0.0 ? share * fmax(power[i], 0.0) : power[i]);
+}
+
 static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
 {
     return a->conductivity == b->conductivity && a->heat_capacity == b->heat_capacity &&
@@ -246,8 +263,8 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
 
     if (status == RB_OK && b_conducts)
         status = conductor_create(rc, &rc->heat_b, s, &b);
-    for (int i = 0; i < n && status == RB_OK; i++)
-        heat[i] = power[i] * rc->speed;
+    if (status == RB_OK)
+        heat_of_power(rc, n, power, heat);
     if (status == RB_OK && b_conducts && !is_alike(&rc->heat_a, &rc->heat_b))
         status = share_heat(&a, &b, s, heat, heat_a);
     else
