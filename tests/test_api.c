@@ -834,6 +834,11 @@ static void a_stopped_run_is_interrupted(void **state)
     signal(SIGALRM, SIG_DFL);
     assert_int_equal(s, RB_INTERRUPTED);
     assert_string_equal(rb_api_word(stopped, "status"), "interrupted");
+    int done, total, rows, columns;
+    rb_api_progress(stopped, &done, &total);
+    assert_non_null(rb_api_array(stopped, "history.distance", &rows, &columns));
+    CHECK_ABS(done, rows, 0.0, "the steps that are done, of %d", total);
+    assert_true(done >= 1 && total > 1000);
     rb_api_free(stopped);
 }
 

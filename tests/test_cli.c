@@ -369,6 +369,29 @@ verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify *
 {
     (void)state;
     check_refused("verify now", 64, "unexpected 'now'");
+    json_t *root = run_json("examples"), *all = json_object_get(root, "examples");
+    assert_true(json_array_size(all) > 10);
+    for (size_t k = 0; k < json_array_size(all); k++) {
+        const json_t *one = json_array_get(all, k);
+        const char *kind = json_string_value(json_object_get(one, "kind"));
+        const char *about = json_string_value(json_object_get(one, "about"));
+        assert_true(strcmp(kind, "case") == 0 || strcmp(kind, "finite elements") == 0);
+        assert_true(strlen(about) > 20 && about[strlen(about) - 1] != ' ');
+    }
+    json_decref(root);
+    root = run_json("verify");
+    all = json_object_get(root, "references");
+    assert_true(json_array_size(all) > 100);
+    for (size_t k = 0; k < json_array_size(all); k++) {
+        const json_t *one = json_array_get(all, k);
+        const double wanted = number_in(one, "wanted"), error = number_in(one, "error");
+        assert_true(json_is_true(json_object_get(one, "holds")));
+        assert_true(error <= number_in(one, "bound"));
+        const double off = fabs(number_in(one, "got") - wanted);
+        if (json_is_true(json_object_get(one, "relative")))
+            CHECK_ABS(error * fabs(wanted), off, 1e-12 * fabs(wanted), "error of %zu", k);
+    }
+    json_decref(root);
 }
 
 /* As first word the completion for bash offers every command that the help lists. */

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _values, pictures
-from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Unsolved,
-                       doubles, handles)
+from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
+                       Unsolved, doubles, handles)
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
@@ -89,15 +89,15 @@ class Case:
         handle.check(handle.ask("rb_api_resolve"))
         return _value(option, handle)
 
-    def solve(self) -> "Solution":
+    def solve(self, progress: Progress = None) -> "Solution":
         """See :func:`solve`."""
-        solution = self._solve("solve")
+        solution = self._solve("solve", progress)
         solution._warn()
         return solution
 
-    def _solve(self, purpose: str) -> "Solution":
+    def _solve(self, purpose: str, progress: Progress = None) -> "Solution":
         handle = self.handle(purpose)
-        return _kept(Solution(self, handle), handle, handle.run("rb_api_solve"))
+        return _kept(Solution(self, handle), handle, handle.run("rb_api_solve", progress=progress))
 
     def __repr__(self) -> str:
         words = [repr(os.fspath(self.file))] if self.file is not None else []
@@ -359,7 +359,9 @@ class History(_Named):
         return pictures.history(self, figure)
 
     def __repr__(self) -> str:
-        return f"<History: {len(self.residual)} steps>"
+        way = f" over {self.distance[-1]:.5g} half-widths" if self.distance[-1] > 0.0 else " at rest"
+        return (f"<History: {len(self.residual)} steps{way}; at the end P = {self.normal_load[-1]:.6g} N/mm, "
+                f"Q = {self.tangential_load[-1]:.6g} N/mm, {self.stick[-1]} stick, {self.slip[-1]} slip>")
 
 
 class Curve(_Named):
@@ -386,7 +388,11 @@ class Curve(_Named):
         return pictures.curves([self], figure)
 
     def __repr__(self) -> str:
-        return f"<Curve: mu = {self.mu}, {len(self.residual)} points>"
+        over = self._arrays[self.over.replace("-", "_")]
+        found = self.force_ratio[np.isfinite(self.force_ratio)]
+        largest = f"; largest |Q|/(mu P) {np.abs(found).max():.5g}" if len(found) else ""
+        return (f"<Curve: {len(over)} points, {self.over.replace('-', '_')} {over.min():.5g} ... {over.max():.5g}, "
+                f"mu = {self.mu}{largest}>")
 
 
 class Extremum(tuple):
@@ -476,19 +482,22 @@ class Sweep(_Named):
         return pictures.study(self, show, over, family, map, figure)
 
     def __repr__(self) -> str:
-        return f"<Sweep: {' x '.join(f'{len(v)} {k}' for k, v in self.axes.items())} cases>"
+        over = " x ".join(f"{len(v)} {k}" for k, v in self.axes.items())
+        return f"<Sweep: {over}; {np.count_nonzero(self.status == SOLVED)} of {self.status.size} solved>"
 
 
 # ---- Questions ----------------------------------------------------------------------------
 
 
-def solve(case: Union[Case, str, os.PathLike, None] = None, **options: Any) -> Solution:
+def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progress = None,
+          **options: Any) -> Solution:
     """Solves one case: ``solve(mu=0.3, creep=0.1)``, ``solve("rail.ini", load=800)``.
 
+    Of a sequence of steps, ``progress(done, total)`` is called now and then.
     Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
     without a full answer.
     """
-    return _case(case, options).solve()
+    return _case(case, options).solve(progress)
 
 
 def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
@@ -511,12 +520,13 @@ def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, 
     return _kept(Curve(case, handle, over), handle, status)
 
 
-def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None,
-            **options: Any) -> History:
+def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None, *,
+            progress: Progress = None, **options: Any) -> History:
     """Runs a case along a program, a dictionary of columns, or along its own distance.
 
     ``history({"distance": [0, 4], "creep": [0, 1e-3]}, load=500, support="halfplane")`` rolls
     over 4 half-widths; without ``distance`` the rows are increments of a static contact.
+    ``progress(done, total)`` is called with the number of steps now and then.
     """
     if program is not None:
         options = {**options, "history": program}
@@ -525,7 +535,7 @@ def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike,
         rolls = program is None or "distance" in program
         whole = whole.but(formulation="transient" if rolls else "static")
     try:
-        found = whole.solve().history
+        found = whole.solve(progress).history
     except Exception as error:  # the finished steps are kept
         if getattr(error, "solution", None) is not None:
             error.solution = error.solution.history
@@ -566,11 +576,12 @@ def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tu
 
 def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float, slide: Optional[float] = None,
          cycles: Optional[float] = None, law: str = "archard", share: float = 0.0, steps: int = 20,
-         quarter: int = 8, **options: Any) -> Wear:
+         quarter: int = 8, progress: Progress = None, **options: Any) -> Wear:
     """Wears A, and B by its ``share``, as ``rollbem wear`` does.
 
     ``coefficient`` [1/MPa] is the worn volume per load and way (or per work: law="dissipation"). A
     slides over B by ``slide`` [mm], or it frets (static) or rolls (steady) for so many ``cycles``.
+    ``progress(done, total)`` is called with the number of steps now and then.
     """
     if (slide is None) == (cycles is None):
         raise InvalidInput("wear: expected slide= or cycles=, one of them")
@@ -580,17 +591,19 @@ def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float
            for name, value in (("slide", slide), ("cycles", cycles))]
     status = handle.run("rb_api_wear", _values.word("law", law, "archard or dissipation"),
                         _values.number("coefficient", coefficient), _values.number("share", share), *way,
-                        _values.whole("steps", steps, 1), _values.whole("quarter", quarter, 1))
+                        _values.whole("steps", steps, 1), _values.whole("quarter", quarter, 1), progress=progress)
     if status < SOLVED:
         raise handle.error(status)
     return _kept(Wear(whole, handle), handle, status)
 
 
-def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **options: Any) -> Sweep:
+def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, progress: Progress = None,
+          **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
-    One process per processor, or ``workers``.
+    One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
+    cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
     """
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
@@ -603,7 +616,7 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **
     for values in itertools.product(*axes.values()):
         cases.append(base.handle("sweep", **dict(zip(axes, values))))
     study = Handle("sweep")
-    study.check(study.run("rb_api_sweep", len(cases), handles(cases), workers))
+    study.check(study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress))
     return Sweep(axes, study)
 
 

@@ -39,6 +39,7 @@ FUNCTIONS = {
     "rb_api_resolve": (_Int, _Handle),
     "rb_api_solve": (_Int, _Handle),
     "rb_api_stop": (None, _Handle),
+    "rb_api_progress": (None, _Handle, ctypes.POINTER(_Int), ctypes.POINTER(_Int)),
     "rb_api_message": (_Text, _Handle),
     "rb_api_option": (_Text, _Int, _Text, _Text, _Int),
     "rb_api_result": (_Text, _Text, _Int, _Text, _Text, _Int),
@@ -250,6 +251,10 @@ _ARRAYS = (list(RESULTS["column"]) + [f"patch.{name}" for name in RESULTS["patch
            + ["step.x", "step.p", "step.q", "step.zone", "friction_power", "ends", "gap0"])
 
 
+Progress = Optional[Callable[[int, int], object]]
+_LOOK = 0.05  # s between two looks at how far a call is
+
+
 class Handle(_Answers):
     """An ``rb_api``: freed with the last array that looks into it.
 
@@ -303,14 +308,22 @@ class Handle(_Answers):
         name = option.replace("_", "-").encode(errors="replace")
         self.check(self.ask("rb_api_set", name, text.encode(errors="surrogateescape")))
 
-    def run(self, function: str, *arguments: Any) -> int:
-        """Calls a function that may take long; Control-C ends it.
+    def progress(self) -> "tuple[int, int]":
+        """Steps or cases that the running call has done, and of how many."""
+        done, total = _Int(), _Int()
+        lib.rb_api_progress(self.at, done, total)
+        return done.value, total.value
+
+    def run(self, function: str, *arguments: Any, progress: Progress = None) -> int:
+        """Calls a function that may take long; Control-C ends it, and so does an error of ``progress``.
 
         Python sees signals between its own instructions only, so that the call runs in a
         thread of its own while the main thread waits for it.
         """
+        if progress is not None and not callable(progress):
+            raise InvalidInput(f"progress=: expected a function of done and total, got {progress!r}")
         call = getattr(lib, function)
-        if threading.current_thread() is not threading.main_thread():
+        if progress is None and threading.current_thread() is not threading.main_thread():
             return call(self.at, *arguments)
         status: list = []
         handle = self  # held until the call is over, also where nobody waits for it
@@ -321,6 +334,14 @@ class Handle(_Answers):
         thread = threading.Thread(target=work, daemon=True)
         thread.start()
         try:
+            seen, runs = (0, 0), progress is not None
+            while runs:
+                thread.join(_LOOK)
+                runs = thread.is_alive()
+                now = self.progress()
+                if now != seen and now[1]:
+                    seen = now
+                    progress(*now)
             thread.join()
         except BaseException:
             lib.rb_api_stop(self.at)

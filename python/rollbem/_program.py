@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import os
-import re
 import shutil
 import subprocess
 from typing import Any, NamedTuple, Optional, Union
@@ -97,19 +96,14 @@ class References(list):
                 f"{cells}</table>")
 
 
-_REFERENCE = re.compile(r"(?P<ok>\S+)\s+(?P<what>.*?)\s+wanted (?P<wanted>\S+)\s+got (?P<got>\S+)\s+"
-                        r"(?:\S+ )?error\s+(?P<error>\S+)\s+bound\s+(?P<bound>\S+)")
-
-
 def verify() -> References:
     """Computes every closed-form and published reference: takes some seconds."""
-    found = References()
-    for line in _run("verify")[1].splitlines():
-        row = _REFERENCE.match(line)
-        if row:
-            numbers = (float(row[name]) for name in ("wanted", "got", "error", "bound"))
-            found.append(Reference(row["what"], *numbers, row["ok"] == "ok"))
-    return found
+    return References(Reference(row["what"], *(_number(row[name]) for name in ("wanted", "got", "error", "bound")),
+                                row["holds"]) for row in json.loads(_run("verify", "--json")[1])["references"])
+
+
+def _number(value: Optional[float]) -> float:
+    return float("nan") if value is None else float(value)
 
 
 class ContactCases(list):
@@ -140,15 +134,5 @@ def contact(file: _Path, tractions: bool = False) -> ContactCases:
 
 def examples() -> "dict[str, str]":
     """The built-in examples: their names, for ``--example``, and what they are."""
-    found: "dict[str, str]" = {}
-    name: Optional[str] = None
-    for line in _run("examples")[1].splitlines():
-        begins = re.match(r"  --example (\S+)\s+(.*)", line)
-        if begins:
-            name = begins[1]
-            found[name] = begins[2]
-        elif name and line.startswith(" " * 20):
-            found[name] += " " + line.strip()
-        else:
-            name = None
-    return found
+    return {row["name"]: row["about"] for row in json.loads(_run("examples", "--json")[1])["examples"]
+            if row["kind"] == "case"}

@@ -11,14 +11,17 @@ from rollbem._library import OPTIONS, RESULTS
 
 _HEAD = """# Made from the tables of the library by rollbem._stubs.
 import os
-from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 from . import pictures as pictures
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
+Progress = Optional[Callable[[int, int], object]]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
+_Path = Union[str, os.PathLike]
+_CaseLike = Union["Case", str, os.PathLike, None]
 _Numbers = Union[float, Sequence[float], Array]
 """
 
@@ -26,6 +29,8 @@ _Numbers = Union[float, Sequence[float], Array]
 _RESULTS: "dict[str, tuple[tuple, tuple]]" = {
     "Solution": (("column",), ("number",)), "History": (("step",), ()), "Curve": (("point",), ()),
     "Stress": (("stress",), ()), "Sweep": (("number",), ()), "Wear": (("wear",), ())}
+# What of a class is used by its signs: s["mu"], len(c), bool(check).
+_SPECIAL = ("__getitem__", "__len__", "__iter__", "__bool__", "__contains__")
 
 
 def _option_type(name: str, many: bool) -> str:
@@ -92,7 +97,7 @@ def _class(name: str, kind: type) -> Iterator[str]:
     for member, value in inherited.items():
         if isinstance(value, property) and not member.startswith("_"):
             lines += ["    @property", f"    def {member}(self) -> {_type(inspect.signature(value.fget).return_annotation)}: ..."]
-        elif inspect.isfunction(value) and not member.startswith("_") and not named:
+        elif inspect.isfunction(value) and (not member.startswith("_") or member in _SPECIAL) and not named:
             lines += _function(member, value, "    ", "self")
     if name in _RESULTS:  # error bars and results of later versions
         lines.append("    def __getattr__(self, name: str) -> Any: ...")

@@ -93,7 +93,7 @@ def test_verify_gives_every_reference():
 def test_examples_have_names_and_whole_sentences():
     found = rollbem.examples()
     assert {"carter", "rail", "hertz"} <= set(found)
-    assert all(text.rstrip().endswith((".", ")")) or len(text) > 60 for text in found.values())
+    assert all(text.endswith((".", ")")) for text in found.values())
 
 
 def test_without_the_program_the_line_says_so(monkeypatch, tmp_path):
@@ -102,6 +102,52 @@ def test_without_the_program_the_line_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(importlib.import_module("rollbem._program"), "LIBRARY", str(tmp_path / "librollbem.so"))
     with pytest.raises(rollbem.MissingFile, match="ROLLBEM_PROGRAM"):
         rollbem.verify()
+
+
+# ---- What is shown of a result ----------------------------------------------------------------
+
+
+def test_results_say_what_they_are():
+    rolled = {k: v for k, v in ROLLED.items() if k != "creep_ratio"}
+    for result, said in (
+            (rollbem.curve(points=5, **rolled), "5 points, creep_ratio 0 ... 1.5, mu = 0.3; largest |Q|/(mu P) 1>"),
+            (rollbem.history({"distance": [0, 1], "creep_ratio": [0, 0.4]}, support="halfplane", load=500.0, steps=4),
+             "5 steps over 1 half-widths; at the end P = 500 N/mm, Q = -"),
+            (rollbem.sweep(mu=[0.1, 0.3], **ROLLED), "2 mu; 2 of 2 solved")):
+        assert said in repr(result) and "\n" not in repr(result) and len(repr(result)) < 140
+
+
+# ---- Progress -----------------------------------------------------------------------------
+
+
+def test_progress_is_told_while_it_runs():
+    seen = []
+    rollbem.sweep(mu=[0.1 + k / 1e3 for k in range(60)], contact_elements=60, progress=lambda *at: seen.append(at))
+    assert seen[-1] == (60, 60) and seen == sorted(seen) and {total for _, total in seen} == {60}
+    for call, total in ((lambda p: rollbem.history({"distance": [0, 2], "creep_ratio": [0, 0.4]}, steps=50, load=500.0,
+                                                   support="halfplane", progress=p), 51),
+                        (lambda p: rollbem.wear(coefficient=1e-10, slide=1e6, steps=6, progress=p, **PRESSED), 6)):
+        seen.clear()
+        call(lambda *at: seen.append(at))
+        assert seen[-1] == (total, total)
+
+
+def test_progress_for_tqdm():
+    tqdm = module("tqdm")
+    with tqdm.tqdm(total=20, disable=None) as bar:
+        rollbem.sweep(mu=[0.1 + k / 1e3 for k in range(20)], contact_elements=30,
+                      progress=lambda done, total: bar.update(done - bar.n))
+        assert bar.disable or bar.n == 20
+
+
+def test_an_error_of_progress_ends_the_run():
+    def full(done, total):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        rollbem.sweep(mu=[0.1 + k / 1e5 for k in range(9000)], contact_elements=60, progress=full)
+    with pytest.raises(rollbem.InvalidInput, match="progress=: expected a function of done and total, got 3"):
+        rollbem.solve(mu=0.3, progress=3)
 
 
 # ---- Tables, notebooks, types -------------------------------------------------------------
@@ -160,3 +206,27 @@ def test_types_for_editors():
     fields = {node.target.id for node in solution.body if isinstance(node, ast.AnnAssign)}
     assert {"p", "q", "normal_load", "yield_"} <= fields
     assert "Literal['arc', 'hub', 'halfplane']" in stub
+
+
+def test_types_are_those_of_a_checker(tmp_path):
+    if not shutil.which("mypy"):
+        pytest.skip("no mypy")
+    package = tmp_path / "rollbem"
+    shutil.copytree(ROOT / "python/rollbem", package, ignore=shutil.ignore_patterns("__pycache__"))
+    stub = subprocess.run([sys.executable, "-m", "rollbem._stubs"], cwd=ROOT / "python", capture_output=True, check=True).stdout
+    (package / "__init__.pyi").write_bytes(stub)
+    (tmp_path / "use.py").write_text(
+        "import rollbem\n"
+        "s = rollbem.solve(mu=0.3, creep=0.1, progress=lambda done, total: None)\n"
+        "largest: float = s.p.max() + s.normal_load\n"
+        "value: float = rollbem.fit({'creep': [1.0], 'force': [2.0]}, 'mu')['mu'].value\n"
+        "held: bool = bool(rollbem.verify())\n"
+        "about: str = rollbem.examples()['rail']\n"
+        "rollbem.sweep(mu=[0.1, 0.2], progress=print)\n"
+        "rollbem.solve(support='banana')\n"
+        "rollbem.solve(progres=3)\n")
+    told = subprocess.run(["mypy", "--follow-imports=silent", "--cache-dir", str(tmp_path / "cache"), "use.py",
+                           "rollbem/__init__.pyi"], cwd=tmp_path, capture_output=True, text=True).stdout
+    errors = [line for line in told.splitlines() if "error:" in line]
+    assert len(errors) == 2 and all(line.startswith("use.py") for line in errors), told
+    assert "'banana'" in errors[0] and "progres" in errors[1]

@@ -125,7 +125,7 @@ void rb_api_call_ends(void)
 static void begin(rb_api *a)
 {
     a->why.text[0] = '\0';
-    a->stopped = 0;
+    a->stopped = a->done = a->total = 0;
 }
 
 /* Options that change neither bodies nor mesh: the flexibility may serve again. */
@@ -250,8 +250,9 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
                      int step, int steps, void *context)
 {
     (void)history;
-    (void)steps;
     rb_api *a = context;
+    a->total = steps;
+    a->done = step + 1;
     if (a->stopped || !model) /* no model: a run for error bars */
         return a->stopped;
     const int n = model->mesh.n;
@@ -279,6 +280,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
 int rb_api_solve(rb_api *a)
 {
     a->note.text[0] = '\0';
+    a->done = a->total = 0;
     if (rb_api_resolve(a) < 0)
         return a->status;
     a->result.model = a->kept;
@@ -295,6 +297,12 @@ int rb_api_solve(rb_api *a)
 void rb_api_stop(rb_api *a)
 {
     a->stopped = 1;
+}
+
+void rb_api_progress(const rb_api *a, int *done, int *total)
+{
+    *done = a->done;
+    *total = a->total;
 }
 
 int rb_api_status(const rb_api *a)
@@ -1138,9 +1146,10 @@ static int stop_wear(rb_rolling_solution *s, const rb_rolling_wear_history *h, i
 {
     (void)s;
     (void)h;
-    (void)step;
-    (void)steps;
-    return ((const rb_api *)context)->stopped;
+    rb_api *a = context;
+    a->total = steps;
+    a->done = step;
+    return a->stopped;
 }
 
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,

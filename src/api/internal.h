@@ -36,10 +36,11 @@ struct rb_api {
     int *nonbasis; /* the last pivot's, both owned */
     int iterations;
     double residual, scaled_residual;
-    int by_acary;        /* (13) decides whether friction problems are solved */
-    rb_message note;     /* on the last problem that was handed over; empty: none */
-    const char *solver;  /* of the last problem that was handed over; static text */
-    _Atomic int stopped; /* by another thread, or a signal handler */
+    int by_acary;            /* (13) decides whether friction problems are solved */
+    rb_message note;         /* on the last problem that was handed over; empty: none */
+    const char *solver;      /* of the last problem that was handed over; static text */
+    _Atomic int stopped;     /* by another thread, or a signal handler */
+    _Atomic int done, total; /* of the running call, for another thread */
     rb_status status;
     rb_message why;
     api_refusal refused[API_REFUSALS];

@@ -18,7 +18,7 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
     a->why.text[0] = a->note.text[0] = '\0';
-    a->stopped = 0;
+    a->stopped = a->done = a->total = 0;
     a->iterations = 0;
     a->residual = a->scaled_residual = NAN;
     a->solver = solver;
@@ -203,7 +203,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
 static int tick(int seen, void *context)
 {
     const study *st = context;
-    (void)seen;
+    st->a->done = seen;
     return st->a->stopped;
 }
 
@@ -236,6 +236,7 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
                         k + 1);
     if (s == RB_OK && n > 0)
         s = make_columns(a, n);
+    a->total = n;
     if (s == RB_OK)
         s = run_study(&sweep, &a->why);
     return rb_api_ended(a, s);

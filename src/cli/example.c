@@ -482,33 +482,78 @@ int cli_example(int argc, char **argv)
 /* ---- rollbem examples ----------------------------------------------------------------
  */
 
+static const struct {
+    const char *name, *about;
+} finite_elements[] = {
+    {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)"},
+    {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)"},
+    {"wall",
+     "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)"}};
+enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
+
+static void print_examples(void)
+{
+    char name[60], text[1000];
+    FILE *pager = cli_open_pager();
+    puts("rollbem --example NAME solves one; every command that takes a case takes it.");
+    for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
+        cli_print_entry(name, text);
+    puts("rollbem example NAME solves finite elements with friction.");
+    for (int k = 0; k < FINITE_ELEMENTS; k++) {
+        snprintf(name, sizeof name, "example %s", finite_elements[k].name);
+        cli_print_entry(name, finite_elements[k].about);
+    }
+    cli_close_pager(pager);
+}
+
+static void list_example(json_t **list, const char *name, const char *kind,
+                         const char *what)
+{
+    json_t *one = json_object();
+    const size_t n = strlen(what);
+    rb_report_json_set(&one, "name", json_string(name));
+    rb_report_json_set(&one, "kind", json_string(kind));
+    rb_report_json_set(&one, "about",
+                       json_stringn(what, n > 0 && what[n - 1] == ' ' ? n - 1 : n));
+    rb_report_json_append(list, one);
+}
+
+static rb_status write_examples(FILE *out, const void *context, rb_message *why)
+{
+    json_t *root = rb_report_json_start(cli_command_line()), *list = json_array();
+    char name[60], text[1000];
+    (void)context;
+    (void)why;
+    for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
+        list_example(&list, strrchr(name, ' ') + 1, "case", text);
+    for (int k = 0; k < FINITE_ELEMENTS; k++)
+        list_example(&list, finite_elements[k].name, "finite elements",
+                     finite_elements[k].about);
+    rb_report_json_set(&root, "examples", list);
+    return rb_report_json_write(out, root);
+}
+
 int cli_examples(int argc, char **argv)
 {
-    static const cli_spec spec = {
-        .synopsis = "rollbem examples",
-        .about = "Lists the cases that --example NAME starts from, and what they are."};
-    char name[60], text[1000];
+    static const rb_option json_option[] = {
+        RB_GROUP_LINE("output", "Output"),
+        RB_FLAG_LINE("json", 0, "names and descriptions as JSON"),
+    };
+    int json = 0;
+    const cli_spec spec = {
+        .synopsis = "rollbem examples [--json]",
+        .about = "Lists the cases that --example NAME starts from, and what they are.",
+        .sets = {{json_option, sizeof json_option / sizeof json_option[0], &json, NULL,
+                  NULL}},
+        .set_n = 1};
     cli_args args = {0};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands > 0)
         code = cli_fail(CLI_USAGE, "examples: unexpected '%s'", args.operand[0]);
+    if (code == CLI_CONTINUE && json)
+        code = cli_write_file(NULL, write_examples, NULL);
     if (code == CLI_CONTINUE) {
-        FILE *pager = cli_open_pager();
-        puts("rollbem --example NAME solves one; every command that takes a case takes "
-             "it.");
-        for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
-            cli_print_entry(name, text);
-        puts("rollbem example NAME solves finite elements with friction.");
-        cli_print_entry(
-            "example bar",
-            "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)");
-        cli_print_entry(
-            "example truss",
-            "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)");
-        cli_print_entry(
-            "example wall",
-            "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)");
-        cli_close_pager(pager);
+        print_examples();
         code = CLI_OK;
     }
     cli_args_free(&args);

@@ -1,9 +1,15 @@
 /* rollbem verify: references, wanted and got. */
+#include "cli/cli.h"
 #include "cli/output.h"
-
 #include "rollbem/verify.h"
 
+#include <jansson.h>
 #include <string.h>
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("json", 0, "every reference as JSON"),
+};
 
 static void print_check(const rb_verify_check *c, void *context)
 {
@@ -26,25 +32,61 @@ static void print_check(const rb_verify_check *c, void *context)
     putchar('\n');
 }
 
+static void list_check(const rb_verify_check *c, void *context)
+{
+    json_t *one = json_object();
+    rb_report_json_set(&one, "what", json_string(c->what));
+    rb_report_json_set(&one, "wanted", rb_report_json_number(c->wanted));
+    rb_report_json_set(&one, "got", rb_report_json_number(c->got));
+    rb_report_json_set(&one, "error", rb_report_json_number(c->error));
+    rb_report_json_set(&one, "bound", rb_report_json_number(c->bound));
+    rb_report_json_set(&one, "relative", json_boolean(c->relative));
+    rb_report_json_set(&one, "holds", json_boolean(c->holds));
+    rb_report_json_set(&one, "why", c->why ? json_string(c->why) : json_null());
+    rb_report_json_append(context, one);
+}
+
+static int print_all(void)
+{
+    int count = 0;
+    if (cli_reader_is_person())
+        printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
+    const int failed = rb_verify_run(print_check, &count);
+    printf("%d of %d references hold\n", count - failed, count);
+    return failed;
+}
+
+static rb_status write_json(FILE *out, const void *context, rb_message *why)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    (void)why;
+    rb_report_json_set(&root, "references", json_incref(*(json_t *const *)context));
+    return rb_report_json_write(out, root);
+}
+
 int cli_verify(int argc, char **argv)
 {
-    static const cli_spec spec = {
-        .synopsis = "rollbem verify",
+    int json = 0;
+    const cli_spec spec = {
+        .synopsis = "rollbem verify [--json]",
         .about =
             "Computes every closed-form and published reference of docs/theory.md 6 and\n"
             "prints what was wanted, what came out, the error and its bound, one line\n"
-            "each. Exit code 0 only if all hold."};
+            "each. Exit code 0 only if all hold.",
+        .sets = {{options, sizeof options / sizeof options[0], &json, NULL, NULL}},
+        .set_n = 1};
     cli_args args = {0};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands > 0)
         code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
+    if (code == CLI_CONTINUE && !json)
+        code = print_all() ? CLI_UNSOLVED : CLI_OK;
     if (code == CLI_CONTINUE) {
-        int count = 0;
-        if (cli_reader_is_person())
-            printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
-        const int failed = rb_verify_run(print_check, &count);
-        printf("%d of %d references hold\n", count - failed, count);
-        code = failed ? CLI_UNSOLVED : CLI_OK;
+        json_t *all = json_array();
+        const int failed = rb_verify_run(list_check, &all);
+        code = cli_write_file(NULL, write_json, &all);
+        json_decref(all);
+        code = code == CLI_OK && failed ? CLI_UNSOLVED : code;
     }
     cli_args_free(&args);
     return code;
