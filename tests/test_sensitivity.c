@@ -172,6 +172,40 @@ static void derivatives_are_those_of_solutions(void **state)
     }
 }
 
+/* A layer that yields needs the matrix that its solution has not. */
+static void a_model_without_a_matrix_is_given_one(void **state)
+{
+    (void)state;
+    static const words w[] = {
+        {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
+          "contact-elements", "160"}},
+        {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
+          "contact-elements", "160", "tol", "1e-13"}}};
+    rb_case_result r[2];
+    rb_case_derivatives all[2];
+    for (int k = 0; k < 2; k++) {
+        rb_message why = {""};
+        rb_case *c = solved(&w[k], NULL, 0.0, &r[k]);
+        assert_int_equal(r[k].model.bodies.F != NULL, k);
+        if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &why) != RB_OK)
+            fail_msg("%s", why.text);
+        assert_int_equal(r[k].model.bodies.F != NULL, k);
+        rb_case_free(c);
+    }
+    assert_int_equal(all[0].n, all[1].n);
+    for (int j = 0; j < all[0].n; j++) {
+        const rb_rolling_solution *a = all[0].of[j].d.value, *b = all[1].of[j].d.value;
+        assert_string_equal(all[0].of[j].name, all[1].of[j].name);
+        CHECK_STATUS(all[0].of[j].status, RB_OK);
+        CHECK_ABS(a->tangential_load, b->tangential_load,
+                  1e-6 * fabs(b->tangential_load) + 1e-12, "Q by %s", all[0].of[j].name);
+    }
+    for (int k = 0; k < 2; k++) {
+        rb_case_derivatives_free(&all[k]);
+        rb_case_result_free(&r[k]);
+    }
+}
+
 /* ---- Forward and adjoint
  * --------------------------------------------------------------- */
 
@@ -523,6 +557,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives_are_those_of_solutions),
+        cmocka_unit_test(a_model_without_a_matrix_is_given_one),
         cmocka_unit_test(forward_is_adjoint),
         cmocka_unit_test(vectors_add_up),
         cmocka_unit_test(carter_slopes),

@@ -766,6 +766,10 @@ int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);
+/* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
+ * elements. */
+rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of,
+                                         rb_rolling_model *variant, rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
 /* Sets p, q, delta and xi of the variant to those of the model plus `part` times those of
  * `along` (NULL: 0). */

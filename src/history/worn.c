@@ -22,8 +22,9 @@ typedef struct {
     double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
     double *compliance; /* n: depth that a step wears per pressure [length/stress] */
     double *path;       /* n: way that the surfaces slide in a cycle [length] */
-    double *F;          /* flexibility with the compliance on its diagonal */
-    double work;        /* of friction in a cycle [force] */
+    double *softer; /* flexibility with the compliance on its diagonal, or, where there
+                       is no matrix, 2n: the interface's with it */
+    double work;    /* of friction in a cycle [force] */
     double track;   /* volume per unit width that B has lost where A slides or rolls on a
                        plane [length^2] */
     double passage; /* depth of that track in one passage of A [length] */
@@ -39,7 +40,7 @@ static void run_free(wear_state *r)
     free(r->depth);
     free(r->compliance);
     free(r->path);
-    free(r->F);
+    free(r->softer);
 }
 
 /* Arrays for the mesh of the model. */
@@ -54,8 +55,8 @@ static rb_status take_mesh(wear_state *r)
         *arrays[k] = rb_alloc(n, 1);
         complete = complete && *arrays[k];
     }
-    r->F = rb_alloc(2 * m, 2 * n);
-    if (!complete || !r->F)
+    r->softer = r->model.bodies.F ? rb_alloc(2 * m, 2 * n) : rb_alloc(n, 2);
+    if (!complete || !r->softer)
         return RB_ENOMEM;
     memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
     for (size_t i = 0; i < n; i++)
@@ -109,7 +110,7 @@ static rb_status widen(wear_state *r, rb_message *why)
     wider.rc.contact_elements = n + 2 * more;
     wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
     memset(&wider.model, 0, sizeof wider.model);
-    wider.x = wider.depth = wider.compliance = wider.path = wider.F = NULL;
+    wider.x = wider.depth = wider.compliance = wider.path = wider.softer = NULL;
     rb_status s = press(&wider, why);
     for (int i = 0; i < n && s == RB_OK; i++)
         wider.depth[i + more] = r->depth[i];
@@ -121,10 +122,31 @@ static rb_status widen(wear_state *r, rb_message *why)
 
 /* ---- One implicit step ------------------------------------------------------------- */
 
-static rb_status pose(wear_state *r, const double *F, rb_message *why)
+/* The bodies, whose arrays are borrowed, softer under each element by what a step wears.
+ */
+static rb_rolling_bodies softened(wear_state *r)
+{
+    const size_t n = (size_t)r->n, m = n + 1;
+    rb_rolling_bodies bodies = r->model.bodies;
+
+    if (bodies.F) {
+        memcpy(r->softer, bodies.F, 4 * m * n * sizeof *r->softer);
+        for (size_t i = 0; i < n; i++)
+            r->softer[i + 2 * m * i] += r->compliance[i];
+        bodies.F = r->softer;
+        return bodies;
+    }
+    for (size_t i = 0; i < 2 * n; i++)
+        r->softer[i] = (bodies.f.compliance ? bodies.f.compliance[i] : 0.0) +
+                       (i < n ? r->compliance[i] : 0.0);
+    bodies.f.compliance = r->softer;
+    return bodies;
+}
+
+/* The contact of these bodies with what is worn off so far. */
+static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message *why)
 {
     rb_rolling_model *model = &r->model;
-    const double *own = model->bodies.F;
 
     rb_contact_problem_free(&model->problem);
     rb_rolling_case worn = *model->rc;
@@ -132,11 +154,9 @@ static rb_status pose(wear_state *r, const double *F, rb_message *why)
     rb_status s = rb_rolling_model_set_case(model, &worn, why);
     if (s == RB_OK)
         s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
-    model->bodies.F = F;
     if (s == RB_OK)
-        s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
+        s = rb_rolling_problem_create(model->rc, &model->mesh, bodies, NULL,
                                       &model->problem, why);
-    model->bodies.F = own;
     return s;
 }
 
@@ -144,20 +164,16 @@ static rb_status pose(wear_state *r, const double *F, rb_message *why)
  * worn gap and the pressure belong together at its end, however long it is. */
 static rb_status wear_off(wear_state *r, rb_message *why)
 {
-    const size_t m = (size_t)r->n + 1, n = (size_t)r->n;
-    const double *F = r->model.bodies.F;
+    const rb_rolling_bodies softer = softened(r);
+    rb_status s = pose(r, &softer, why);
 
-    memcpy(r->F, F, 4 * m * n * sizeof *F);
-    for (size_t i = 0; i < n; i++)
-        r->F[i + 2 * m * i] += r->compliance[i];
-    rb_status s = pose(r, r->F, why);
     if (s == RB_OK)
         s = rb_rolling_model_resolve(&r->model, 1, why);
     if (s != RB_OK)
         return s;
-    for (size_t i = 0; i < n; i++)
+    for (int i = 0; i < r->n; i++)
         r->depth[i] += r->compliance[i] * r->model.state.p[i];
-    return pose(r, F, why);
+    return pose(r, &r->model.bodies, why);
 }
 
 /* ---- Sliding, fretting, rolling ---------------------------------------------------- */
@@ -407,12 +423,9 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
         return rb_fail(why, RB_EINVAL,
                        "wear: the law of dissipation takes one coefficient of friction, "
                        "not a friction law");
-    if (!rolls &&
-        (rc->mesh != RB_MESH_UNIFORM || rc->contact_elements >= RB_ROLLING_LARGE))
+    if (!rolls && rc->mesh != RB_MESH_UNIFORM)
         return rb_fail(why, RB_EINVAL,
-                       "wear: the worn gap needs equal elements (--mesh uniform), fewer "
-                       "than %d",
-                       RB_ROLLING_LARGE);
+                       "wear: the worn gap needs equal elements (--mesh uniform)");
     if (rolls && wear->slides)
         return rb_fail(
             why, RB_EINVAL,
@@ -471,7 +484,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                                          : press(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
         r.rc.worn = worn_of(&r);
-        s = pose(&r, r.model.bodies.F, why);
+        s = pose(&r, &r.model.bodies, why);
     }
     if (s == RB_OK)
         s = record(&r, 0.0, why);

@@ -242,6 +242,29 @@ rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_
     return s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
 }
 
+rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *v,
+                                         rb_message *why)
+{
+    rb_status s = rb_rolling_model_begin(of->rc, &of->plan, v, why);
+
+    v->equal_instead = of->equal_instead;
+    if (s == RB_OK)
+        s = copy_mesh(of->rc, &of->mesh, 1, at_rest, &v->mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_bodies_create(of->rc, &of->plan, &v->mesh, &v->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(of->rc, &v->mesh, &v->bodies, NULL, &v->problem,
+                                      why);
+    if (s == RB_OK)
+        s = rb_rolling_model_add_matrix(v, why);
+    if (s == RB_OK)
+        s = rb_contact_state_alloc(of->mesh.n, &v->state);
+    if (s != RB_OK)
+        return s;
+    rb_rolling_variant_set(of, NULL, 0.0, v);
+    return rb_rolling_variant_complete(v, why);
+}
+
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
     if (v->problem.op == of->problem.op)

@@ -16,7 +16,9 @@ struct rb_sensitivity {
     struct rb_sensitivity_factors *factors; /* of the model's own zones; owned */
     struct rb_sensitivity *free_rolling; /* of the model that rolls freely; NULL: none */
     rb_rolling_model *freely;            /* that model; owned */
-    int moves;                           /* rb_sensitivity_elements, fixed at first */
+    rb_rolling_model *with_matrix; /* the model where it was solved without; NULL: it is
+                                      the caller's; owned */
+    int moves;                     /* rb_sensitivity_elements, fixed at first */
     rb_rolling_solution motion[2]; /* of elements stretched and shifted by 1 mm; owned */
     double creepage[2];            /* of free rolling, by its motions */
     double gain[4];                /* of these motions by half-width and centre found */

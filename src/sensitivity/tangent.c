@@ -271,23 +271,43 @@ rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc)
     return freely;
 }
 
+/* A model that was solved without a matrix, with one. */
+static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+
+    if (model->bodies.F || s->n >= RB_ROLLING_LARGE)
+        return RB_OK;
+    s->with_matrix = calloc(1, sizeof *s->with_matrix);
+    if (!s->with_matrix)
+        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    s->model = s->with_matrix;
+    return rb_rolling_variant_with_matrix(model, s->with_matrix, why);
+}
+
 static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
                         rb_message *why)
 {
     rb_sensitivity *s = *made = calloc(1, sizeof *s);
-    rb_status status = check(model, why);
+    rb_status status = RB_OK;
 
     if (!s)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     s->model = model;
     s->n = model->problem.n;
+    if (model->problem.yield)
+        status = take_matrix(s, why);
+    if (status == RB_OK)
+        status = check(s->model, why);
     s->border = calloc((size_t)s->n, 1);
     if (status == RB_OK)
         status = s->border ? find_borders(s) : RB_ENOMEM;
+    if (status == RB_OK && s->degenerate)
+        status = take_matrix(s, why);
     if (status == RB_OK)
         status = rb_sensitivity_law(s, why);
-    if (status == RB_OK && model->bodies.F)
-        status = rb_sensitivity_factor(s, model->state.zone, &s->factors);
+    if (status == RB_OK && s->model->bodies.F)
+        status = rb_sensitivity_factor(s, s->model->state.zone, &s->factors);
     else if (status == RB_OK && s->degenerate)
         status = rb_fail(why, RB_EINVAL,
                          "derivatives: %d elements stand between two zones, which needs "
@@ -366,6 +386,9 @@ void rb_sensitivity_free(rb_sensitivity *s)
     free(s->law_slip);
     free(s->law_force);
     rb_sensitivity_factors_free(s->factors);
+    if (s->with_matrix)
+        rb_rolling_model_free(s->with_matrix);
+    free(s->with_matrix);
     free(s);
 }
 
