@@ -223,7 +223,9 @@ static rb_status make_wheel(const void *of)
     rb_bem_mesh mesh = {0}, core = {0};
     rb_bem_system *system = NULL;
     rb_bem_field *field = NULL;
-    rb_bem_flexibility f = {0}, g = {0};
+    rb_bem_flexibility f = {0}, g = {0}, waves = {0};
+    const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact};
+    double w[2];
 
     rb_status s = rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL);
     if (s == RB_OK && has_cover)
@@ -242,10 +244,16 @@ static rb_status make_wheel(const void *of)
         s = rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends, &g,
                                           NULL);
     if (s == RB_OK)
+        s = rb_bem_flexibility_wheel(N, ends, &wheel, RB_BEM_NORMALS_OBSTACLE, &waves,
+                                     NULL);
+    if (s == RB_OK)
+        s = rb_bem_wheel_normal(&wheel, &load, 2, xy, w);
+    if (s == RB_OK)
         s = rb_bem_field_create(system, t_contact, &field, NULL);
     if (s == RB_OK)
         s = rb_bem_field_stress(field, (rb_bem_points){2, xy}, stress, NULL);
     assert_true(mesh.n <= 300);
+    rb_bem_flexibility_free(&waves);
     rb_bem_field_free(field);
     rb_bem_flexibility_free(&f);
     rb_bem_flexibility_free(&g);
@@ -588,7 +596,7 @@ static void absurd_wheels_are_refused(void **state)
         const double *ratio, *length;
         const char *said;
     } all[] = {{2.0, 1.0, -0.5, &one, &one, "radii -0.5, 1, 2"},
-               {2.0, 1.0, 1.0, &one, &one, "radii 1, 1, 2"},
+               {2.0, 1.0, 1.0, &one, &one, "hub of radius 1"},
                {2.0, 2.0, 1.0, &one, &one, "radii 1, 2, 2"},
                {INFINITY, 2.0, 1.0, &one, &one, "radii 1, 2, inf"},
                {2.0, 1.0, 0.0, &minus, &one, "term 1: ratio -1"},

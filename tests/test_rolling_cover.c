@@ -401,7 +401,10 @@ static void the_bond_carries_the_load(void **state)
         rc.half_width = 2.0;
         rc.outer_refinement = 2.0;
         CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, &why), RB_OK);
-        CHECK_ABS(s.support_balance, 0.0, 2e-3, "balance");
+        if (k)
+            CHECK_ABS(s.support_balance, 0.0, 2e-3, "balance");
+        else /* by waves, each of which is in equilibrium */
+            assert_true(isnan(s.support_balance));
         CHECK_STATUS(rb_rolling_stress_at(&model, POINTS, xy, at[k], &why), RB_OK);
         const double core[] = {0.0, 50.0};
         rb_rolling_stress none;

@@ -284,12 +284,11 @@ typedef struct {
 /* time: relaxation time; step > 0, in the same unit. */
 rb_bem_fading rb_bem_fading_over(double time, double step);
 
-/* A viscoelastic wheel in steady rolling towards +x, with rotational symmetry: a ring of
- * one material, or a cover on a core that is rigid or is a ring on a rigid hub.  Pointers
- * are borrowed. */
+/* A wheel with rotational symmetry: a ring of one material, or a cover on a core that is
+ * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
+ * viscoelastic.  Pointers are borrowed. */
 typedef struct {
-    double radius, inner; /* outer and inner radius of the viscoelastic material, bonded
-                             at `inner` */
+    double radius, inner; /* outer and inner radius of the material, bonded at `inner` */
     rb_bem_material material; /* its glassy (instantaneous) constants */
     int terms;
     const double *ratio, *length;
@@ -297,8 +296,22 @@ typedef struct {
     rb_bem_material core;
 } rb_bem_wheel;
 
+/* The flexibility of the glassy wheel by its waves around the circumference (B12): no
+ * boundary elements outside the contact, n_c^2 work.  ends as in rb_bem_mesh_cylinder;
+ * the elements are arcs, f->h holds their chords.  RB_EINVAL: invalid radii, materials or
+ * ends; RB_SINGULAR: the core hardly holds the cover; RB_ENOMEM. */
+rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                                   rb_bem_normals normals, rb_bem_flexibility *f,
+                                   rb_message *why);
+
+/* Displacement w of points x on the lower half of the glassy wheel along the normal of
+ * the obstacle, into the body, under strips of p and q along that normal and tangent.
+ * RB_EINVAL, RB_ENOMEM. */
+rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
+                              int points, const double *x, double *w);
+
 /* Adds the viscoelastic part (V8) to the flexibility of the glassy wheel, which was
- * condensed with these normals.  ends: of the contact elements, as in
+ * made with these normals.  ends: of the contact elements, as in
  * rb_bem_mesh_cylinder.  f becomes a dense matrix.  RB_EINVAL: invalid radii, materials
  * or relaxation terms; RB_ENOMEM. */
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,

@@ -345,7 +345,8 @@ double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
  * solves. */
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
-    rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
+    rb_bem_system *system_a, *system_b; /* NULL for half-planes, covers and rigid bodies;
+                                           owned */
     const double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1, owned by f; NULL if
                         products with f are used instead (large contacts) */
     rb_bem_flexibility transforms; /* the same operator as products, if Newton's method is
@@ -710,6 +711,11 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
                                      const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
+
+/* The boundary elements of A or B; n = 0 for half-planes and rigid bodies.  RB_EINVAL,
+ * RB_ENOMEM. */
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b,
+                                   rb_bem_mesh *boundary, rb_message *why);
 
 /* Forms the matrices of the flexibility and of the problem if the model was solved
  * without them and has fewer than RB_ROLLING_LARGE elements; other models are not

@@ -501,9 +501,8 @@ double rb_api_number(const rb_api *a, const char *name)
 
 /* ---- Matrices ---------------------------------------------------------------------- */
 
-static api_array *boundary_matrices(rb_api *a, const char *name)
+static api_array *boundary_matrices(rb_api *a, const rb_bem_mesh *mesh, const char *name)
 {
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(a->result.model.bodies.system_a);
     const rb_rolling_case *rc = a->result.model.rc;
     api_array *H = rb_api_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
     api_array *G = rb_api_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
@@ -519,20 +518,24 @@ static api_array *boundary_matrices(rb_api *a, const char *name)
 
 static api_array *boundary_array(rb_api *a, const char *name)
 {
-    const rb_bem_system *system = a->result.model.bodies.system_a;
-    if (!system)
+    rb_bem_mesh mesh;
+    api_array *made = NULL;
+    if (rb_rolling_boundary_mesh(&a->result.model, 0, &mesh, &a->why) != RB_OK)
         return NULL;
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
-    if (strcmp(name, "mesh.x0") == 0)
-        return rb_api_copy_array(a, name, mesh->n, 1, mesh->x0);
-    if (strcmp(name, "mesh.y0") == 0)
-        return rb_api_copy_array(a, name, mesh->n, 1, mesh->y0);
-    if (strcmp(name, "mesh.x1") == 0)
-        return rb_api_copy_array(a, name, mesh->n, 1, mesh->x1);
-    if (strcmp(name, "mesh.y1") == 0)
-        return rb_api_copy_array(a, name, mesh->n, 1, mesh->y1);
-    return strcmp(name, "H") == 0 || strcmp(name, "G") == 0 ? boundary_matrices(a, name)
-                                                            : NULL;
+    const struct {
+        const char *name;
+        const double *at;
+    } places[] = {{"mesh.x0", mesh.x0},
+                  {"mesh.y0", mesh.y0},
+                  {"mesh.x1", mesh.x1},
+                  {"mesh.y1", mesh.y1}};
+    for (size_t k = 0; k < sizeof places / sizeof *places && mesh.n > 0; k++)
+        if (strcmp(name, places[k].name) == 0)
+            made = rb_api_copy_array(a, name, mesh.n, 1, places[k].at);
+    if (mesh.n > 0 && (strcmp(name, "H") == 0 || strcmp(name, "G") == 0))
+        made = boundary_matrices(a, &mesh, name);
+    rb_bem_mesh_free(&mesh);
+    return made;
 }
 
 static api_array *model_array(rb_api *a, const char *name)

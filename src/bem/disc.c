@@ -9,6 +9,7 @@
  * ln(1-exp(ix)) dx  = -i [(1-exp(-ix)) ln(1-exp(ix)) - ix] I2 = int exp(-ix)
  * ln(1-exp(-ix)) dx =  i (1-exp(-ix)) [1 - ln(1-exp(-ix))] */
 #include "bem/internal.h"
+#include "bem/ring.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
@@ -37,6 +38,13 @@ static cplx primitive_1(double x)
 static cplx primitive_2(double x)
 {
     return x == 0.0 ? 0.0 : I * one_less(x) * (1.0 - conj(log_one_less(x)));
+}
+
+/* -kap exp(-ix) ln(1-exp(ix)) - kap - exp(-ix) ln(1-exp(-ix)) has the wave 1 of
+ * kap/2 exp(ix), and none of the waves 0 and -1. */
+double complex rb_ring_disc_primitive(double kappa, double x)
+{
+    return -kappa * (primitive_1(x) + x + 0.5 * I * conj(one_less(x))) - primitive_2(x);
 }
 
 /* int over [b - h/2, b + h/2] of exp(-ix) ln(1-exp(ix)) and exp(-ix) ln(1-exp(-ix)); far

@@ -1,9 +1,13 @@
-/* Fading memory of a wheel in steady rolling (V8).  A particle meets the contact once per
- * turn, so that E averages along the circumference, and waves exp(im theta) of the
- * elastic answer are multiplied by 1/(1 - i m L/R) as those of the half-plane are.  The
- * answer of a wheel is split into that of the disc, which is known in closed form, and
- * what its inner contour changes of it, which only long waves feel. */
+/* The contact of a wheel that is alike at every angle, from its waves around the
+ * circumference (B12), and its fading memory in steady rolling (V8): a particle meets the
+ * contact once per turn, so that E averages along the circumference, and waves exp(im
+ * theta) of the elastic rb_ring_answer are multiplied by 1/(1 - i m L/R) as those of the
+ * half-plane are.  The rb_ring_answer of a wheel is split into that of the half-plane, of
+ * the disc over it, both in closed form, and what the inner contour of the wheel changes,
+ * which only long waves feel. */
 #include "bem/internal.h"
+#include "bem/ring.h"
+#include "rollbem/blas.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
@@ -14,111 +18,51 @@
 
 typedef double complex cplx;
 
-/* ---- Waves on rings ---------------------------------------------------------------- */
-
-/* u_r = U cos m theta, u_theta = V sin m theta, and stresses S and T of an arc alike.  In
- * ln r the equations for y = (2 G U, 2 G V, r S, r T) have constant coefficients. */
-
-/* (u, v) = K (s, t). */
-typedef struct {
-    cplx uu, uv, vu, vv;
-} compliance;
-
-enum { TERMS = 20 }; /* of the exponential series, of matrices with a norm of about 2 */
-/* The product of wave number and thickness ln(R/r) from which on an inner contour is out
- * of reach: its trace falls like exp(-2 x). */
-static const double REACH = 20.0;
-
-/* E = exp(M step), row by row. */
-static void transfer(int m, double nu, double step, double E[4][4])
-{
-    const double a = nu / (1.0 - nu), c = 1.0 / (1.0 - nu);
-    const double M[4][4] = {{-a, -a * m, 1.0 - a, 0.0},
-                            {m, 1.0, 0.0, 2.0},
-                            {c, c * m, a, -m},
-                            {c * m, c * m * m, a * m, -1.0}};
-    double power[4][4] = {{1.0, 0, 0, 0}, {0, 1.0, 0, 0}, {0, 0, 1.0, 0}, {0, 0, 0, 1.0}};
-
-    memcpy(E, power, sizeof power);
-    for (int k = 1; k <= TERMS; k++) {
-        double next[4][4] = {{0.0}};
-        for (int i = 0; i < 4; i++)
-            for (int j = 0; j < 4; j++)
-                for (int l = 0; l < 4; l++)
-                    next[i][j] += power[i][l] * M[l][j] * step / k;
-        memcpy(power, next, sizeof power);
-        for (int i = 0; i < 4; i++)
-            for (int j = 0; j < 4; j++)
-                E[i][j] += power[i][j];
-    }
-}
-
-/* From the inner contour of a ring, with compliance K, to its outer one. */
-static compliance across(int m, double nu, double inner, double outer, compliance K)
-{
-    const double thickness = log(outer / inner);
-    const int steps = (int)ceil(fmax(1.0, (m + 1) * thickness / 0.25));
-    double E[4][4];
-
-    transfer(m, nu, thickness / steps, E);
-    for (int k = 0; k < steps; k++) {
-        cplx D[2][2], S[2][2];
-        for (int i = 0; i < 2; i++) {
-            D[i][0] = E[i][0] * K.uu + E[i][1] * K.vu + E[i][2];
-            D[i][1] = E[i][0] * K.uv + E[i][1] * K.vv + E[i][3];
-            S[i][0] = E[i + 2][0] * K.uu + E[i + 2][1] * K.vu + E[i + 2][2];
-            S[i][1] = E[i + 2][0] * K.uv + E[i + 2][1] * K.vv + E[i + 2][3];
-        }
-        const cplx det = S[0][0] * S[1][1] - S[0][1] * S[1][0];
-        /* without the care of C11's quotients, which numbers of this size do not need */
-        const cplx per_det = conj(det) / (gsl_pow_2(creal(det)) + gsl_pow_2(cimag(det)));
-        K = (compliance){(D[0][0] * S[1][1] - D[0][1] * S[1][0]) * per_det,
-                         (D[0][1] * S[0][0] - D[0][0] * S[0][1]) * per_det,
-                         (D[1][0] * S[1][1] - D[1][1] * S[1][0]) * per_det,
-                         (D[1][1] * S[0][0] - D[1][0] * S[0][1]) * per_det};
-    }
-    return K;
-}
-
-/* The disc, m >= 2. */
-static compliance of_disc(int m, double kappa)
-{
-    const double outer = 0.5 * kappa / (m + 1), inner = 0.5 / (m - 1);
-    return (compliance){outer + inner, outer - inner, outer - inner, outer + inner};
-}
+/* ---- Waves ------------------------------------------------------------------------- */
 
 /* What the inner contour rests on, over its own 2 G: an elastic core, or nothing that
  * yields. */
-static compliance of_core(const rb_bem_wheel *w, int m)
+static rb_ring_compliance of_core(const rb_bem_wheel *w, double m)
 {
-    const compliance rigid = {0.0, 0.0, 0.0, 0.0};
+    const rb_ring_compliance rigid = {0.0, 0.0, 0.0, 0.0};
 
-    return w->hub > 0.0 ? across(m, w->core.poisson, w->hub, w->inner, rigid) : rigid;
+    return w->hub > 0.0 ? rb_ring_across(m, w->core.poisson, w->hub, w->inner, rigid)
+                        : rigid;
 }
 
-/* What memory, which makes the material `softer` than the glassy one, adds to the wheel,
- * over the glassy 2 G.  On a rigid core all of it is softer by that. */
-static compliance added_by_memory(const rb_bem_wheel *w, int m, cplx softer)
+/* The wheel over its 2 G, memory making its material `softer` than the glassy one, but
+ * not its core. */
+static rb_ring_compliance of_wheel(const rb_bem_wheel *w, double m, cplx softer)
 {
-    const double nu = w->material.poisson;
-    const compliance core = of_core(w, m);
-    compliance own = {0.0, 0.0, 0.0, 0.0}, slow = own;
+    rb_ring_compliance K = of_core(w, m);
+    const cplx over = w->hub > 0.0 ? w->material.shear / w->core.shear / softer : 0.0;
 
-    if (w->hub > 0.0) {
-        const double over = w->material.shear / w->core.shear;
-        const cplx r = over / softer;
-        own =
-            (compliance){over * core.uu, over * core.uv, over * core.vu, over * core.vv};
-        slow = (compliance){r * core.uu, r * core.uv, r * core.vu, r * core.vv};
-    }
-    own = across(m, nu, w->inner, w->radius, own);
-    slow = w->hub > 0.0 ? across(m, nu, w->inner, w->radius, slow) : own;
-    return (compliance){softer * slow.uu - own.uu, softer * slow.uv - own.uv,
-                        softer * slow.vu - own.vu, softer * slow.vv - own.vv};
+    K = (rb_ring_compliance){over * K.uu, over * K.uv, over * K.vu, over * K.vv};
+    return rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
+}
+
+/* What the inner contour changes of the disc, and the waves 0 and 1, which the disc in
+ * closed form does not have. */
+static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
+{
+    const rb_ring_compliance wheel = of_wheel(w, m, softer);
+    rb_ring_compliance disc = {0.0, 0.0, 0.0, 0.0};
+    const double twice = m > 0.0 ? 2.0 : 1.0;
+
+    if (m >= 2.0)
+        disc = rb_ring_of_disc(m, 3.0 - 4.0 * w->material.poisson);
+    c[0] = twice * (wheel.uu - disc.uu);
+    c[1] = twice * (wheel.vv - disc.vv);
+    c[2] = twice * (wheel.uv - disc.uv);
+}
+
+static void glassy_waves(const rb_bem_wheel *w, double m, cplx c[3])
+{
+    inner_waves(w, m, 1.0, c);
 }
 
 /* 1 + sum f_k/(1 - i m L_k/R). */
-static cplx creep(const rb_bem_wheel *w, int m)
+static cplx creep(const rb_bem_wheel *w, double m)
 {
     cplx c = 1.0;
     for (int k = 0; k < w->terms; k++)
@@ -126,22 +70,45 @@ static cplx creep(const rb_bem_wheel *w, int m)
     return c;
 }
 
-/* ---- The kernel -------------------------------------------------------------------- */
+/* What memory adds to them.  On a rigid core all is softer alike. */
+static void memory_waves(const rb_bem_wheel *w, double m, cplx c[3])
+{
+    const cplx softer = creep(w, m);
+    cplx glassy[3];
 
-/* A unit load at angle 0 seen at angle x, over R/(4 pi G): normal and tangential answer,
- * and the normal one of friction, which is minus the tangential one of pressure. */
+    inner_waves(w, m, 1.0, glassy);
+    inner_waves(w, m, w->hub > 0.0 ? softer : 1.0, c);
+    for (int k = 0; k < 3; k++)
+        c[k] = softer * c[k] - glassy[k];
+}
 
-typedef struct {
-    double N, T, C;
-} answer;
+/* The last wave of either. */
+static int last_wave(const rb_bem_wheel *w)
+{
+    return 2 + (int)ceil(fmin(RB_RING_REACH / log(w->radius / w->inner), 1e9));
+}
+
+/* ---- The disc ---------------------------------------------------------------------- */
+
+/* Primitive over x of what the disc, its waves m >= 2, has over the half-plane whose
+ * datum is R. */
+static rb_ring_answer disc_primitive(const rb_bem_wheel *w, double x)
+{
+    const double kappa = 3.0 - 4.0 * w->material.poisson;
+    const cplx disc = rb_ring_disc_primitive(kappa, x);
+    const double N =
+        creal(disc) + (x != 0.0 ? (kappa + 1.0) * x * (log(fabs(x)) - 1.0) : 0.0);
+
+    return (rb_ring_answer){N, N, cimag(disc) - 0.5 * M_PI * (kappa - 1.0) * fabs(x)};
+}
 
 /* What the disc, its waves m >= 2, has over the half-plane whose datum is R:
  * with l = -ln(1 - exp(ix)) the disc's answers are N = Re(kappa A + B) and
  * C = Im(kappa A - B), A = exp(-ix) l - 1 - exp(ix)/2, B = exp(ix) l. */
-static answer disc_over_halfplane(double kappa, double x)
+static rb_ring_answer disc_over_halfplane(double kappa, double x)
 {
     if (x == 0.0)
-        return (answer){-1.5 * kappa, -1.5 * kappa, 0.0};
+        return (rb_ring_answer){-1.5 * kappa, -1.5 * kappa, 0.0};
     const double sign = copysign(1.0, x), chord = 2.0 * sin(0.5 * fabs(x)),
                  turn = 0.5 * (M_PI * sign - x);       /* Im l */
     const double less = 2.0 * gsl_pow_2(sin(0.5 * x)); /* 1 - cos x */
@@ -149,11 +116,11 @@ static answer disc_over_halfplane(double kappa, double x)
                      (kappa - 1.0) * sin(x) * turn - kappa * (1.0 + 0.5 * cos(x));
     const double C = -(kappa - 1.0) * (less * turn + 0.5 * x) +
                      sin(x) * ((kappa + 1.0) * log(chord) - 0.5 * kappa);
-    return (answer){N, N, C};
+    return (rb_ring_answer){N, N, C};
 }
 
 /* The elastic half-plane's average over what lies upstream of angle x, one term. */
-static answer halfplane_average(const rb_bem_wheel *w, int term, double x)
+static rb_ring_answer halfplane_average(const rb_bem_wheel *w, int term, double x)
 {
     static const double one = 1.0;
     const double h = 1e-2 * w->radius, at = x * w->radius, ends[2] = {-0.5 * h, 0.5 * h};
@@ -166,8 +133,8 @@ static answer halfplane_average(const rb_bem_wheel *w, int term, double x)
     plane.length = w->length + term;
     rb_bem_surface_displacement(&plane, 1, ends, 1, &at, slow);
     const double scale = 4.0 * M_PI * w->material.shear / h;
-    return (answer){scale * (slow[0] - own[0]), scale * (slow[3] - own[3]),
-                    scale * (slow[2] - own[2])};
+    return (rb_ring_answer){scale * (slow[0] - own[0]), scale * (slow[3] - own[3]),
+                            scale * (slow[2] - own[2])};
 }
 
 /* Angles x from -pi to pi; those from `first` on, `count` of them, are equally far from
@@ -175,7 +142,7 @@ static answer halfplane_average(const rb_bem_wheel *w, int term, double x)
 typedef struct {
     int nodes, first, count;
     double *x;
-    double *N, *T, *C; /* count each: what memory adds beside the half-plane's part */
+    double *N, *T, *C; /* count each: what memory adds to the disc over the half-plane */
     gsl_spline *spline[3];
     gsl_interp_accel *near;
 } table;
@@ -217,24 +184,24 @@ static rb_status table_alloc(double reach, double step, table *t)
     return RB_OK;
 }
 
-/* Adds one term of the disc's memory.  From x to pi upstream the disc's answer is the
- * half-plane's and a rest that is linear between the nodes; what lies beyond pi fades as
- * a whole, and one turn brings it back. */
+/* Adds one term of the disc's memory.  From x to pi upstream the disc's rb_ring_answer is
+ * the half-plane's and a rest that is linear between the nodes; what lies beyond pi fades
+ * as a whole, and one turn brings it back. */
 static void add_disc(const rb_bem_wheel *w, int term, table *t)
 {
     const double kappa = 3.0 - 4.0 * w->material.poisson, f = w->ratio[term],
                  length = w->length[term] / w->radius;
-    const answer ahead = halfplane_average(w, term, M_PI),
-                 behind = halfplane_average(w, term, -M_PI);
+    const rb_ring_answer ahead = halfplane_average(w, term, M_PI),
+                         behind = halfplane_average(w, term, -M_PI);
     const double turn = exp(-2.0 * M_PI / length), rest = -expm1(-2.0 * M_PI / length);
-    answer sum = {0.0, 0.0, 0.0}, beyond = sum;
+    rb_ring_answer sum = {0.0, 0.0, 0.0}, beyond = sum;
 
     for (int round = 0; round < 2; round++) {
-        answer next = disc_over_halfplane(kappa, M_PI);
+        rb_ring_answer next = disc_over_halfplane(kappa, M_PI);
         sum = beyond;
         for (int i = t->nodes - 2; i >= 0; i--) {
             const rb_bem_fading step = rb_bem_fading_over(length, t->x[i + 1] - t->x[i]);
-            const answer own = disc_over_halfplane(kappa, t->x[i]);
+            const rb_ring_answer own = disc_over_halfplane(kappa, t->x[i]);
             sum.N = step.kept * sum.N + step.before * next.N + step.after * own.N;
             sum.C = step.kept * sum.C + step.before * next.C + step.after * own.C;
             next = own;
@@ -246,45 +213,10 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
             }
         }
         if (round == 0) /* the average at pi is that at -pi */
-            beyond = (answer){.N = (behind.N - turn * ahead.N + sum.N) / rest - ahead.N,
-                              .C = (behind.C - turn * ahead.C + sum.C) / rest - ahead.C};
+            beyond = (rb_ring_answer){
+                .N = (behind.N - turn * ahead.N + sum.N) / rest - ahead.N,
+                .C = (behind.C - turn * ahead.C + sum.C) / rest - ahead.C};
     }
-}
-
-/* Adds what memory makes of the inner contour's part, and of the waves 0 and 1: a
- * polynomial in exp(ix), by Horner's scheme. */
-static rb_status add_inner(const rb_bem_wheel *w, table *t)
-{
-    const double kappa = 3.0 - 4.0 * w->material.poisson;
-    const int last = 2 + (int)ceil(REACH / log(w->radius / w->inner));
-    cplx(*factor)[3] = calloc((size_t)last + 1, sizeof *factor);
-
-    if (!factor)
-        return RB_ENOMEM;
-    for (int m = 0; m <= last; m++) {
-        const cplx softer = creep(w, m);
-        const compliance added = added_by_memory(w, m, softer),
-                         disc =
-                             m < 2 ? (compliance){0.0, 0.0, 0.0, 0.0} : of_disc(m, kappa);
-        const double twice = m > 0 ? 2.0 : 1.0;
-        factor[m][0] = twice * (added.uu - (softer - 1.0) * disc.uu);
-        factor[m][1] = twice * (added.vv - (softer - 1.0) * disc.vv);
-        factor[m][2] = twice * (added.uv - (softer - 1.0) * disc.uv);
-    }
-    for (int i = 0; i < t->count; i++) {
-        const cplx z = cexp(I * t->x[t->first + i]);
-        cplx N = 0.0, T = 0.0, C = 0.0;
-        for (int m = last; m >= 0; m--) {
-            N = N * z + factor[m][0];
-            T = T * z + factor[m][1];
-            C = C * z + factor[m][2];
-        }
-        t->N[i] += creal(N);
-        t->T[i] += creal(T);
-        t->C[i] += cimag(C);
-    }
-    free(factor);
-    return RB_OK;
 }
 
 static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
@@ -293,8 +225,6 @@ static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
 
     for (int k = 0; k < w->terms && s == RB_OK; k++)
         add_disc(w, k, t);
-    if (s == RB_OK)
-        s = add_inner(w, t);
     for (int k = 0; k < 3 && s == RB_OK; k++) {
         t->spline[k] = gsl_spline_alloc(gsl_interp_cspline, (size_t)t->count);
         if (!t->spline[k])
@@ -306,59 +236,78 @@ static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
     return s;
 }
 
-/* The mean over a load of half-angle b. */
-static double mean(const gsl_spline *spline, gsl_interp_accel *near, double x, double b)
+/* Over a load of half-angle b. */
+static double integral(const gsl_spline *spline, gsl_interp_accel *near, double x,
+                       double b)
 {
-    return gsl_spline_eval_integ(spline, x - b, x + b, near) / (2.0 * b);
+    return gsl_spline_eval_integ(spline, x - b, x + b, near);
 }
 
 /* ---- The matrix -------------------------------------------------------------------- */
 
-/* The angles of m = n + 1 midpoints and m + 1 ends, and what the half-plane's memory adds
- * along the circumference (2m x 2n). */
+typedef struct {
+    double cosine, sine;
+} direction;
+
+/* The angles of m = n + 1 midpoints and m + 1 ends, times R, the directions of the
+ * midpoints and what the half-plane adds along the circumference (2m x 2n). */
 typedef struct {
     int n;
     double *arc, *end, *W;
+    direction *at;
 } circumference;
 
 static void circumference_free(circumference *c)
 {
     free(c->arc);
     free(c->W);
+    free(c->at);
 }
 
-static rb_status make_circumference(const rb_bem_wheel *w, const rb_bem_flexibility *f,
-                                    const double *ends, circumference *c)
+static rb_status place_circumference(double radius, int n, const double *ends, int parts,
+                                     circumference *c)
 {
-    const size_t m = (size_t)f->m, size = 2 * m * 2 * (size_t)f->n;
-    rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);
+    const size_t m = (size_t)n + 1;
 
-    *c =
-        (circumference){.n = f->n, .arc = rb_alloc(2 * m + 1, 1), .W = rb_alloc(size, 2)};
-    if (!c->arc || !c->W)
+    *c = (circumference){.n = n,
+                         .arc = rb_alloc(2 * m + 1, 1),
+                         .W = rb_alloc(2 * m * 2 * (size_t)n, (size_t)parts),
+                         .at = calloc(m, sizeof *c->at)};
+    if (!c->arc || !c->W || !c->at)
         return RB_ENOMEM;
     c->end = c->arc + m;
     for (size_t i = 0; i <= m; i++)
-        c->end[i] = w->radius * asin(ends[i] / w->radius);
-    for (size_t i = 0; i < m; i++)
+        c->end[i] = radius * asin(ends[i] / radius);
+    for (size_t i = 0; i < m; i++) {
         c->arc[i] = 0.5 * (c->end[i] + c->end[i + 1]);
-    rb_status s =
-        rb_bem_surface_displacement(&plane, f->n, c->end, f->m, c->arc, c->W + size);
+        c->at[i] = (direction){cos(c->arc[i] / radius), sin(c->arc[i] / radius)};
+    }
+    return RB_OK;
+}
+
+/* What memory adds to the half-plane. */
+static rb_status remember_circumference(const rb_bem_wheel *w, const circumference *c)
+{
+    const int n = c->n, m = n + 1;
+    const size_t size = 2 * (size_t)m * 2 * (size_t)n;
+    rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);
+    rb_status s = rb_bem_surface_displacement(&plane, n, c->end, m, c->arc, c->W + size);
+
     plane.terms = w->terms;
     plane.ratio = w->ratio;
     plane.length = w->length;
     if (s == RB_OK)
-        s = rb_bem_surface_displacement(&plane, f->n, c->end, f->m, c->arc, c->W);
+        s = rb_bem_surface_displacement(&plane, n, c->end, m, c->arc, c->W);
     for (size_t k = 0; k < size && s == RB_OK; k++)
         c->W[k] -= c->W[size + k];
     return s;
 }
 
-/* Turns B = (NN, TN, NT, TT), from a load at angle `from` to a point at angle `to`, from
- * the frames of the surface into the obstacle's. */
-static void turn(double to, double from, double B[4])
+/* Turns B = (NN, TN, NT, TT), from a load in direction `from` to a point in direction
+ * `to`, from the frames of the surface into the obstacle's. */
+static void turn(const direction *to, const direction *from, double B[4])
 {
-    const double c = cos(to), s = sin(to), cf = cos(from), sf = sin(from);
+    const double c = to->cosine, s = to->sine, cf = from->cosine, sf = from->sine;
     const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3],
                          cf * B[2] - sf * B[0], cf * B[3] - sf * B[1]};
     B[0] = c * P[0] + s * P[1];
@@ -367,29 +316,84 @@ static void turn(double to, double from, double B[4])
     B[3] = c * P[3] - s * P[2];
 }
 
-static void add_memory(const rb_bem_wheel *w, rb_bem_normals normals, const table *t,
-                       const circumference *c, double *F)
+/* The integrals of the inner table over the loads from end j to the midpoints. */
+static void from_end(const rb_bem_wheel *w, const circumference *c,
+                     const rb_ring_table *inner, size_t j, rb_ring_answer *at)
+{
+    for (size_t i = 0; i <= (size_t)c->n; i++)
+        at[i] = rb_ring_table_at(inner, (c->arc[i] - c->end[j]) / w->radius);
+}
+
+/* Adds columns from .. to - 1; t: NULL, or the disc's memory.  work: 2m. */
+static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals,
+                        const circumference *c, const rb_ring_table *inner,
+                        const table *t, size_t from, size_t to, rb_ring_answer *work,
+                        double *F)
 {
     const size_t n = (size_t)c->n, m = n + 1;
-    const double scale = 1.0 / (4.0 * M_PI * w->material.shear);
+    const double scale = w->radius / (4.0 * M_PI * w->material.shear);
+    rb_ring_answer *low = work, *high = work + m;
 
-    for (size_t j = 0; j < n; j++)
+    from_end(w, c, inner, from, high);
+    for (size_t j = from; j < to; j++) {
+        rb_ring_answer *const last = low;
+        low = high;
+        high = last;
+        from_end(w, c, inner, j + 1, high);
         for (size_t i = 0; i < m; i++) {
-            const double h = c->end[j + 1] - c->end[j], b = 0.5 * h / w->radius,
-                         to = c->arc[i] / w->radius, from = c->arc[j] / w->radius;
-            const double coupling = scale * h * mean(t->spline[2], t->near, to - from, b);
+            const double x = (c->arc[i] - c->arc[j]) / w->radius,
+                         b = 0.5 * (c->end[j + 1] - c->end[j]) / w->radius;
+            rb_ring_answer own = {low[i].N - high[i].N, low[i].T - high[i].T,
+                                  low[i].C - high[i].C};
+            if (t) {
+                own.N += integral(t->spline[0], t->near, x, b);
+                own.T += integral(t->spline[1], t->near, x, b);
+                own.C += integral(t->spline[2], t->near, x, b);
+            }
             const size_t N = i + j * 2 * m, T = i + (j + n) * 2 * m;
-            double B[4] = {
-                c->W[N] + scale * h * mean(t->spline[0], t->near, to - from, b),
-                c->W[N + m] - coupling, c->W[T] + coupling,
-                c->W[T + m] + scale * h * mean(t->spline[1], t->near, to - from, b)};
+            double B[4] = {c->W[N] + scale * own.N, c->W[N + m] - scale * own.C,
+                           c->W[T] + scale * own.C, c->W[T + m] + scale * own.T};
             if (normals == RB_BEM_NORMALS_OBSTACLE)
-                turn(to, from, B);
+                turn(c->at + i, c->at + j, B);
             F[N] += B[0];
             F[N + m] += B[1];
             F[T] += B[2];
             F[T + m] += B[3];
         }
+    }
+}
+
+/* Splines remember where they have looked last: one thread. */
+static rb_status add_matrix(const rb_bem_wheel *w, rb_bem_normals normals,
+                            const circumference *c, const rb_ring_table *inner,
+                            const table *t, double *F)
+{
+    const size_t n = (size_t)c->n, m = n + 1;
+    const int parts =
+        t || (double)(n * m) < rb_pairs_for_threads ? 1 : rb_blas_loop_threads();
+    rb_ring_answer *work = calloc(2 * m * (size_t)parts, sizeof *work);
+
+    if (!work)
+        return RB_ENOMEM;
+#pragma omp parallel for num_threads(parts) schedule(static)
+    for (int k = 0; k < parts; k++)
+        add_columns(w, normals, c, inner, t, n * (size_t)k / (size_t)parts,
+                    n * (size_t)(k + 1) / (size_t)parts, work + 2 * m * (size_t)k, F);
+    free(work);
+    return RB_OK;
+}
+
+/* Panels from a quarter of the shortest element on. */
+static rb_status make_inner(const rb_bem_wheel *w, const circumference *c,
+                            rb_ring_waves *waves, rb_ring_primitive *rest,
+                            rb_ring_table *inner)
+{
+    double smallest = fmin(log(w->radius / w->inner), 1.0);
+
+    for (int i = 0; i < c->n; i++)
+        smallest = fmin(smallest, 0.25 * (c->end[i + 1] - c->end[i]) / w->radius);
+    return rb_ring_table_create(w, waves, last_wave(w), rest, smallest,
+                                (c->end[c->n + 1] - c->end[0]) / w->radius, inner);
 }
 
 static rb_status check_wheel(const rb_bem_wheel *w, rb_message *why)
@@ -398,6 +402,11 @@ static rb_status check_wheel(const rb_bem_wheel *w, rb_message *why)
 
     if (s == RB_OK && w->hub > 0.0)
         s = rb_bem_material_check(w->core, why);
+    if (s == RB_OK && w->hub > 0.0 && w->hub >= w->inner)
+        s = rb_fail(why, RB_EINVAL,
+                    "hub of radius %g: expected less than the radius %g of the core "
+                    "under the cover",
+                    w->hub, w->inner);
     if (s == RB_OK && !(w->hub >= 0.0 && w->hub < w->inner && w->inner < w->radius &&
                         isfinite(w->radius)))
         s = rb_fail(why, RB_EINVAL, "wheel: radii %g, %g, %g: expected to increase",
@@ -412,11 +421,117 @@ static rb_status check_wheel(const rb_bem_wheel *w, rb_message *why)
     return s;
 }
 
+/* Waves 0 and 1, of a cover that next to nothing holds, would drown all others. */
+static rb_status check_held(const rb_bem_wheel *w, rb_message *why)
+{
+    for (int m = 0; m < 2; m++) {
+        cplx c[3];
+        glassy_waves(w, m, c);
+        for (int k = 0; k < 3; k++)
+            if (!(cabs(c[k]) < 1e12))
+                return rb_fail(why, RB_SINGULAR,
+                               "wheel: the flexibility is singular, the core hardly "
+                               "holds the cover (shear moduli %g and %g)",
+                               w->core.shear, w->material.shear);
+    }
+    return RB_OK;
+}
+
+rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                                   rb_bem_normals normals, rb_bem_flexibility *f,
+                                   rb_message *why)
+{
+    const rb_bem_surface plane = rb_bem_halfplane(wheel->material, wheel->radius);
+    rb_ring_table inner = {0};
+    circumference c = {0};
+    double *F = NULL;
+
+    *f = (rb_bem_flexibility){0};
+    rb_status s = check_wheel(wheel, why);
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
+    if (s == RB_OK && !(-ends[0] < wheel->radius && ends[n_c + 1] < wheel->radius))
+        s = rb_fail(why, RB_EINVAL, "wheel of radius %g: contact from %g to %g is wider",
+                    wheel->radius, ends[0], ends[n_c + 1]);
+    if (s == RB_OK)
+        s = check_held(wheel, why);
+    if (s != RB_OK)
+        return s;
+    rb_phase("flexibility of the contact");
+    s = rb_bem_flexibility_dense(n_c, f, &F);
+    if (s == RB_OK)
+        s = place_circumference(wheel->radius, n_c, ends, 1, &c);
+    if (s == RB_OK) {
+        rb_bem_flexibility_place(ends, f);
+        for (int i = 0; i < f->m; i++) /* chords */
+            f->h[i] = 2.0 * wheel->radius *
+                      sin(0.5 * (c.end[i + 1] - c.end[i]) / wheel->radius);
+        s = rb_bem_surface_displacement(&plane, n_c, c.end, f->m, c.arc, c.W);
+    }
+    if (s == RB_OK)
+        s = make_inner(wheel, &c, glassy_waves, disc_primitive, &inner);
+    if (s == RB_OK)
+        s = add_matrix(wheel, normals, &c, &inner, NULL, F);
+    rb_ring_table_free(&inner);
+    circumference_free(&c);
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+}
+
+rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
+                              int points, const double *x, double *w)
+{
+    const double R = wheel->radius, scale = R / (4.0 * M_PI * wheel->material.shear);
+    const rb_bem_surface plane = rb_bem_halfplane(wheel->material, R);
+    rb_ring_table inner = {0};
+    double shortest = 1.0;
+    rb_status s = check_wheel(wheel, NULL);
+
+    if (s == RB_OK && (load->n < 1 || points < 1))
+        s = RB_EINVAL;
+    for (int i = 0; i < points && s == RB_OK; i++)
+        s = fabs(x[i]) < R ? RB_OK : RB_EINVAL;
+    for (int j = 0; j <= load->n && s == RB_OK; j++) {
+        s = fabs(load->x[j]) < R ? RB_OK : RB_EINVAL;
+        if (s == RB_OK && j > 0)
+            shortest = fmin(shortest, (load->x[j] - load->x[j - 1]) / R);
+    }
+    if (s == RB_OK)
+        s = rb_ring_table_create(wheel, glassy_waves, last_wave(wheel), disc_primitive,
+                                 1e-3 * fmin(shortest, log(R / wheel->inner)), M_PI,
+                                 &inner);
+    for (int i = 0; i < points && s == RB_OK; i++) {
+        const double to = asin(x[i] / R), at = R * to;
+        w[i] = 0.0;
+        for (int j = 0; j < load->n && s == RB_OK; j++) {
+            const double end[2] = {R * asin(load->x[j] / R),
+                                   R * asin(load->x[j + 1] / R)};
+            const rb_ring_answer low = rb_ring_table_at(&inner, (at - end[0]) / R),
+                                 high = rb_ring_table_at(&inner, (at - end[1]) / R);
+            const double C = scale * (low.C - high.C);
+            double B[4];
+            s = rb_bem_surface_displacement(&plane, 1, end, 1, &at, B);
+            B[0] += scale * (low.N - high.N);
+            B[1] -= C;
+            B[2] += C;
+            B[3] += scale * (low.T - high.T);
+            const double from = 0.5 * (end[0] + end[1]) / R;
+            turn(&(direction){cos(to), sin(to)}, &(direction){cos(from), sin(from)}, B);
+            w[i] += B[0] * load->p[j] + B[2] * load->q[j];
+        }
+    }
+    rb_ring_table_free(&inner);
+    return s;
+}
+
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
                                         const double *ends, rb_bem_flexibility *f,
                                         rb_message *why)
 {
     table t = {0};
+    rb_ring_table inner = {0};
     circumference c = {0};
     rb_status s = check_wheel(wheel, why);
 
@@ -424,12 +539,17 @@ rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normal
         return s;
     s = rb_bem_flexibility_store(f);
     if (s == RB_OK)
-        s = make_circumference(wheel, f, ends, &c);
+        s = place_circumference(wheel->radius, f->n, ends, 2, &c);
+    if (s == RB_OK)
+        s = remember_circumference(wheel, &c);
     if (s == RB_OK)
         s = make_table(wheel, (c.end[f->m] - c.end[0]) / wheel->radius, &t);
     if (s == RB_OK)
-        add_memory(wheel, normals, &t, &c, f->data);
+        s = make_inner(wheel, &c, memory_waves, NULL, &inner);
+    if (s == RB_OK)
+        s = add_matrix(wheel, normals, &c, &inner, &t, f->data);
     table_free(&t);
+    rb_ring_table_free(&inner);
     circumference_free(&c);
     return s == RB_OK ? s
                       : rb_fail(why, s,

@@ -115,18 +115,20 @@ static rb_status dump_influence(const target *t, const char *suffix,
     return s;
 }
 
-static rb_status dump_body(const target *t, const char *suffix,
-                           const rb_bem_system *system, rb_bem_material material)
+static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *model)
 {
+    const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
+    const char *suffix = of_b ? "_b" : "";
     char name[16];
-    if (!system)
-        return RB_OK;
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
+    rb_bem_mesh mesh;
+    rb_status s = rb_rolling_boundary_mesh(model, of_b, &mesh, t->why);
     snprintf(name, sizeof name, "mesh%s", suffix);
-    const rb_status s = dump_mesh(t, name, mesh);
-    if (s != RB_OK)
-        return s;
-    return dump_influence(t, suffix, mesh, material);
+    if (s == RB_OK && mesh.n > 0)
+        s = dump_mesh(t, name, &mesh);
+    if (s == RB_OK && mesh.n > 0)
+        s = dump_influence(t, suffix, &mesh, rb_rolling_material(model->rc, body));
+    rb_bem_mesh_free(&mesh);
+    return s;
 }
 
 static rb_status dump_dense(const target *t, const rb_rolling_model *model)
@@ -185,11 +187,9 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
     rb_status s = dump_contact(t, &model->mesh);
     if (s == RB_OK)
-        s = dump_body(t, "", model->bodies.system_a,
-                      rb_rolling_material(model->rc, &model->rc->a));
+        s = dump_body(t, 0, model);
     if (s == RB_OK)
-        s = dump_body(t, "_b", model->bodies.system_b,
-                      rb_rolling_material(model->rc, &model->rc->b));
+        s = dump_body(t, 1, model);
     if (s != RB_OK)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */

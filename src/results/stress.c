@@ -36,6 +36,7 @@ double rb_rolling_surface(const rb_rolling_case *rc, double x)
 typedef struct {
     const rb_rolling_model *model;
     rb_bem_field *wheel;             /* NULL for a half-plane; owned */
+    rb_bem_system *made;             /* NULL: that of the model, if any; owned */
     rb_bem_layer_field *layer;       /* NULL: of one material; owned */
     double *nodes;                   /* of a half-plane; owned */
     rb_bem_edge_load linear;         /* the tractions between them */
@@ -45,6 +46,7 @@ typedef struct {
 static void field_free(field *f)
 {
     rb_bem_field_free(f->wheel);
+    rb_bem_system_free(f->made);
     rb_bem_layer_field_free(f->layer);
     free(f->nodes);
 }
@@ -82,6 +84,11 @@ static rb_status set_nodes(field *f)
     return RB_OK;
 }
 
+static const rb_bem_system *system_of(const field *f)
+{
+    return f->made ? f->made : f->model->bodies.system_a;
+}
+
 static rb_status field_create(const rb_rolling_model *model, field *f, rb_message *why)
 {
     memset(f, 0, sizeof *f);
@@ -94,13 +101,17 @@ static rb_status field_create(const rb_rolling_model *model, field *f, rb_messag
             rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
         s = rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why);
     }
-    if (s != RB_OK || !model->bodies.system_a)
+    if (s != RB_OK || rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
+        return s;
+    if (!model->bodies.system_a)
+        s = rb_rolling_boundary_system(model, &f->made, why);
+    if (s != RB_OK)
         return s;
     double *t = rb_alloc(2 * (size_t)model->mesh.n, 1);
     if (!t)
         return RB_ENOMEM;
     rb_rolling_contact_tractions(model, t);
-    s = rb_bem_field_create(model->bodies.system_a, t, &f->wheel, why);
+    s = rb_bem_field_create(system_of(f), t, &f->wheel, why);
     free(t);
     return s;
 }
@@ -152,8 +163,6 @@ static rb_status halfplane_stress(const field *f, int n, const double *xy, doubl
 static rb_status evaluate(const field *f, int n, const double *xy, double *sigma,
                           rb_message *why)
 {
-    const rb_rolling_model *model = f->model;
-
     if (!f->wheel) {
         for (int k = 0; k < n; k++)
             if (!(xy[2 * k + 1] >= 0.0))
@@ -168,9 +177,8 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
     double *moved = rb_alloc((size_t)n, 2);
     if (!moved)
         return RB_ENOMEM;
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
-    lift_onto_polygon(mesh, n, moved);
+    lift_onto_polygon(rb_bem_system_mesh(system_of(f)), n, moved);
     const rb_status s =
         rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
     free(moved);
@@ -448,17 +456,21 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
             inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest(model->rc);
         return RB_OK;
     }
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
-    double *moved = rb_alloc((size_t)n, 2);
-    if (!moved)
-        return RB_ENOMEM;
-    memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
-    lift_onto_polygon(mesh, n, moved);
-    for (int k = 0; k < n; k++)
+    rb_bem_mesh mesh;
+    rb_status s = rb_rolling_boundary_mesh(model, 0, &mesh, NULL);
+    double *moved = s == RB_OK ? rb_alloc((size_t)n, 2) : NULL;
+    if (s == RB_OK && !moved)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
+        lift_onto_polygon(&mesh, n, moved);
+    }
+    for (int k = 0; k < n && s == RB_OK; k++)
         inside[k] = moved[2 * k + 1] != xy[2 * k + 1] ||
-                    encloses(mesh, moved[2 * k], moved[2 * k + 1]);
+                    encloses(&mesh, moved[2 * k], moved[2 * k + 1]);
     free(moved);
-    return RB_OK;
+    rb_bem_mesh_free(&mesh);
+    return s;
 }
 
 /* Keeps the points inside the body, in their order. */

@@ -18,19 +18,40 @@ static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_plan *p
                : plan->near_field == RB_NEAR_FIELD_EXACT;
 }
 
+/* Around a cover nothing changes with the angle: without boundary elements, unless they
+ * are asked for. */
+static int goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && rc->near_field == RB_NEAR_FIELD_AUTO;
+}
+
+static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_body *body,
+                               const rb_rolling_mesh *mesh, rb_bem_cylinder *cylinder,
+                               rb_bem_mesh *boundary, rb_message *why)
+{
+    *cylinder = (rb_bem_cylinder){.radius = body->radius,
+                                  .support = body->support,
+                                  .arc = body->arc * M_PI / 180.0,
+                                  .hub_ratio = body->hub_ratio,
+                                  .cover = body->cover,
+                                  .outer_elements = plan->outer_elements,
+                                  .refinement = plan->outer_refinement};
+    return rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, boundary, why);
+}
+
 /* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
  * where it is elastic. */
-static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_body *body,
-                              const rb_bem_cylinder *cylinder,
-                              const rb_rolling_mesh *mesh, rb_bem_system **system,
-                              rb_message *why)
+static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                              rb_bem_system **system, rb_message *why)
 {
     const rb_bem_material material = rb_rolling_material(rc, body);
+    rb_bem_cylinder cylinder;
     rb_bem_mesh boundary = {0}, core = {0};
-    rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, &boundary, why);
+    rb_status s = boundary_mesh(plan, body, mesh, &cylinder, &boundary, why);
 
     if (s == RB_OK && rb_rolling_has_elastic_core(body)) {
-        s = rb_bem_mesh_core(cylinder, &boundary, &core, why);
+        s = rb_bem_mesh_core(&cylinder, &boundary, &core, why);
         if (s == RB_OK)
             s = rb_bem_system_create_bonded(&boundary, material, &core,
                                             rb_rolling_base_material(rc, body), system,
@@ -43,13 +64,28 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_body *
     return s;
 }
 
-/* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
- * flexibility of a body with memory. */
-static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *body,
-                            const rb_rolling_mesh *mesh,
-                            rb_rolling_body_flexibility *one_body, rb_message *why)
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b,
+                                   rb_bem_mesh *boundary, rb_message *why)
 {
-    double length[RB_ROLLING_TERMS];
+    rb_bem_cylinder cylinder;
+    const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
+    *boundary = (rb_bem_mesh){0};
+    return rb_rolling_body_can(body, RB_BODY_FLAT) || (of_b && !model->rc->elastic_b)
+               ? RB_OK
+               : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary,
+                               why);
+}
+
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model,
+                                     rb_bem_system **system, rb_message *why)
+{
+    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system,
+                        why);
+}
+
+rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                 double length[RB_ROLLING_TERMS])
+{
     const double hub = body->hub_ratio * body->radius;
     rb_bem_wheel wheel = {.radius = body->radius,
                           .inner = body->cover > 0.0 ? body->radius - body->cover : hub,
@@ -63,13 +99,38 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
         wheel.hub = hub;
         wheel.core = rb_rolling_base_material(rc, body);
     }
+    return wheel;
+}
+
+/* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
+ * flexibility of a body with memory. */
+static rb_status add_memory(const rb_rolling_case *rc, const rb_bem_wheel *wheel,
+                            const rb_rolling_mesh *mesh,
+                            rb_rolling_body_flexibility *one_body, rb_message *why)
+{
     rb_status s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
     if (s == RB_OK)
-        s = rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, &one_body->f,
+        s = rb_bem_flexibility_add_memory(wheel, rc->normals, mesh->ends, &one_body->f,
                                           why);
     if (s == RB_OK)
         rb_rolling_memory_after(&one_body->f, one_body->memory);
     return s;
+}
+
+static rb_status
+by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                     const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                     rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    rb_status s = wheel_system(rc, plan, body, mesh, &one_body->system, why);
+
+    if (s != RB_OK)
+        return s;
+    rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
+                          &one_body->seconds_factor);
+    return (wants_exact_field(rc, plan, body)
+                ? rb_bem_condense_subtracted
+                : rb_bem_condense)(one_body->system, rc->normals, &one_body->f, why);
 }
 
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -77,26 +138,18 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
                                    const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)
 {
-    const rb_bem_cylinder cylinder = {.radius = body->radius,
-                                      .support = body->support,
-                                      .arc = body->arc * M_PI / 180.0,
-                                      .hub_ratio = body->hub_ratio,
-                                      .cover = body->cover,
-                                      .outer_elements = plan->outer_elements,
-                                      .refinement = plan->outer_refinement};
-    rb_status s = wheel_system(rc, body, &cylinder, mesh, &one_body->system, why);
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
+    const double start = rb_seconds();
+    rb_status s = goes_by_waves(rc, body)
+                      ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
+                                                 &one_body->f, why)
+                      : by_boundary_elements(rc, plan, body, mesh, one_body, why);
 
-    if (s == RB_OK) {
-        rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
-                              &one_body->seconds_factor);
-        const double start = rb_seconds();
-        s = (wants_exact_field(rc, plan, body)
-                 ? rb_bem_condense_subtracted
-                 : rb_bem_condense)(one_body->system, rc->normals, &one_body->f, why);
-        if (s == RB_OK && body->memory.n > 0)
-            s = add_memory(rc, body, mesh, one_body, why);
-        one_body->seconds_condense = rb_seconds() - start;
-    }
+    if (s == RB_OK && body->memory.n > 0)
+        s = add_memory(rc, &wheel, mesh, one_body, why);
+    one_body->seconds_condense =
+        rb_seconds() - start - one_body->seconds_assembly - one_body->seconds_factor;
     return s;
 }
 

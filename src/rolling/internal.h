@@ -27,6 +27,15 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
 
+/* ---- body_wheel.c ------------------------------------------------------------------ */
+
+/* The factored boundary elements of A, a wheel, anew; owned by the caller. */
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model,
+                                     rb_bem_system **system, rb_message *why);
+/* A wheel on a hub or a cover; borrows length and the body. */
+rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                 double length[RB_ROLLING_TERMS]);
+
 /* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
 
 /* The flexibility of one body. */

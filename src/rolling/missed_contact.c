@@ -115,31 +115,84 @@ static void add_line(int n, const point *at, const targets *to)
     }
 }
 
-/* Of the lower half of a wheel under contact tractions t_c. */
-static rb_status add_wheel(const rb_bem_system *system, double radius, const double *t_c,
-                           const targets *to)
+/* u_y of boundary elements by their system. */
+static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_state *state,
+                            int is_b, double coupling, const rb_bem_mesh *mesh, double *u)
 {
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
-    const size_t n = (size_t)mesh->n;
-    double *u = rb_alloc(2 * n, 2);
-    point *at = calloc(n, sizeof *at);
-    rb_status s = u && at ? rb_bem_system_solve(system, t_c, u, u + 2 * n) : RB_ENOMEM;
+    const int n = model->mesh.n;
+    double *t_c = rb_alloc(2 * (size_t)n, 1), *all = rb_alloc(2 * (size_t)mesh->n, 2);
+    rb_status s = t_c && all ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i < n && s == RB_OK; i++) {
+        t_c[2 * i] = coupling * state->q[i];
+        t_c[2 * i + 1] = state->p[i];
+    }
+    if (s == RB_OK)
+        s = rb_bem_system_solve(is_b ? model->bodies.system_b : model->bodies.system_a,
+                                t_c, all, all + 2 * mesh->n);
+    for (int j = 0; j < mesh->n && s == RB_OK; j++)
+        u[j] = all[2 * j + 1];
+    free(t_c);
+    free(all);
+    return s;
+}
+
+/* The same at n places x, of a cover. */
+static rb_status waved_rim(const rb_rolling_model *model, int is_b, double coupling,
+                           const strips *s, int n, const double *x, double *u)
+{
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_wheel wheel =
+        rb_rolling_wheel_of(model->rc, is_b ? &model->rc->b : &model->rc->a, length);
+    double *q = rb_alloc((size_t)s->n, 1);
+    if (!q)
+        return RB_ENOMEM;
+    cblas_daxpy(s->n, coupling, s->q, 1, q, 1);
+    const rb_bem_edge_load load = {s->n, s->ends, s->p, q};
+    const rb_status status = rb_bem_wheel_normal(&wheel, &load, n, x, u);
+    free(q);
+    return status;
+}
+
+/* Of the lower half of a wheel, between the midpoints of its boundary elements. */
+static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state,
+                           int is_b, const strips *loads, const targets *to)
+{
+    const double radius = (is_b ? model->rc->b : model->rc->a).radius,
+                 coupling = is_b ? -1.0 : 1.0;
+    const int solved = (is_b ? model->bodies.system_b : model->bodies.system_a) != NULL;
+    rb_bem_mesh mesh;
+    rb_status s = rb_rolling_boundary_mesh(model, is_b, &mesh, NULL);
+    double *u = s == RB_OK ? rb_alloc((size_t)mesh.n, 2) : NULL;
+    point *at = u ? calloc((size_t)mesh.n, sizeof *at) : NULL;
     int lower = 0;
 
-    for (int j = 0; j < mesh->n && s == RB_OK; j++) {
-        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]);
-        const double my = 0.5 * (mesh->y0[j] + mesh->y1[j]);
-        const int is_rim =
-            hypot(mesh->x0[j], mesh->y0[j] - radius) > (1.0 - 1e-9) * radius;
+    if (s == RB_OK && !at)
+        s = RB_ENOMEM;
+    if (s == RB_OK && solved)
+        s = solved_rim(model, state, is_b, coupling, &mesh, u);
+    for (int j = 0; j < mesh.n && s == RB_OK; j++) {
+        const double mx = 0.5 * (mesh.x0[j] + mesh.x1[j]);
+        const double my = 0.5 * (mesh.y0[j] + mesh.y1[j]);
+        const int is_rim = hypot(mesh.x0[j], mesh.y0[j] - radius) > (1.0 - 1e-9) * radius;
         if (is_rim && my < radius)
-            at[lower++] = (point){mx, u[2 * j + 1]};
+            at[lower++] = (point){mx, u[j]};
     }
-    if (lower > 1) {
+    if (s == RB_OK && !solved) {
+        double *x = u + mesh.n;
+        for (int i = 0; i < lower; i++)
+            x[i] = at[i].x;
+        s = waved_rim(model, is_b, coupling, loads, lower, x, u);
+        for (int i = 0; i < lower; i++)
+            at[i].u = u[i];
+    }
+    if (s == RB_OK && lower > 1) {
         qsort(at, (size_t)lower, sizeof *at, by_x);
         add_line(lower, at, to);
     }
     free(at);
     free(u);
+    rb_bem_mesh_free(&mesh);
     return s;
 }
 
@@ -148,22 +201,10 @@ static rb_status add_body(const rb_rolling_model *model, const rb_contact_state 
                           int is_b, const strips *s, const targets *to)
 {
     const rb_rolling_body *body = is_b ? &model->rc->b : &model->rc->a;
-    const rb_bem_system *system = is_b ? model->bodies.system_b : model->bodies.system_a;
-    const double coupling = is_b ? -1.0 : 1.0;
-    const int n = model->mesh.n;
 
-    if (!system)
-        return add_halfplane(model->rc, body, coupling, s, to);
-    double *t_c = rb_alloc(2 * (size_t)n, 1);
-    if (!t_c)
-        return RB_ENOMEM;
-    for (int i = 0; i < n; i++) {
-        t_c[2 * i] = coupling * state->q[i];
-        t_c[2 * i + 1] = state->p[i];
-    }
-    const rb_status status = add_wheel(system, body->radius, t_c, to);
-    free(t_c);
-    return status;
+    return rb_rolling_body_can(body, RB_BODY_FLAT)
+               ? add_halfplane(model->rc, body, is_b ? -1.0 : 1.0, s, to)
+               : add_wheel(model, state, is_b, s, to);
 }
 
 static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,

@@ -1,0 +1,394 @@
+/* The flexibility of wheels by their waves (B12): the table of the waves' sum against its
+ * closed form, the flexibility against the sum of Michell's waves, against boundary
+ * elements and against the flat layer. */
+#include "bem/ring.h"
+#include "check.h"
+#include "michell.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+
+/* ---- The table --------------------------------------------------------------------- */
+
+/* exp(-2 m d), d = ln(radius/inner), whose sum has the primitive i ln(1 - q exp(ix)). */
+static void falling_waves(const rb_bem_wheel *wheel, double m, cplx c[3])
+{
+    const double x = 2.0 * m * log(wheel->radius / wheel->inner);
+    c[0] = m > 0.0 ? exp(-x) : 3.0;
+    c[1] = m > 0.0 ? (1.0 + 2.0 * I) * exp(-x) : 0.0;
+    c[2] = m > 0.0 ? exp(-x) : 0.0;
+}
+
+static cplx falling_sum(double d, double x)
+{
+    const double q = exp(-2.0 * d), half = sin(0.5 * x);
+    return I * clog(-expm1(-2.0 * d) + 2.0 * q * half * half - I * q * sin(x));
+}
+
+/* Covers of half a radius to a millionth of it, whose sums have 50 to 2e7 waves. */
+static void the_table_is_the_sum(void **state)
+{
+    (void)state;
+    for (double thickness = 0.5; thickness > 5e-7; thickness *= 0.03) {
+        const rb_bem_wheel wheel = {.radius = 1.0, .inner = 1.0 - thickness};
+        const double d = -log(wheel.inner), reach = fmin(1.0, 1e3 * thickness);
+        const int last = (int)(RB_RING_REACH / d) + 2;
+        rb_ring_table table;
+        CHECK_STATUS(rb_ring_table_create(&wheel, falling_waves, last, NULL,
+                                          fmin(1.0, 0.01 * d), reach, &table),
+                     RB_OK);
+        for (int k = -200; k <= 200; k++) {
+            const double x = copysign(reach * pow(1e-6, 1.0 - abs(k) / 200.0), k);
+            const cplx sum = falling_sum(d, x);
+            const double scale = 1.0 + cabs(sum);
+            const rb_ring_answer at = rb_ring_table_at(&table, x);
+            CHECK_ABS(at.N, creal(sum) + 3.0 * x, 2e-12 * scale, "N, %g at %g", d, x);
+            CHECK_ABS(at.T, creal((1.0 + 2.0 * I) * sum), 2e-12 * scale, "T, %g at %g", d,
+                      x);
+            CHECK_ABS(at.C, cimag(sum), 2e-12 * scale, "C, %g at %g", d, x);
+        }
+        rb_ring_table_free(&table);
+    }
+}
+
+/* ---- The flexibility --------------------------------------------------------------- */
+
+static double *matrix_of(const rb_bem_flexibility *f)
+{
+    double *F = malloc(sizeof(double) * 4 * (size_t)f->m * (size_t)f->n);
+    CHECK_STATUS(rb_bem_flexibility_matrix(f, F, 2 * f->m), RB_OK);
+    return F;
+}
+
+static double *wheel_matrix(const rb_bem_wheel *wheel, rb_bem_normals normals, int n,
+                            const double *ends)
+{
+    rb_bem_flexibility f;
+    rb_message why = {""};
+    CHECK_STATUS(rb_bem_flexibility_wheel(n, ends, wheel, normals, &f, &why), RB_OK);
+    double *F = matrix_of(&f);
+    rb_bem_flexibility_free(&f);
+    return F;
+}
+
+/* A ring, a cover on a rigid core, the same incompressible, covers on soft and hard
+ * cores, a thick one on a small hub. */
+static const rb_bem_wheel wheels[] = {
+    {10.0, 5.0, {3.0, 0.3}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+    {10.0, 9.0, {3.0, 0.4}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+    {10.0, 9.0, {3.0, 0.5}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+    {10.0, 8.0, {3.0, 0.48}, 0, NULL, NULL, 4.0, {5.0, 0.25}},
+    {10.0, 9.0, {3.0, 0.3}, 0, NULL, NULL, 6.0, {1e4, 0.3}},
+    {10.0, 4.0, {3.0, -0.5}, 0, NULL, NULL, 0.1, {1.0, 0.5}}};
+enum { WHEELS = sizeof wheels / sizeof *wheels };
+
+enum { N = 24, M = N + 1 };
+static const double HALF_ARC = 0.01;
+
+/* Equal arcs. */
+static void arcs(double radius, double *ends)
+{
+    for (int i = 0; i < N + 2; i++)
+        ends[i] = radius * sin(HALF_ARC * (2 * i - N));
+}
+
+/* Over the disc in closed form, whose waves 0 and 1 are known, a wheel has the waves of
+ * its inner contour; all are summed one by one. */
+static void the_flexibility_is_the_sum_of_its_waves(void **state)
+{
+    (void)state;
+    enum { LAST = 400, EXACT = 60 };
+    static cplx C[LAST + 1][4];
+    for (int k = 0; k < WHEELS; k++) {
+        const rb_bem_wheel *w = wheels + k;
+        const double ka = 3.0 - 4.0 * w->material.poisson,
+                     G = w->radius / (2.0 * w->material.shear);
+        const rb_bem_disc disc = {w->radius, w->material};
+        double ends[N + 2], largest = 0.0;
+        rb_bem_flexibility f;
+        arcs(w->radius, ends);
+        double *F = wheel_matrix(w, RB_BEM_NORMALS_SURFACE, N, ends);
+        CHECK_STATUS(
+            rb_bem_flexibility_disc(N, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, NULL),
+            RB_OK);
+        double *D = matrix_of(&f);
+        rb_bem_flexibility_free(&f);
+        for (int m = 0; m <= LAST; m++) {
+            const double out = 0.5 * ka / (m + 1), in = m > 1 ? 0.5 / (m - 1) : 0.0;
+            /* of the disc as it is held: 0 and 1 are motions, wave 1 has ka/4 as well */
+            const double own[4] = {m == 0   ? 0.5 * (ka - 1.0)
+                                   : m == 1 ? 0.25 * ka - 1.0
+                                            : out + in,
+                                   m == 0   ? 0.0
+                                   : m == 1 ? 0.25 * ka
+                                            : out - in,
+                                   m == 0   ? 0.0
+                                   : m == 1 ? 0.25 * ka
+                                            : out - in,
+                                   m == 0   ? 0.0
+                                   : m == 1 ? 0.25 * ka + 1.0
+                                            : out + in};
+            if (m * log(w->radius / w->inner) < 18.0 && m <= EXACT * 3)
+                wheel_answers(w, m, 1.0, C[m]);
+            else
+                for (int i = 0; i < 4; i++)
+                    C[m][i] = G * own[i];
+            for (int i = 0; i < 4; i++)
+                C[m][i] -= G * own[i];
+        }
+        for (int i = 0; i < 4 * M * N; i++)
+            largest = fmax(largest, fabs(F[i]));
+        for (int j = 0; j < N; j += 5)
+            for (int i = 0; i < M; i++) {
+                const double x = 2.0 * HALF_ARC * (i - j);
+                double sum[4] = {0.0};
+                for (int m = 0; m <= LAST; m++) {
+                    const double load =
+                        (m ? 2.0 * sin(m * HALF_ARC) / m : HALF_ARC) / M_PI;
+                    sum[0] += load * creal(C[m][0]) * cos(m * x);
+                    sum[1] -= load * creal(C[m][1]) * sin(m * x);
+                    sum[2] += load * creal(C[m][2]) * sin(m * x);
+                    sum[3] += load * creal(C[m][3]) * cos(m * x);
+                }
+                for (int b = 0; b < 4; b++) {
+                    const int at = i + b % 2 * M + (j + b / 2 * N) * 2 * M;
+                    CHECK_ABS(F[at] - D[at], sum[b], 1e-11 * largest,
+                              "wheel %d, block %d, %d under %d", k, b, i, j);
+                }
+            }
+        free(F);
+        free(D);
+    }
+}
+
+/* A load over three arcs is that over each of them; in frames of the obstacle the same is
+ * turned. */
+static void uneven_arcs_and_frames(void **state)
+{
+    (void)state;
+    enum { FEW = N / 2, m = FEW + 1 };
+    for (int k = 0; k < WHEELS; k++) {
+        double ends[N + 2], few[FEW + 2], largest = 0.0;
+        int middle[m];
+        arcs(wheels[k].radius, ends);
+        double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, N, ends);
+        for (int i = 0, at = 0; i <= m; i++) { /* of 1 and 3 arcs in turns */
+            few[i] = ends[at];
+            if (i < m)
+                middle[i] = at + i % 2;
+            at += 1 + 2 * (i % 2);
+        }
+        double *A = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, FEW, few),
+               *B = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, FEW, few);
+        for (int i = 0; i < 4 * M * N; i++)
+            largest = fmax(largest, fabs(F[i]));
+        for (int j = 0; j < FEW; j++)
+            for (int i = 0; i < m; i++) {
+                const double to = HALF_ARC * (2 * middle[i] + 1 - N),
+                             from = HALF_ARC * (2 * middle[j] + 1 - N);
+                double own[2][2], turned[2][2];
+                for (int a = 0; a < 2; a++)
+                    for (int b = 0; b < 2; b++) {
+                        double sum = 0.0;
+                        for (int l = -(j % 2); l <= j % 2; l++)
+                            sum += F[middle[i] + a * M + (middle[j] + l + b * N) * 2 * M];
+                        own[a][b] = A[i + a * m + (j + b * FEW) * 2 * m];
+                        turned[a][b] = B[i + a * m + (j + b * FEW) * 2 * m];
+                        CHECK_ABS(own[a][b], sum, 1e-12 * largest, "wheel %d, %d %d", k,
+                                  i, j);
+                    }
+                /* normal (-sin, cos), tangent (cos, sin) of the surface */
+                const double t[2] = {cos(to), sin(to)}, f[2] = {cos(from), sin(from)};
+                const double R[2][2] = {{t[0], t[1]}, {-t[1], t[0]}},
+                             S[2][2] = {{f[0], -f[1]}, {f[1], f[0]}};
+                for (int a = 0; a < 2; a++)
+                    for (int b = 0; b < 2; b++) {
+                        double want = 0.0;
+                        for (int c = 0; c < 2; c++)
+                            for (int d = 0; d < 2; d++)
+                                want += R[a][c] * own[c][d] * S[d][b];
+                        CHECK_ABS(turned[a][b], want, 1e-12 * largest, "wheel %d turned",
+                                  k);
+                    }
+            }
+        free(F);
+        free(A);
+        free(B);
+    }
+}
+
+/* Largest difference over the largest entry. */
+static double apart(int n, const double *A, const double *B)
+{
+    double largest = 0.0, worst = 0.0;
+    for (int k = 0; k < 4 * (n + 1) * n; k++) {
+        largest = fmax(largest, fabs(B[k]));
+        worst = fmax(worst, fabs(A[k] - B[k]));
+    }
+    return worst / largest;
+}
+
+/* Of a cover or a ring, n elements in contact and the others as much finer. */
+static double boundary_error(int kind, rb_bem_normals normals, int n)
+{
+    const rb_bem_material rubber = {3.0, 0.4}, steel = {30.0, 0.3};
+    const rb_bem_cylinder cylinder = {.radius = 100.0,
+                                      .support = RB_BEM_HUB,
+                                      .hub_ratio = 0.3,
+                                      .cover = kind ? 5.0 : 0.0,
+                                      .refinement = n / 10.0};
+    const rb_bem_wheel wheel = {.radius = 100.0,
+                                .inner = kind ? 95.0 : 30.0,
+                                .material = rubber,
+                                .hub = kind == 2 ? 30.0 : 0.0,
+                                .core = steel};
+    double ends[80];
+    rb_bem_mesh mesh = {0}, core = {0};
+    rb_bem_system *system = NULL;
+    rb_bem_flexibility f;
+    rb_message why = {""};
+    for (int i = 0; i < n + 2; i++)
+        ends[i] = 4.0 * (2.0 * i / n - 1.0);
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, &why), RB_OK);
+    if (kind == 2) {
+        CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &core, &why), RB_OK);
+        CHECK_STATUS(
+            rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &why),
+            RB_OK);
+    } else {
+        CHECK_STATUS(rb_bem_system_create(&mesh, rubber, &system, &why), RB_OK);
+    }
+    CHECK_STATUS(rb_bem_condense_subtracted(system, normals, &f, &why), RB_OK);
+    double *A = matrix_of(&f), *B = wheel_matrix(&wheel, normals, n, ends);
+    const double error = apart(n, A, B);
+    free(A);
+    free(B);
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    rb_bem_mesh_free(&core);
+    return error;
+}
+
+static void boundary_elements_come_to_it(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        for (int normals = 0; normals < 2; normals++) {
+            const double coarse = boundary_error(kind, (rb_bem_normals)normals, 20),
+                         fine = boundary_error(kind, (rb_bem_normals)normals, 40);
+            CHECK_MAX(coarse, kind ? 4e-3 : 6e-3, "kind %d, normals %d", kind, normals);
+            CHECK_MAX(fine, 0.6 * coarse, "kind %d, normals %d", kind, normals);
+        }
+}
+
+/* The thinner the cover, the less its roundness matters. */
+static void a_thin_cover_is_a_layer(void **state)
+{
+    (void)state;
+    for (int elastic = 0; elastic < 2; elastic++) {
+        const rb_bem_material rubber = {3.0, 0.45}, steel = {30.0, 0.3};
+        for (double d = 1e-2; d > 1e-6; d *= 1e-2) {
+            const rb_bem_wheel wheel = {.radius = 1.0,
+                                        .inner = 1.0 - d,
+                                        .material = rubber,
+                                        .hub = elastic ? 0.5 : 0.0,
+                                        .core = steel};
+            const rb_bem_surface layer = {.material = rubber,
+                                          .datum = 1.0,
+                                          .thickness = d,
+                                          .elastic_base = elastic,
+                                          .base = steel};
+            double ends[N + 2];
+            rb_bem_flexibility f;
+            for (int i = 0; i < N + 2; i++)
+                ends[i] = 4.0 * d * (2.0 * i / N - 1.0);
+            CHECK_STATUS(rb_bem_flexibility_surface(N, ends, &layer, &f, NULL), RB_OK);
+            double *A = matrix_of(&f),
+                   *B = wheel_matrix(&wheel, RB_BEM_NORMALS_SURFACE, N, ends);
+            /* the datum of the base is at will: a motion per force */
+            for (int block = 0; block < 2 && elastic; block++) {
+                const int at = block * M + block * N * 2 * M;
+                const double off = A[at] - B[at];
+                for (int j = 0; j < N; j++)
+                    for (int i = 0; i < M; i++)
+                        A[at + i + j * 2 * M] -= off;
+            }
+            CHECK_MAX(apart(N, A, B), 10.0 * d, "d %g, elastic %d", d, elastic);
+            rb_bem_flexibility_free(&f);
+            free(A);
+            free(B);
+        }
+    }
+}
+
+static void displacement_anywhere(void **state)
+{
+    (void)state;
+    for (int k = 0; k < WHEELS; k++) {
+        double ends[N + 2], x[M], p[N], q[N], w[M], largest = 0.0;
+        const rb_bem_edge_load load = {N, ends, p, q};
+        arcs(wheels[k].radius, ends);
+        for (int j = 0; j < N; j++) {
+            p[j] = 1.0 + 0.1 * j;
+            q[j] = 0.5 - 0.2 * (j % 3);
+        }
+        for (int i = 0; i < M; i++)
+            x[i] = wheels[k].radius * sin(HALF_ARC * (2 * i + 1 - N));
+        double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, N, ends);
+        CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, M, x, w), RB_OK);
+        for (int i = 0; i < M; i++)
+            largest = fmax(largest, fabs(w[i]));
+        for (int i = 0; i < M; i++) {
+            double want = 0.0;
+            for (int j = 0; j < N; j++)
+                want += F[i + j * 2 * M] * p[j] + F[i + (j + N) * 2 * M] * q[j];
+            CHECK_ABS(w[i], want, 1e-11 * largest, "wheel %d at %d", k, i);
+        }
+        free(F);
+        x[0] = wheels[k].radius;
+        CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, M, x, w), RB_EINVAL);
+        CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, 0, x, w), RB_EINVAL);
+    }
+}
+
+static void bad_wheels_are_refused(void **state)
+{
+    (void)state;
+    rb_bem_wheel wheel = wheels[3];
+    double ends[4] = {-0.1, 0.0, 0.1, 0.2};
+    rb_bem_flexibility f;
+    rb_message why;
+    wheel.core.shear = 1e-90;
+    CHECK_STATUS(
+        rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_SINGULAR);
+    assert_non_null(strstr(why.text, "singular"));
+    wheel = wheels[3];
+    wheel.hub = wheel.inner;
+    CHECK_STATUS(
+        rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_EINVAL);
+    ends[3] = wheel.radius;
+    CHECK_STATUS(
+        rb_bem_flexibility_wheel(2, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_EINVAL);
+    assert_non_null(strstr(why.text, "is wider"));
+    CHECK_STATUS(
+        rb_bem_flexibility_wheel(0, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_EINVAL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_is_the_sum),
+        cmocka_unit_test(the_flexibility_is_the_sum_of_its_waves),
+        cmocka_unit_test(uneven_arcs_and_frames),
+        cmocka_unit_test(boundary_elements_come_to_it),
+        cmocka_unit_test(a_thin_cover_is_a_layer),
+        cmocka_unit_test(displacement_anywhere),
+        cmocka_unit_test(bad_wheels_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
