@@ -322,7 +322,8 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE(
         "near-field", RC(near_field), near_fields,
         "of a load on a wheel: plain boundary elements, or the exact strip and "
-        "elements for the rest; auto: exact on fitted meshes"),
+        "elements for the rest; auto: exact on fitted meshes, and of covers waves "
+        "around the circumference without elements"),
 
     RB_GROUP_LINE("units", "Units: 210GPa, 100kN/m, 18in, 0.1% always say their own"),
     RB_CHOICE_LINE("units", PLACE(units), systems,

@@ -30,7 +30,8 @@ static const rb_rolling_result scalars[] = {
     RESULT("load_error", load_error, .no_derivative = 1,
            .meaning = "|P - given|/given; under a given load"),
     RESULT("support_balance", support_balance, .no_derivative = 1,
-           .meaning = "(reaction at the support + P)/P; not of half-planes"),
+           .meaning = "(reaction at the support + P)/P; not of half-planes and "
+                      "covers"),
     RESULT("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_LOAD,
            .study = 1, .meaning = "P, the sum of the pressure"),
     RESULT("tangential_load", tangential_load, .unit = "N/mm",
