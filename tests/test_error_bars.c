@@ -86,7 +86,7 @@ static void count_bar(count *c, double value, double truth, double bar)
         return;
     if (fabs(value) <= 1e-6 * unit && fabs(truth) <= 1e-6 * unit)
         return;
-    if (is_shown && error > bar)
+    if (is_shown && !(error <= bar))
         printf("    %s: %.6g +- %.3g, truth %.6g: %.2g bars\n", is_shown, value, bar,
                truth, error / bar);
     c->held += error <= bar;
@@ -248,17 +248,68 @@ static void count_solution(const rb_rolling_case *rc, counts *t)
     rb_rolling_solution_free(&truth);
 }
 
-/* Of the finer run's steps that make step k. */
-static double mean_over_step(const double *fine, int k)
+/* A column of the finer run at a way of rolling that its steps need not meet. */
+static double at_distance(const rb_rolling_history *fine, const double *column, double x)
+{
+    int k = 0;
+
+    while (k + 1 < fine->n && fine->distance[k + 1] <= x)
+        k++;
+    if (k + 1 == fine->n)
+        return column[k];
+    const double part =
+        (x - fine->distance[k]) / (fine->distance[k + 1] - fine->distance[k]);
+    return part > 0.0 ? column[k] + part * (column[k + 1] - column[k]) : column[k];
+}
+
+/* Of the finer run's steps, or of their parts, that lie on the way. */
+static double mean_on_the_way(const rb_rolling_history *fine, const double *column,
+                              double from, double to)
 {
     double sum = 0.0;
 
-    for (int j = 0; j < FINER; j++)
-        sum += fine[FINER * k - j];
-    return sum / FINER;
+    for (int j = 1; j < fine->n; j++) {
+        const double part =
+            fmin(to, fine->distance[j]) - fmax(from, fine->distance[j - 1]);
+        sum += part > 0.0 ? part * column[j] : 0.0;
+    }
+    return sum / (to - from);
 }
 
 /* At every third step; creepage and power of a step are its means. */
+static void count_steps(const rb_rolling_history *h, const rb_rolling_history *truth,
+                        counts *t)
+{
+    const struct {
+        const char *name;
+        count *among;
+        const double *value, *truth, *bar;
+        int of_step;
+    } column[] = {
+#define COLUMN(among, name, of_step)                                                     \
+    {#name, &t->among, h->name, truth->name, h->errors->name, of_step}
+        COLUMN(main, tangential_load, 0),
+        COLUMN(main, approach, 0),
+        COLUMN(main, max_pressure, 0),
+        COLUMN(main, dissipation, 1),
+        COLUMN(others, normal_load, 0),
+        COLUMN(others, creepage, 1),
+        COLUMN(others, contact_from, 0),
+        COLUMN(others, contact_to, 0)
+#undef COLUMN
+    };
+    for (int k = 1; k < h->n; k += 3)
+        for (size_t j = 0; j < sizeof column / sizeof *column; j++) {
+            const double from = h->distance[k - 1], to = h->distance[k];
+            is_shown = is_shown ? column[j].name : NULL;
+            count_bar(column[j].among, column[j].value[k],
+                      column[j].of_step && to > from
+                          ? mean_on_the_way(truth, column[j].truth, from, to)
+                          : at_distance(truth, column[j].truth, to),
+                      column[j].bar[k]);
+        }
+}
+
 static void count_history(const rb_rolling_case *rc, counts *t)
 {
     const rb_rolling_case fine = finer(rc);
@@ -270,24 +321,8 @@ static void count_history(const rb_rolling_case *rc, counts *t)
         status = rb_rolling_history_run(&fine, NULL, NULL, &fine_model, &truth, NULL);
     t->main.unsolved += status != RB_OK;
     unit = 0.0;
-    for (int k = 1; k < h.n && FINER * k < truth.n && status == RB_OK; k += 3) {
-        const int i = FINER * k;
-        count_bar(&t->main, h.tangential_load[k], truth.tangential_load[i],
-                  h.errors->tangential_load[k]);
-        count_bar(&t->main, h.approach[k], truth.approach[i], h.errors->approach[k]);
-        count_bar(&t->main, h.max_pressure[k], truth.max_pressure[i],
-                  h.errors->max_pressure[k]);
-        count_bar(&t->main, h.dissipation[k], mean_over_step(truth.dissipation, k),
-                  h.errors->dissipation[k]);
-        count_bar(&t->others, h.normal_load[k], truth.normal_load[i],
-                  h.errors->normal_load[k]);
-        count_bar(&t->others, h.creepage[k], mean_over_step(truth.creepage, k),
-                  h.errors->creepage[k]);
-        count_bar(&t->others, h.contact_from[k], truth.contact_from[i],
-                  h.errors->contact_from[k]);
-        count_bar(&t->others, h.contact_to[k], truth.contact_to[i],
-                  h.errors->contact_to[k]);
-    }
+    if (status == RB_OK)
+        count_steps(&h, &truth, t);
     rb_rolling_history_free(&h);
     rb_rolling_history_free(&truth);
     rb_rolling_model_free(&model);

@@ -39,22 +39,15 @@ static rb_rolling_case coarser_case(const rb_rolling_case *rc, int k)
     return coarser;
 }
 
-/* contact: the values with n/2, 0.7 n and n elements; boundary: that with half of it. */
+/* contact: the values with n/2, 0.7 n and n elements, five times whose spread where they
+ * do not follow in order; boundary: that with half of it. */
 static double wanted_bar(const double contact[3], int has_boundary, double boundary)
 {
     const double most = fmax(contact[0], fmax(contact[1], contact[2]));
     const double least = fmin(contact[0], fmin(contact[1], contact[2]));
-    return 3.0 * (most - least) +
-           (has_boundary ? 2.0 * fabs(contact[2] - boundary) : 0.0);
-}
-
-/* Of a single solution: five times the spread where the three do not follow in order. */
-static double wanted_solution_bar(const double contact[3], int has_boundary,
-                                  double boundary)
-{
     const int turns = (contact[1] - contact[0]) * (contact[2] - contact[1]) < 0.0;
-    return wanted_bar(contact, has_boundary, boundary) +
-           (turns ? 2.0 / 3.0 * wanted_bar(contact, 0, 0.0) : 0.0);
+    return (turns ? 5.0 : 3.0) * (most - least) +
+           (has_boundary ? 2.0 * fabs(contact[2] - boundary) : 0.0);
 }
 
 /* Rounding is on top, and nothing else. */
@@ -102,8 +95,8 @@ static void bars_of_a_solution(rb_bem_support support)
                                       rb_rolling_number(row, &run[1]),
                                       rb_rolling_number(row, &own)};
             check_bar(row->name, rb_rolling_number(row, &errors.scalar),
-                      wanted_solution_bar(contact, support != RB_BEM_HALFPLANE,
-                                          rb_rolling_number(row, &run[2])),
+                      wanted_bar(contact, support != RB_BEM_HALFPLANE,
+                                 rb_rolling_number(row, &run[2])),
                       fabs(contact[2]));
             seen++;
         }
@@ -116,9 +109,9 @@ static void bars_of_a_solution(rb_bem_support support)
             longest = fmax(longest, own.zone[i] == RB_ZONE_SEPARATED ? 0.0 : own.h[i]);
         const double D[] = {run[0].dissipation, run[1].dissipation, own.dissipation};
         check_bar("dissipation", errors.scalar.dissipation,
-                  wanted_solution_bar(D, 0, 0.0) +
-                      edge_power(&rc, own.normal_load, own.creepage, own.hertz_half_width,
-                                 longest / (2.0 * own.half_width)),
+                  wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load, own.creepage,
+                                                     own.hertz_half_width,
+                                                     longest / (2.0 * own.half_width)),
                   own.dissipation);
     }
     for (int k = 0; k < 3; k++)

@@ -56,22 +56,16 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
 /* ---- From their values to a bar ---------------------------------------------------- */
 
 /* Three times the spread over the contact meshes: three errors where they are of first
- * order, nine where of second, and less where they jump as the edges pass elements. */
+ * order, nine where of second.  Five times the spread where the meshes go to and fro, as
+ * the edges pass elements: finer ones have not come nearer yet. */
 double rb_rolling_contact_error(const double coarser[], double own)
 {
     const double most = fmax(own, fmax(coarser[0], coarser[1]));
     const double least = fmin(own, fmin(coarser[0], coarser[1]));
-
-    return 3.0 * (most - least) + 0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
-}
-
-/* Five times the spread where the meshes go to and fro: finer ones have not come nearer
- * yet.  Steps of a history and points of a curve err each by another part. */
-static double solution_error(const double coarser[], double own)
-{
     const int turns = (coarser[1] - coarser[0]) * (own - coarser[1]) < 0.0;
 
-    return (turns ? 5.0 / 3.0 : 1.0) * rb_rolling_contact_error(coarser, own);
+    return (turns ? 5.0 : 3.0) * (most - least) +
+           0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
 }
 
 /* The boundary outside the contact is smooth and its error of second order: half the
@@ -209,10 +203,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                                              fabs(rb_rolling_derive(rc).dundurs)
                                        : 0.0)) *
                s->max_pressure;
-    case RB_SCALE_POWER:
-        return rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
+    case RB_SCALE_POWER: {
+        /* where no element slips, all of what the force does beside free rolling */
+        const double driven =
+            s->slipping == 0 ? fabs((s->creepage - s->free_creepage) * s->tangential_load)
+                             : 0.0;
+        return (driven > 0.0 ? driven : 0.0) +
+               rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
                                      rb_rolling_longest_element(s->n, s->zone, s->h) /
                                          (2.0 * s->half_width));
+    }
     case RB_SCALE_MOMENT:
         return rounding * s->normal_load * a;
     case RB_SCALE_TORQUE:
@@ -259,6 +259,22 @@ static void *part_of_errors(rb_rolling_errors *e, int table)
     return table ? (void *)&e->stress : &e->scalar;
 }
 
+/* Where a coarser run has no stick at all: the zone is shorter than its elements, of
+ * which one is added to the bar. */
+static double take_unseen(const rb_rolling_solution *s, int runs, double value,
+                          double coarser[])
+{
+    const double element = rb_rolling_longest_element(s->n, s->zone, s->h);
+    double longest = 0.0;
+
+    for (int j = 0; j < runs && !isnan(value); j++)
+        if (isnan(coarser[j])) {
+            coarser[j] = value;
+            longest = fmax(longest, element / part[j].contact);
+        }
+    return longest;
+}
+
 static void estimate(const rb_rolling_case *rc, const sample run[], const sample *own,
                      int with_stress, error_parts *e)
 {
@@ -274,9 +290,12 @@ static void estimate(const rb_rolling_case *rc, const sample run[], const sample
             const double value = rb_rolling_number(r, part_of_sample(own, t));
             for (int j = 0; j < runs; j++)
                 coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
+            const double unseen = r->error_bar == RB_SCALE_ELEMENT
+                                      ? take_unseen(&own->solution, runs, value, coarser)
+                                      : 0.0;
             put(r, part_of_errors(&e->contact, t),
-                solution_error(coarser, value) +
-                    least_error(rc, &own->solution, r->error_bar));
+                rb_rolling_contact_error(coarser, value) +
+                    least_error(rc, &own->solution, r->error_bar) + unseen);
             put(r, part_of_errors(&e->boundary, t),
                 rb_rolling_boundary_error(runs, coarser, value));
         }
