@@ -59,7 +59,7 @@ for (const [width, height, mobile] of [
             await page.run("document.querySelector('label[for=__search]').click()");
             /* What is typed before the index has been read is lost: typed again, as a reader does. */
             const found = "document.querySelectorAll('.md-search-result__item').length > 0";
-            for (let tries = 6, there = false; tries-- && !there; ) {
+            for (let tries = 18, there = false; tries-- && !there; ) {
                 await page.run(`{ const box = document.querySelector('.md-search__input'); box.focus();
                     for (const text of ['', 'contact-elements']) { box.value = text;
                         box.dispatchEvent(new KeyboardEvent('keyup', { bubbles: true })); box.dispatchEvent(new Event('input', { bubbles: true })) } }`);
