@@ -4,7 +4,8 @@
 
 #include <gsl/gsl_math.h>
 
-#define HERTZ "crack --similar --support halfplane --half-width 1 --radius 1000 "
+#define CONTACT "--similar --support halfplane --half-width 1 --radius 1000 "
+#define HERTZ "crack " CONTACT
 #define BRAKED "--formulation steady --creep-ratio 3 "
 #define DRIVEN "--formulation steady --creep-ratio -3 "
 
@@ -260,6 +261,91 @@ static void coupled(void **state)
     check_refused(HERTZ "--mu 0 --coupled --unloaded --remote-stress 1", 64, "exclude");
 }
 
+/* A study of cracks is `rollbem crack` case by case, with its error bars, in units, from
+ * a case file, and it goes on where it was cut. */
+#define VARIED                                                                           \
+    "sweep cracks.ini --vary-1 'crack-length 0.5 1' --vary-2 'crack-angle 30 60' "
+
+static void studies(void **state)
+{
+    static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II",
+                                        "K_II_min_at"};
+    char line[300], heading[60];
+    (void)state;
+    write_file("cracks.ini",
+               "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
+               "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
+               "remote-stress = 20MPa\ncrack-elements = 12\n");
+    json_t *study = run_json(VARIED "--units inch --error --jobs 2");
+    const json_t *table = json_object_get(study, "table");
+    for (size_t k = 0; k < 4; k++) {
+        snprintf(line, sizeof line,
+                 "crack cracks.ini --units inch --error --crack-length %g --crack-angle "
+                 "%d",
+                 k < 2 ? 0.5 : 1.0, k % 2 ? 60 : 30);
+        json_t *one = run_json(line);
+        const json_t *errors = json_object_get(json_object_get(one, "summary"), "errors");
+        for (size_t j = 0; j < sizeof names / sizeof *names; j++) {
+            const char *unit = j == 3 ? "in" : "psi.in^0.5";
+            snprintf(heading, sizeof heading, "%s_%s", names[j], unit);
+            CHECK_REL(entry(table, heading, k), in_summary(one, names[j]), 1e-12, "%s",
+                      heading);
+            snprintf(heading, sizeof heading, "error_%s_%s", names[j], unit);
+            if (j < 3)
+                CHECK_REL(entry(table, heading, k), number_in(errors, names[j]), 1e-9,
+                          "%s", heading);
+        }
+        json_decref(one);
+    }
+    CHECK_ABS(number_in(json_object_get(study, "inputs"), "crack-elements"), 12.0, 0.0,
+              "inputs");
+    json_decref(study);
+
+    assert_int_equal(rollbem(VARIED "--quiet --output all.tsv --map m.svg"), 0);
+    assert_int_equal(shell("head -6 all.tsv > part.tsv && grep -q '</svg>' m.svg"), 0);
+    assert_int_equal(shell("sed -i 's/all.tsv --map m.svg/part.tsv/' part.tsv"), 0);
+    assert_int_equal(rollbem(VARIED "--quiet --output part.tsv"), 0);
+    assert_int_equal(shell("grep -v '^#' all.tsv > a; grep -v '^#' part.tsv | cmp - a"),
+                     0);
+    assert_int_equal(rollbem(VARIED "--crack-friction 0.4 --quiet --output "
+                                    "part.tsv"),
+                     73); /* another study */
+
+    /* loads with steps of their own; trapped fluid; a coupled contact */
+    json_t *steps = run_json("sweep " CONTACT
+                             "--mu 0.3 --increments 3 --shift 2e-4 --vary-1 'crack-mouth "
+                             "0.7 0.9' --crack-elements 10");
+    CHECK_MAX(1e-4,
+              fabs(entry(json_object_get(steps, "table"), "K_II_max_MPa.mm^0.5", 1)),
+              "pressing tears the crack");
+    json_decref(steps);
+    json_t *both =
+        run_json("sweep " CONTACT "--mu 0 --coupled --vary-1 'contact-elements 16 24' "
+                 "--crack-elements 8 --steps 48 --results half_width");
+    CHECK_MAX(25.0, entry(json_object_get(both, "table"), "max_pressure_MPa", 1),
+              "that of the contact that feels the crack");
+    CHECK_REL(entry(json_object_get(both, "table"), "half_width_mm", 1), 1.0, 0.1,
+              "of the contact");
+    json_decref(both);
+
+#define STUDY "sweep " CONTACT "--mu 0 "
+    check_refused(STUDY "--vary-1 'crack-angle 30 180'", 64,
+                  "case 2: --crack-angle: expected more than 0");
+    check_refused(STUDY "--vary-1 'crack-elements 3 30'", 64, "case 1: crack-elements");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --derivatives half_width", 64,
+                  "have none");
+    check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "takes a number");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --paris 1e-12,3", 64, "--paris");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --results max_shear", 64,
+                  "no result 'max_shear'");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --error --results error_half_width",
+                  64, "no error bar");
+    check_refused(STUDY "--vary-1 'steps 10' --crack-angle 30", 64, "jump over");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --accuracy 0.1", 64, "refine");
+    assert_int_equal(rollbem(STUDY "--vary-1 'crack-angle 10 30' --crack-elements 20"),
+                     64); /* known with its first solution only: the row says so */
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -303,6 +389,7 @@ int main(void)
                                        cmocka_unit_test(pictures),
                                        cmocka_unit_test(loads_of_every_kind),
                                        cmocka_unit_test(coupled),
+                                       cmocka_unit_test(studies),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -65,9 +65,11 @@ const char *rb_api_message(const rb_api *a);
  * choice, flag, text), "unit", "expected" (the range in words), "from", "to", "choices"
  * (with blanks between), "word", "default", "excludes" (a bit mask), "help". */
 const char *rb_api_option(int k, const char *field, char *text, int size);
+/* The same of the options of a crack (rb_api_crack). */
+const char *rb_api_crack_option(int k, const char *field, char *text, int size);
 /* Field of result k of a table ("number", "column", "patch", "step", "point",
- * "wear", "stress" or "maximum"): "name", "unit", "kind" (number, whole, seconds),
- * "meaning". */
+ * "wear", "stress", "maximum", "crack", "position" or "growth"): "name", "unit", "kind"
+ * (number, whole, seconds), "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
                           int size);
 /* Value of an option after rb_api_resolve. */
@@ -133,7 +135,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                and creepage, with respect to gap and mu of each element
  *   wear.way wear.worn ...       after rb_api_wear, an entry per step
  *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
- *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
+ *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also
+ *                                the names of crack.summary
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
@@ -207,6 +210,10 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 /* A sweep: solves n cases with `workers` processes (0: one per processor); the call
  * resolves each case.  If a case is refused, the call ends before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
+/* The same with a crack below each contact: handles for "crack", and the same m options
+ * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
+int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m,
+                        const char *const *names, const char *const *values, int workers);
 
 RB_PUBLIC_END
 

@@ -570,10 +570,23 @@ rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
                               rb_message *why);
 void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
 void rb_case_crack_free(rb_case_crack_result *result);
+/* 1: the number of the summary has a meaning for such a crack. */
+int rb_case_crack_has_result(const rb_rolling_result *result, const rb_case_crack *crack);
+/* A row of a parameter study (rb_rolling_sweep): numbers of the contact in row->solution,
+ * of the summary in row->own. */
+rb_status rb_case_crack_row(const rb_resolved_case *resolved, const rb_case_crack *crack,
+                            rb_rolling_row *row, rb_message *why);
+/* A number of rb_case_crack_scalars in such a row, or its error bar. */
+double rb_case_crack_of_row(const rb_rolling_result *result, int is_error,
+                            const rb_rolling_row *row);
 /* The numbers of rb_crack_summary and the columns of rb_crack_history and of
  * rb_case_crack_growth. */
 extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
     rb_case_crack_growth_columns;
+/* Table k of all results, those of rb_rolling_result_tables and of cracks; NULL: there
+ * are no more. */
+const rb_rolling_result_table *rb_case_result_table(int k);
+
 /* ---- Fits to measured creep curves (theory.md, D5) ----------------------------------
  */
 

@@ -261,6 +261,8 @@ void rb_report_wear_free(rb_report_wear *w);
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
                                 const char *command, const rb_report_style *style);
 /* Sets "crack", "contact", "summary", "table", and adds to "notes". */
+void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *crack,
+                                 rb_units units);
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r);
 /* Of the last pass: K over the position with the zones of the faces below; K_II over K_I;

@@ -594,6 +594,8 @@ extern const rb_rolling_result_table rb_rolling_result_tables[];
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
 /* 1 if the struct `owner` has this column. */
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
+/* The numbers of a solution without its columns, which remain with it. */
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *solution);
 /* The number, or entry i of the column, as a double; owner: the struct that the table
  * describes. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner);
@@ -1304,6 +1306,9 @@ typedef struct {
     /* row->own of the case that make has made last, solved; or NULL */
     rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,
                          rb_message *why);
+    /* NULL, or in the place of all that: solves case k, of which row has no numbers yet,
+     * and returns its status */
+    rb_status (*solve)(int k, rb_rolling_row *row, void *context, rb_message *why);
     int (*see)(int k, const rb_rolling_row *row, void *context);
     int (*tick)(int seen, void *context); /* or NULL */
     void *context;

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _values, pictures
-from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
-                       Unsolved, doubles, handles)
+from ._library import (CRACK_OPTIONS, GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
+                       Unsolved, doubles, handles, texts)
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
@@ -465,7 +465,8 @@ class Sweep(_Named):
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
         self.axes = dict(axes)
-        found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("number", "sweep.")}
+        found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("crack", "sweep."),
+                 **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
 
@@ -602,22 +603,42 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
+    One process per processor, or ``workers``.  With options of a crack, given or as lists, the
+    contact of each case passes over it, and the results are also those of :func:`crack`.
+
     One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
     cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
     """
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
+    options = {crack_option(name) or name: value for name, value in options.items()}
     axes = {name: _values.vector(name, value) for name, value in options.items()
             if isinstance(value, (list, range)) or np.ndim(value) == 1 and hasattr(value, "__array__")}
-    base = base.but(**{name: value for name, value in options.items() if name not in axes})
+    cracks = [name for name in options if name in CRACK_OPTIONS]
+    base = base.but(**{name: value for name, value in options.items() if name not in (*axes, *cracks)})
     if not axes:
         raise InvalidInput("sweep: expected at least one option with a list of values, such as mu=[0.1, 0.3]")
-    cases = []
+    cases, words = [], []
     for values in itertools.product(*axes.values()):
-        cases.append(base.handle("sweep", **dict(zip(axes, values))))
+        one = dict(zip(axes, values))
+        cases.append(base.handle("crack" if cracks else "sweep",
+                                 **{name: value for name, value in one.items() if name not in cracks}))
+        words += [_values.text(name, one.get(name, options[name])) for name in cracks]
     study = Handle("sweep")
-    study.check(study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress))
+    if cracks:
+        names = texts([name.replace("_", "-") for name in cracks])
+        status = study.run("rb_api_sweep_cracks", len(cases), handles(cases), len(cracks), names, texts(words), workers,
+                           progress=progress)
+    else:
+        status = study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress)
+    study.check(status)
     return Sweep(axes, study)
+
+
+def crack_option(name: str) -> Optional[str]:
+    """The option of a crack of that name, where a keyword of Python has a ``_`` behind it; None: there is none."""
+    own = name.rstrip("_")
+    return own if own in CRACK_OPTIONS else None
 
 
 # ---- Problems by themselves ---------------------------------------------------------------

@@ -9,8 +9,8 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _program, _values
-from ._case import Array, Case, Solution, Table, _case, _Named
-from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib
+from ._case import Array, Case, Solution, Table, _case, _Named, crack_option
+from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib, texts
 
 _CaseLike = Union[Case, str, os.PathLike, None]
 
@@ -41,25 +41,13 @@ class Crack(_Named):
 
     def __init__(self, case: Case, handle: Any) -> None:
         self.case = case
-        columns = ("x", "K_I", "K_II", "K_I_upper", "K_II_upper", "open_length", "stick_length", "fluid_pressure",
-                   "max_pressure")
-        numbers = ("K_I_max", "K_I_min", "K_II_max", "K_II_min", "delta_K_I", "delta_K_II", "K_I_max_at", "K_II_max_at",
-                   "K_II_min_at", "K_II_at_K_I_max", "K_theta_max", "kink_angle", "K_I_max_upper", "K_I_min_upper",
-                   "K_II_max_upper", "K_II_min_upper", "open_max", "fluid_pressure_max", "pass_change", "max_pressure",
-                   "residual")
-        grown = ("length", "tip_x", "tip_y", "angle", "K_I_max", "delta_K_II", "delta_K", "rate", "cycles")
         faces = {"opening": "opening", "sliding": "sliding", "zone": "zone", "x": "node.x", "y": "node.y",
                  "path_x": "path.x", "path_y": "path.y"}
 
-        def found(names: Mapping[str, str], prefix: str) -> dict:
-            arrays = {name: handle.array(prefix + at) for name, at in names.items()}
-            return {name: array.copy() for name, array in arrays.items() if array is not None}
-
-        self._arrays = found({name: name for name in columns}, "crack.")
-        self._numbers = {name: float(np.ravel(x)[0]) for name, x in
-                         found({name: name for name in numbers}, "crack.summary.").items()}
-        self.growth = found({name: name for name in grown}, "crack.growth.")
-        self.faces = found(faces, "crack.")
+        self._arrays = handle.arrays("position", "crack.", copied=True)
+        self._numbers = {name: float(np.ravel(x)[0]) for name, x in handle.arrays("crack", "crack.summary.").items()}
+        self.growth = handle.arrays("growth", "crack.growth.", copied=True)
+        self.faces = {name: handle.array(f"crack.{at}").copy() for name, at in faces.items()}
         self.faces["zone"] = self.faces["zone"].astype(int)
 
     @property
@@ -85,26 +73,17 @@ class Crack(_Named):
                 f"K_II {self.K_II_min:.5g} ... {self.K_II_max:.5g} MPa mm^0.5>")
 
 
-_CRACK = ("crack_length", "crack_angle", "crack_mouth", "crack_depth", "crack_friction", "crack_elements", "from", "to",
-          "passes", "fluid", "remote_stress", "unloaded", "coupled", "paris", "paris_range", "threshold", "growth",
-          "grow_to", "grow_steps")
-
-
 def crack(case: _CaseLike = None, **options: Any) -> Crack:
     """Passes the contact of a case over a crack in body B: ``crack(rail, crack_angle=30, fluid="trapped")``.
 
     Options of the crack are those of ``rollbem crack`` with ``_`` for ``-`` (``from_`` for ``from``); the others are
     those of the case.
     """
-    own = {name.rstrip("_"): value for name, value in options.items() if name.rstrip("_") in _CRACK}
-    whole = _case(case, {name: value for name, value in options.items() if name.rstrip("_") not in _CRACK})
+    own = {crack_option(name): _values.text(name, value) for name, value in options.items() if crack_option(name)}
+    whole = _case(case, {name: value for name, value in options.items() if not crack_option(name)})
     handle = whole.handle("crack")
-    import ctypes
-
-    words = ctypes.c_char_p * max(len(own), 1)
-    names = words(*(name.replace("_", "-").encode() for name in own))
-    values = words(*(_text(value).encode() for value in own.values()))
-    status = handle.run("rb_api_crack", len(own), names, values)
+    names = texts([name.replace("_", "-") for name in own])
+    status = handle.run("rb_api_crack", len(own), names, texts(list(own.values())))
     if status != SOLVED:
         raise handle.error(status)
     return Crack(whole, handle)

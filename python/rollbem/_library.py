@@ -42,6 +42,7 @@ FUNCTIONS = {
     "rb_api_progress": (None, _Handle, ctypes.POINTER(_Int), ctypes.POINTER(_Int)),
     "rb_api_message": (_Text, _Handle),
     "rb_api_option": (_Text, _Int, _Text, _Text, _Int),
+    "rb_api_crack_option": (_Text, _Int, _Text, _Text, _Int),
     "rb_api_result": (_Text, _Text, _Int, _Text, _Text, _Int),
     "rb_api_value": (_Text, _Handle, _Text, _Text, _Int),
     "rb_api_number": (_Double, _Handle, _Text),
@@ -63,6 +64,8 @@ FUNCTIONS = {
     "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
     "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
     "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
+    "rb_api_sweep_cracks": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int, ctypes.POINTER(_Text),
+                            ctypes.POINTER(_Text), _Int),
 }
 
 
@@ -184,8 +187,11 @@ def _keyword(name: str) -> str:
 _all_options = _rows(Option, lib.rb_api_option)
 GROUPS = {option.name: option.help for option in _all_options if option.kind == "group"}
 OPTIONS = {_keyword(option.name): option for option in _all_options if option.kind != "group"}
+CRACK_OPTIONS = {_keyword(option.name): option for option in _rows(Option, lib.rb_api_crack_option)
+                 if option.kind != "group"}
 RESULTS = {table: {result.name: result for result in _rows(Result, lib.rb_api_result, table.encode())}
-           for table in ("number", "column", "step", "point", "patch", "wear", "stress")}
+           for table in ("number", "column", "step", "point", "patch", "wear", "stress", "crack", "position",
+                                                            "growth")}
 
 # ---- Messages -----------------------------------------------------------------------------
 
@@ -418,6 +424,10 @@ class Kept(_Answers):
 
 def doubles(array: NDArray[np.float64]) -> Any:
     return array.ctypes.data_as(_Doubles)
+
+
+def texts(of: "list[str]") -> Any:
+    return (_Text * max(len(of), 1))(*(os.fsencode(text) for text in of))
 
 
 def handles(of: "list[Handle]") -> Any:

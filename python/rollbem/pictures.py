@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 
-from ._library import OPTIONS, RESULTS, InvalidInput
+from ._library import CRACK_OPTIONS, OPTIONS, RESULTS, InvalidInput
 
 if TYPE_CHECKING:
     from ._case import Curve, History, Solution, Stress, Sweep, Wear
@@ -199,7 +199,9 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
 
     Cases that were not solved leave holes.
     """
-    if show not in RESULTS["number"] or not hasattr(of, show):
+    results = {**RESULTS["crack"], **RESULTS["number"]}
+    options = {**CRACK_OPTIONS, **OPTIONS}
+    if show not in results or not hasattr(of, show):
         raise InvalidInput(f"expected a result of the study, got '{show}'")
     over = _axis(of, over)
     if over is None:
@@ -217,8 +219,8 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         values = values.squeeze().T
     values = values.reshape(shape)
     figure, (axes,) = _figure(figure)
-    label = _named(show, RESULTS["number"][show].unit)
-    axes.set_xlabel(_named(over, OPTIONS[over].unit))
+    label = _named(show, results[show].unit)
+    axes.set_xlabel(_named(over, options[over].unit))
     # curves and maps go along ascending values
     order = np.argsort(of.axes[over])
     x, values = of.axes[over][order], values[:, order]
@@ -229,7 +231,7 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         lines = axes.contour(x, of.axes[family][rows], field, filled.levels, colors="white", linewidths=0.4)
         axes.clabel(lines, fontsize=7)
         figure.colorbar(filled, ax=axes, label=label)
-        axes.set_ylabel(_named(family, OPTIONS[family].unit))
+        axes.set_ylabel(_named(family, options[family].unit))
         return figure
     for row, value, colour in zip(values, of.axes[family] if family else [None], CURVES * (1 + len(values) // len(CURVES))):
         axes.plot(x, row, color=colour, marker="o", markersize=2.5,

@@ -24,6 +24,20 @@ def test_cracks():
         rollbem.crack(**PLANES, crack_angle=180)
 
 
+def test_studies_of_cracks():
+    study = rollbem.sweep(**PLANES, mu=0.0, from_=-7, crack_length=[0.5, 1.0], crack_angle=[30, 60, 90], workers=1)
+    one = rollbem.crack(**PLANES, mu=0.0, from_=-7, crack_length=1.0, crack_angle=60)
+    assert study.delta_K_II.shape == (2, 3) and study.delta_K_II[1, 1] == one.delta_K_II
+    assert (study.max_pressure == study.max_pressure[0, 0]).all()  # of the contact
+    assert np.isnan(study.pass_change).all() and (study.status == 0).all()
+    figure = study.plot(show="delta_K_II", map=True)
+    assert "MPa" in figure.axes[1].get_ylabel() and figure.axes[0].get_xlabel() == "crack angle [degrees]"
+    with pytest.raises(rollbem.InvalidInput, match="case 1: crack_angle=: expected more than 0"):
+        rollbem.sweep(**PLANES, crack_angle=[0, 30])
+    with pytest.raises(rollbem.InvalidInput, match="paris"):
+        rollbem.sweep(**PLANES, crack_angle=[30], paris=(1e-12, 3))
+
+
 def test_derivatives():
     s = rollbem.solve(**STEADY)
     d = s.derivatives

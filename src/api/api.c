@@ -333,14 +333,17 @@ static const char *written(const char *what, char *text, int size)
     return text;
 }
 
-static const char *write_default(const rb_option *o, char *text, int size)
+/* values: the struct of the option's table; NULL: defaults of a case. */
+static const char *write_default(const rb_option *o, const void *values, char *text,
+                                 int size)
 {
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    rb_case *c = values ? NULL : rb_case_create(RB_CASE_SINGLE);
     char room[64];
-    if (!c)
+    if (!values && !c)
         return NULL;
-    written(o->unset ? o->unset : rb_option_text(o, rb_case_resolved(c), room), text,
-            size);
+    written(o->unset ? o->unset
+                     : rb_option_text(o, values ? values : rb_case_resolved(c), room),
+            text, size);
     rb_case_free(c);
     return text;
 }
@@ -351,14 +354,14 @@ static const char *written_number(double x, char *text, int size)
     return text;
 }
 
-const char *rb_api_option(int k, const char *field, char *text, int size)
+/* Option k of n, whose defaults stand in `values`, as in write_default. */
+static const char *describe_option(int n, const rb_option *all, const void *values, int k,
+                                   const char *field, char *text, int size)
 {
     static const char *const kinds[] = {
         [RB_OPTION_GROUP] = "group",     [RB_OPTION_NUMBER] = "number",
         [RB_OPTION_INTEGER] = "integer", [RB_OPTION_CHOICE] = "choice",
         [RB_OPTION_FLAG] = "flag",       [RB_OPTION_TEXT] = "text"};
-    int n;
-    const rb_option *all = rb_case_describe(&n);
     if (k < 0 || k >= n || size < 1)
         return NULL;
     const rb_option *o = &all[k];
@@ -388,8 +391,22 @@ const char *rb_api_option(int k, const char *field, char *text, int size)
     if (strcmp(field, "excludes") == 0)
         return written_number(o->excludes, text, size);
     if (strcmp(field, "default") == 0)
-        return is_group ? written("", text, size) : write_default(o, text, size);
+        return is_group ? written("", text, size) : write_default(o, values, text, size);
     return NULL;
+}
+
+const char *rb_api_option(int k, const char *field, char *text, int size)
+{
+    int n;
+    const rb_option *all = rb_case_describe(&n);
+    return describe_option(n, all, NULL, k, field, text, size);
+}
+
+const char *rb_api_crack_option(int k, const char *field, char *text, int size)
+{
+    const rb_case_crack defaults = rb_case_crack_defaults();
+    return describe_option(rb_case_crack_options_n, rb_case_crack_options, &defaults, k,
+                           field, text, size);
 }
 
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
@@ -398,7 +415,8 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
     static const char *const kinds[] = {[RB_RESULT_NUMBER] = "number",
                                         [RB_RESULT_WHOLE] = "whole",
                                         [RB_RESULT_SECONDS] = "seconds"};
-    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
+    const rb_rolling_result_table *t;
+    for (int j = 0; (t = rb_case_result_table(j)); j++) {
         if (strcmp(table, t->name) != 0 || k < 0 || k >= t->results->n)
             continue;
         const rb_rolling_result *r = &t->results->row[k];
@@ -1035,8 +1053,9 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
 
 /* Typed values as they are given: rb_case_store reads plain numbers in the case's units.
  */
-static rb_status set_crack(rb_api *a, int n, const char *const *name,
-                           const char *const *value, rb_case_crack *crack)
+rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name,
+                           const char *const *value, rb_case_crack *crack,
+                           rb_message *why)
 {
     int given[API_CRACK_OPTIONS] = {0}, plain[API_CRACK_OPTIONS] = {0}, k;
     const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, crack,
@@ -1044,10 +1063,10 @@ static rb_status set_crack(rb_api *a, int n, const char *const *name,
     for (int i = 0; i < n; i++) {
         rb_guess guess = {.word = name[i]};
         if (!rb_option_find(1, &set, name[i], strlen(name[i]), &k, &guess))
-            return rb_fail(&a->why, RB_EINVAL, "crack: unknown option '%.60s'%s", name[i],
+            return rb_fail(why, RB_EINVAL, "crack: unknown option '%.60s'%s", name[i],
                            rb_guess_text(&guess, ""));
         const rb_status s =
-            rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], &a->why);
+            rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], why);
         if (s != RB_OK)
             return s;
     }
@@ -1131,7 +1150,7 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
     rb_api_forget_arrays(a, "crack.");
     rb_status s = rb_case_resolve(a->words, &a->why);
     if (s == RB_OK)
-        s = set_crack(a, n, names, values, &crack);
+        s = rb_api_set_crack(a, n, names, values, &crack, &a->why);
     rb_api_call_begins();
     if (s == RB_OK)
         s = rb_case_crack_solve(rb_case_resolved(a->words), &crack, &result, &a->why);

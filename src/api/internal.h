@@ -23,6 +23,12 @@ typedef struct {
 enum { API_CRACK_OPTIONS = 40 }; /* more than the table has */
 enum { API_REFUSALS = 16 };      /* of more the last ones are the same entry */
 
+/* Options of `rollbem crack` by their names and texts, in the units of the resolved case
+ * a. */
+rb_status rb_api_set_crack(rb_api *a, int n, const char *const *names,
+                           const char *const *values, rb_case_crack *crack,
+                           rb_message *why);
+
 struct rb_api {
     rb_case *words;
     rb_case_result result;

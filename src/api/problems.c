@@ -161,6 +161,7 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 typedef struct {
     rb_api *a;
     rb_api *const *cases;
+    rb_case_crack *crack; /* of each case; NULL: there is none; owned */
 } study;
 
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
@@ -170,6 +171,13 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
+static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
+{
+    const study *st = context;
+    return rb_case_crack_row(rb_case_resolved(st->cases[k]->words), &st->crack[k], row,
+                             why);
+}
+
 static api_array *column_of(rb_api *a, const char *name)
 {
     char text[40];
@@ -177,15 +185,28 @@ static api_array *column_of(rb_api *a, const char *name)
     return rb_api_find_array(a, text);
 }
 
-static rb_status make_columns(rb_api *a, int rows)
+/* 1: a contact has a result of that name, so that a crack's shares its column. */
+static int is_of_contact(const char *name)
 {
-    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
+        if (strcmp(rb_rolling_solution_scalars.row[k].name, name) == 0)
+            return 1;
+    return 0;
+}
+
+static rb_status make_columns(rb_api *a, int rows, int cracks)
+{
+    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
+                                          &rb_case_crack_scalars};
     char text[40];
     api_array *made = rb_api_make_array(a, "sweep.status", rows, 1);
-    for (int j = 0; made && j < table->n; j++) {
-        snprintf(text, sizeof text, "sweep.%s", table->row[j].name);
-        made = rb_api_make_array(a, text, rows, 1);
-    }
+    for (int t = 0; t <= cracks; t++)
+        for (int j = 0; made && j < tables[t]->n; j++) {
+            if (t > 0 && is_of_contact(tables[t]->row[j].name))
+                continue;
+            snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
+            made = rb_api_make_array(a, text, rows, 1);
+        }
     return made ? RB_OK : RB_ENOMEM;
 }
 
@@ -197,6 +218,11 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
             rb_rolling_number(&table->row[j], &row->solution);
+    for (int j = 0; j < rb_case_crack_scalars.n && st->crack; j++) {
+        const rb_rolling_result *r = &rb_case_crack_scalars.row[j];
+        if (rb_case_crack_has_result(r, &st->crack[k]) || !is_of_contact(r->name))
+            column_of(st->a, r->name)->at[k] = rb_case_crack_of_row(r, 0, row);
+    }
     return 0;
 }
 
@@ -215,29 +241,66 @@ static rb_status run_study(const rb_rolling_sweep *sweep, rb_message *why)
     return s;
 }
 
-int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
+/* The crack of case k, with the m options whose texts begin at `values`. */
+static rb_status set_crack(study *st, int k, int m, const char *const *names,
+                           const char *const *values)
+{
+    rb_api *of = st->cases[k];
+    rb_message why = {""};
+    st->crack[k] = rb_case_crack_defaults();
+    rb_status s = rb_api_set_crack(of, m, names, values, &st->crack[k], &why);
+    if (s == RB_OK)
+        s = rb_case_crack_check(rb_case_resolved(of->words), &st->crack[k], &why);
+    if (s == RB_OK && !isnan(st->crack[k].paris))
+        s = rb_fail(&why, RB_EINVAL,
+                    "--paris: a study has the K of cracks of given lengths");
+    return s == RB_OK ? s : rb_fail(&st->a->why, s, "case %d: %.580s", k + 1, why.text);
+}
+
+/* names NULL: without cracks. */
+static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                 const char *const *values, int workers)
 {
     study st = {.a = a, .cases = cases};
-    const rb_rolling_sweep sweep = {.count = n,
-                                    .workers = workers,
-                                    .make = make_case,
-                                    .see = see_row,
-                                    .tick = tick,
-                                    .context = &st};
+    const rb_rolling_sweep of_cases = {.count = n,
+                                       .workers = workers,
+                                       .make = make_case,
+                                       .solve = names ? solve_crack : NULL,
+                                       .see = see_row,
+                                       .tick = tick,
+                                       .context = &st};
     rb_status s = RB_OK;
     begin(a, "sweep.", NULL);
+    if (names && n > 0) {
+        st.crack = calloc((size_t)n, sizeof *st.crack);
+        s = st.crack ? RB_OK : RB_ENOMEM;
+    }
     for (int k = 0; k < n && s == RB_OK; k++)
         if ((s = (rb_status)rb_api_resolve(cases[k])) != RB_OK)
             rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
-        else if (rb_case_resolved(cases[k]->words)->error)
+        else if (rb_case_resolved(cases[k]->words)->error && !names)
             s = rb_fail(&a->why, RB_EINVAL,
                         "case %d: error: these studies have no error bars; rollbem sweep "
                         "has",
                         k + 1);
+        else if (names)
+            s = set_crack(&st, k, m, names, values + (size_t)k * (size_t)m);
     if (s == RB_OK && n > 0)
-        s = make_columns(a, n);
+        s = make_columns(a, n, names != NULL);
     a->total = n;
     if (s == RB_OK)
-        s = run_study(&sweep, &a->why);
+        s = run_study(&of_cases, &a->why);
+    free(st.crack);
     return rb_api_ended(a, s);
+}
+
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
+{
+    return sweep(a, n, cases, 0, NULL, NULL, workers);
+}
+
+int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m,
+                        const char *const *names, const char *const *values, int workers)
+{
+    return sweep(a, n, cases, m, names, values, workers);
 }

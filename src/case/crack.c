@@ -101,7 +101,8 @@ rb_case_crack rb_case_crack_defaults(void)
     }
 #define NUMBER(name, ...) OF(rb_crack_summary, #name, name, __VA_ARGS__)
 #define COLUMN(name, ...) OF(rb_crack_history, #name, name, __VA_ARGS__)
-#define IS_K .unit = "MPa.mm^0.5"
+#define PLACE_OF(name) offsetof(rb_crack_summary, name)
+#define IS_K .unit = "MPa.mm^0.5", .error_bar = RB_SCALE_PRESSURE
 
 static const rb_rolling_result scalars[] = {
     NUMBER(K_I_max, IS_K, .meaning = "largest K_I at the tip in the last pass"),
@@ -120,11 +121,10 @@ static const rb_rolling_result scalars[] = {
     NUMBER(kink_angle, .unit = "degrees",
            .meaning = "that direction, from the crack's own, counter-clockwise"),
     NUMBER(K_I_max_upper, IS_K,
-           .meaning = "at the upper end of a crack below the "
-                      "surface; also the next three"),
-    NUMBER(K_I_min_upper, IS_K, .meaning = ""),
-    NUMBER(K_II_max_upper, IS_K, .meaning = ""),
-    NUMBER(K_II_min_upper, IS_K, .meaning = ""),
+           .meaning = "largest K_I at the upper end of a crack below the surface"),
+    NUMBER(K_I_min_upper, IS_K, .meaning = "smallest K_I there"),
+    NUMBER(K_II_max_upper, IS_K, .meaning = "largest K_II there"),
+    NUMBER(K_II_min_upper, IS_K, .meaning = "smallest K_II there"),
     NUMBER(open_max, .unit = "mm", .meaning = "largest open length"),
     NUMBER(fluid_pressure_max, .unit = "MPa", .meaning = "of the fluid in the crack"),
     NUMBER(pass_change, IS_K,
@@ -168,9 +168,32 @@ const rb_rolling_results rb_case_crack_scalars = TABLE(scalars);
 const rb_rolling_results rb_case_crack_columns = TABLE(columns);
 const rb_rolling_results rb_case_crack_growth_columns = TABLE(growth_columns);
 
+const rb_rolling_result_table *rb_case_result_table(int k)
+{
+    static const rb_rolling_result_table of_cracks[] = {
+        {"crack", "Numbers of a pass over a crack", &rb_case_crack_scalars},
+        {"position", "Positions of a contact over a crack", &rb_case_crack_columns},
+        {"growth", "Lengths of a crack that grows", &rb_case_crack_growth_columns}};
+    const rb_rolling_result_table *t = rb_rolling_result_tables;
+    for (; t->name && k > 0; t++)
+        k--;
+    return t->name                                           ? t
+           : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k]
+                                                             : NULL;
+}
+
 static double *number_of(rb_crack_summary *s, int k)
 {
     return (double *)(void *)((char *)s + scalars[k].offset);
+}
+
+int rb_case_crack_has_result(const rb_rolling_result *r, const rb_case_crack *k)
+{
+    return strstr(r->name, "_upper")                   ? k->depth > 0.0
+           : r->offset == PLACE_OF(fluid_pressure_max) ? k->fluid != RB_CRACK_DRY
+           : r->offset == PLACE_OF(pass_change)        ? k->passes > 1
+           : r->offset == PLACE_OF(max_pressure)       ? k->coupled
+                                                       : 1;
 }
 
 void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
@@ -530,4 +553,31 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
         rb_case_crack_free(&fine);
     }
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
+}
+
+/* ---- A row of a study -------------------------------------------------------------- */
+
+enum { NUMBERS = sizeof scalars / sizeof *scalars };
+_Static_assert(2 * NUMBERS <= RB_ROW_OWN, "numbers and their error bars");
+
+rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k,
+                            rb_rolling_row *row, rb_message *why)
+{
+    rb_case_crack_result r;
+    const rb_status s = rb_case_crack_solve(c, k, &r, why);
+
+    if (r.contact.solution.n > 0)
+        row->solution = rb_rolling_scalars_of(&r.contact.solution);
+    for (int i = 0; i < NUMBERS && s == RB_OK; i++) {
+        row->own[i] = *number_of(&r.summary, i);
+        row->own[NUMBERS + i] = r.has_errors ? *number_of(&r.errors, i) : NAN;
+    }
+    rb_case_crack_free(&r);
+    return s;
+}
+
+double rb_case_crack_of_row(const rb_rolling_result *r, int is_error,
+                            const rb_rolling_row *row)
+{
+    return row->own[(is_error ? NUMBERS : 0) + (r - scalars)];
 }

@@ -77,13 +77,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
-    const crack_run *own = run->own;
-    for (int k = 0; k < rb_case_crack_options_n; k++) {
-        const rb_option *o = &rb_case_crack_options[k];
-        if (o->kind != RB_OPTION_GROUP)
-            rb_report_json_set(inputs, o->name,
-                               rb_report_json_option(o, &own->crack, run->c->units));
-    }
+    rb_report_json_crack_inputs(inputs, &((const crack_run *)run->own)->crack,
+                                run->c->units);
 }
 
 static void add_json(const cli_case_run *run, json_t **root)

@@ -176,11 +176,12 @@ static void print_markdown(const cli_spec *spec)
 /* Every table of results. */
 static void print_results(const cli_spec *spec)
 {
+    const rb_rolling_result_table *t;
     (void)spec;
     puts(
         "# Results\n\nBy the names that JSON, tables, studies and the package for Python "
         "use.");
-    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
+    for (int j = 0; (t = rb_case_result_table(j)); j++) {
         printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", t->title);
         for (int k = 0; k < t->results->n; k++) {
             const rb_rolling_result *r = &t->results->row[k];

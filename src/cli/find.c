@@ -183,10 +183,11 @@ static void find_commands(void)
 
 static void find_results(void)
 {
+    const rb_rolling_result_table *t;
     char name[80], text[600];
     search.title = "Results: columns, names in JSON, of --results and of Python";
     for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
+        for (int j = 0; (t = rb_case_result_table(j)); j++)
             for (int k = 0; k < t->results->n; k++) {
                 const rb_rolling_result *r = &t->results->row[k];
                 const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;

@@ -31,18 +31,23 @@ typedef struct {
     const double *value; /* one per row of the factor */
 } study_column;
 
-/* A column behind the status: a number of the solution or of the largest stresses, or its
- * error bar. */
+/* A column behind the status: a number, or its error bar. */
 typedef struct {
     const rb_rolling_result *r;
-    int of_stress, is_error;
+    enum { OF_SOLUTION, OF_STRESS, OF_CRACK } of;
+    int is_error;
 } study_result;
 
 typedef struct {
     const rb_case *base;
     rb_case *one; /* the case at hand: a copy of base with its own numbers */
     const study_options *o;
-    const rb_option_set *own; /* the options of a study, whose values are in o */
+    const rb_option_set *own;    /* the options of a study, whose values are in o */
+    const rb_option_set *cracks; /* those of a crack, whose values are in crack */
+    rb_case_crack crack;         /* as typed */
+    int has_crack; /* 1: one of them is given or varies: the contact passes over a crack
+                    */
+    rb_case_crack one_crack; /* of the case at hand, in mm, N, MPa */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */
@@ -83,7 +88,10 @@ cli_exit cli_study_sample(study *st, const rb_case *c);
 double cli_study_value(const study *st, const study_column *c, int k);
 /* The values of case k in c; resolve afterwards. */
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
-/* Sets st->one to that case; says nothing of what is wrong with it. */
+/* The option of a case or of a crack; NULL: there is none. */
+const rb_option *cli_study_option(const char *name);
+/* Sets st->one, and st->one_crack, to that case; says nothing of what is wrong with it.
+ */
 rb_status cli_study_try_one(study *st, int k, rb_message *why);
 /* The first case that is one: of a sample not every case may be. */
 int cli_study_first(study *st, const rb_case *c);

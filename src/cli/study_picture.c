@@ -12,7 +12,7 @@ int cli_study_has_pictures(const study *st)
 
 const char *cli_study_shown(const study *st)
 {
-    return st->o->show ? st->o->show : "force_ratio";
+    return st->o->show ? st->o->show : st->has_crack ? "delta_K_II" : "force_ratio";
 }
 
 static int varies(const study *st, const study_column *c)
@@ -50,7 +50,7 @@ static rb_report_quantity axis_of(const study *st, int k, double *value)
         return (rb_report_quantity){0};
     const study_column *c = &st->column[k];
     const char *unit =
-        rb_unit_name(rb_case_resolved(st->base)->units, rb_case_option(c->name)->unit);
+        rb_unit_name(rb_case_resolved(st->base)->units, cli_study_option(c->name)->unit);
     for (int i = 0; i < st->cases; i++)
         value[i] = cli_study_value(st, c, i);
     return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 ? "" : unit, value};
@@ -59,9 +59,11 @@ static rb_report_quantity axis_of(const study *st, int k, double *value)
 /* Whether an option of the bodies varies. */
 static int bodies_vary(const study *st)
 {
-    for (int k = 0; k < st->columns; k++)
-        if (strncmp(rb_case_section(rb_case_option(st->column[k].name)), "body-", 5) == 0)
+    for (int k = 0; k < st->columns; k++) {
+        const rb_option *o = rb_case_option(st->column[k].name);
+        if (o && strncmp(rb_case_section(o), "body-", 5) == 0)
             return 1;
+    }
     return 0;
 }
 

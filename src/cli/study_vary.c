@@ -22,6 +22,23 @@ static cli_exit code_of(const study *st, const char *option)
     return CLI_USAGE;
 }
 
+/* Of a crack below the contact. */
+static int is_of_crack(const rb_option *o)
+{
+    return o >= rb_case_crack_options &&
+           o < rb_case_crack_options + rb_case_crack_options_n;
+}
+
+const rb_option *cli_study_option(const char *name)
+{
+    const rb_option *o = rb_case_option(name);
+    for (int k = 0; k < rb_case_crack_options_n && !o; k++)
+        if (rb_case_crack_options[k].kind != RB_OPTION_GROUP &&
+            strcmp(rb_case_crack_options[k].name, name) == 0)
+            o = &rb_case_crack_options[k];
+    return o;
+}
+
 /* Columns that vary together: one of --vary, or those of --cases; bad: the exit code of
  * what is wrong with one. */
 static cli_exit add_column(study *st, const char *source, cli_exit bad, const char *name,
@@ -41,7 +58,8 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     c->factor = st->factors;
     c->value = value;
     st->columns++;
-    const rb_option *o = rb_case_option(c->name);
+    const rb_option *o = cli_study_option(c->name);
+    st->has_crack |= o && is_of_crack(o);
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
                : cli_fail(bad, "%s: '%s' is no option of a case that takes a number",
@@ -71,7 +89,7 @@ static typed typed_of(const study *st, const char *source, const char *name)
 {
     const int by = rb_option_given(st->own, source);
     return (typed){.source = source,
-                   .option = rb_case_option(name),
+                   .option = cli_study_option(name),
                    .from = rb_case_units(st->base, by),
                    .to = rb_case_units(st->base, RB_GIVEN_ARGUMENT)};
 }
@@ -206,6 +224,8 @@ cli_exit cli_study_read(study *st)
     cli_exit code = CLI_CONTINUE;
 
     st->cases = 1;
+    for (int k = 0; k < st->cracks->n; k++)
+        st->has_crack |= st->cracks->given[k] != 0;
     if (st->o->cases)
         code = add_table(st);
     for (int k = 0; k < VARIED_MAX && code == CLI_CONTINUE; k++)
@@ -286,6 +306,8 @@ static rb_status try_values(const study *st, rb_case *c, int k, const study_colu
     *bad = NULL;
     for (int j = 0; j < st->columns; j++) {
         const study_column *column = &st->column[j];
+        if (is_of_crack(cli_study_option(column->name)))
+            continue;
         const rb_status s =
             rb_case_set_number(c, column->name, cli_study_value(st, column, k), why);
         if (s != RB_OK) {
@@ -305,12 +327,47 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
                                                      : refuse_value(st, bad, k, &why);
 }
 
+/* The crack of case k, whose contact is st->one; *bad as in try_values. */
+static rb_status try_crack(study *st, int k, const study_column **bad, rb_message *why)
+{
+    int given[CLI_COMMAND_OPTIONS_MAX], plain[CLI_COMMAND_OPTIONS_MAX], at;
+    const rb_option_set set = {st->cracks->options, st->cracks->n, &st->one_crack, given,
+                               plain};
+
+    *bad = NULL;
+    st->one_crack = st->crack;
+    memcpy(given, st->cracks->given, (size_t)set.n * sizeof *given);
+    memcpy(plain, st->cracks->plain, (size_t)set.n * sizeof *plain);
+    for (int j = 0; j < st->columns; j++) {
+        const study_column *column = &st->column[j];
+        char text[32];
+        rb_guess none = {.word = column->name};
+        if (!rb_option_find(1, &set, column->name, strlen(column->name), &at, &none))
+            continue;
+        rb_format(text, sizeof text, "%.17g", cli_study_value(st, column, k));
+        const rb_status s =
+            rb_option_assign(&set, at, RB_GIVEN_NUMBER, column->name, text, why);
+        if (s != RB_OK) {
+            *bad = column;
+            return s;
+        }
+    }
+    if (!isnan(st->one_crack.paris))
+        return rb_fail(why, RB_EINVAL,
+                       "--paris: a study has the K of cracks of given lengths; rollbem "
+                       "crack lets one grow");
+    rb_case_store(st->one, &set, &st->one_crack);
+    return rb_case_crack_check(rb_case_resolved(st->one), &st->one_crack, why);
+}
+
 rb_status cli_study_try_one(study *st, int k, rb_message *why)
 {
     const study_column *bad;
-    const rb_status s = try_values(st, st->one, k, &bad, why);
+    rb_status s = try_values(st, st->one, k, &bad, why);
 
-    return s == RB_OK ? rb_case_resolve(st->one, why) : s;
+    if (s == RB_OK)
+        s = rb_case_resolve(st->one, why);
+    return s == RB_OK && st->has_crack ? try_crack(st, k, &bad, why) : s;
 }
 
 int cli_study_first(study *st, const rb_case *c)
@@ -343,6 +400,12 @@ cli_exit cli_study_check(study *st)
         code = cli_study_set_values(st, st->one, k);
         if (code == CLI_CONTINUE)
             code = cli_say(rb_case_resolve(st->one, &why), &why);
+        const study_column *bad = NULL;
+        const rb_status s =
+            code == CLI_CONTINUE && st->has_crack ? try_crack(st, k, &bad, &why) : RB_OK;
+        if (s != RB_OK)
+            code = bad ? refuse_value(st, bad, k, &why)
+                       : cli_fail(cli_exit_of(s), "case %d: %s", k + 1, why.text);
     }
     return code;
 }

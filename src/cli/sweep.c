@@ -41,7 +41,8 @@ static const rb_option options[] = {
                     "of the sample: the same seed gives the same cases"),
     RB_TEXT_LINE("results", PLACE(results), "A,B,...",
                  "further results, by their names in JSON's `summary` or `maxima`: "
-                 "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...",
+                 "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...; "
+                 "those of cracks come by themselves",
                  .unset = "none"),
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
                  "columns with the derivatives of these results in every case, with "
@@ -54,7 +55,7 @@ static const rb_option options[] = {
                  "picture of a result over two options of which every pair is a case",
                  .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("show", PLACE(show), "RESULT", "the result of the pictures, by its name",
-                 .unset = "force_ratio"),
+                 .unset = "force_ratio; of cracks delta_K_II"),
     RB_TEXT_LINE("over", PLACE(over), "OPTION", "the option along x of the pictures",
                  .unset = "the one that varies fastest"),
     RB_TEXT_LINE("family", PLACE(family), "OPTION",
@@ -87,7 +88,10 @@ static const char about[] =
     "prints a row per case, in order. STUDY.ini is a case file with a section [sweep].\n"
     "Every combination of the values of vary-1 ... vary-4, with every row of the cases,\n"
     "is a case; the last one varies fastest.  Under mpirun its processes share the\n"
-    "work, each with its part of its machine's processors.\n"
+    "work, each with its part of its machine's processors.  Where an option of a crack "
+    "is\n"
+    "given or varies, the contact of each case passes over it, as `rollbem crack` does,\n"
+    "and the results are those of the crack.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
@@ -97,7 +101,10 @@ static const char notes[] = CLI_CASE_NOTES
     "Example: rollbem sweep --similar --support halfplane --formulation steady \\\n"
     "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n"
     "         rollbem sweep examples/rail/case.ini --vary-1 'load 2000:20000:10' \\\n"
-    "           --vary-2 'creep 0:0.008:21' --map force.png\n";
+    "           --vary-2 'creep 0:0.008:21' --map force.png\n"
+    "         rollbem sweep --similar --support halfplane --half-width 1 --mu 0 \\\n"
+    "           --vary-1 'crack-length 0.5:2:7' --vary-2 'crack-angle 20:70:11' \\\n"
+    "           --map K.png --show K_II_max\n";
 
 static void study_free(study *st)
 {
@@ -122,6 +129,13 @@ static cli_exit find_fingerprint(study *st)
     if (s != RB_OK)
         return cli_say(s, &why);
     hash = rb_hash(hash, RB_VERSION, sizeof RB_VERSION);
+    for (int k = 0; k < st->cracks->n && st->has_crack; k++) {
+        char room[64];
+        const rb_option *o = &st->cracks->options[k];
+        const char *text =
+            o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, room);
+        hash = rb_hash(hash, text, strlen(text));
+    }
     for (int k = 0; k < st->columns; k++) {
         const study_column *c = &st->column[k];
         hash = rb_hash(hash, c->name, strlen(c->name));
@@ -149,19 +163,47 @@ static void choose(study *st, study_result wanted)
         st->result[st->results++] = wanted;
 }
 
-/* With the results that there are, where none is similar. */
-static cli_exit refuse_result(const char *option, const char *name, rb_guess *guess,
-                              int bar)
+/* The results of the cases, and whose they are: of a crack and its contact, or of the
+ * contact and the stress below it. */
+typedef struct {
+    const rb_rolling_results *table[2];
+    int of[2];
+} study_tables;
+
+static study_tables tables_of(const study *st)
 {
-    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
-                                          &rb_rolling_maxima_scalars};
+    return st->has_crack
+               ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
+                                {OF_CRACK, OF_SOLUTION}}
+               : (study_tables){
+                     {&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
+                     {OF_SOLUTION, OF_STRESS}};
+}
+
+/* With the results that there are, where none is similar. */
+static cli_exit refuse_result(const study *st, const char *option, const char *name,
+                              rb_guess *guess, int bar)
+{
+    const study_tables of = tables_of(st);
     const char *near = rb_guess_text(guess, bar ? "error_" : "");
     char all[3000] = "";
     for (int t = 0; t < 2 && !*near; t++)
-        for (int k = 0; k < tables[t]->n; k++)
+        for (int k = 0; k < of.table[t]->n; k++)
             rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
-                      tables[t]->row[k].name);
+                      of.table[t]->row[k].name);
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
+}
+
+/* The contact of a crack has no error bars of its own. */
+static int has_error_bar(const study *st, const study_result *of)
+{
+    return of->r->error_bar && (of->of == OF_CRACK || !st->has_crack);
+}
+
+/* A crack may have a result of the same name as its contact. */
+static int has_meaning(const study *st, const study_result *of)
+{
+    return of->of != OF_CRACK || rb_case_crack_has_result(of->r, &st->one_crack);
 }
 
 /* "error_max_pressure" is the error bar of max_pressure, which comes along. */
@@ -170,22 +212,21 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     const int bar = strncmp(name, "error_", 6) == 0;
     const char *own = bar ? name + 6 : name;
     rb_guess guess = {.word = own};
-    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
-                                          &rb_rolling_maxima_scalars};
+    const study_tables from = tables_of(st);
     if (bar && !rb_case_resolved(st->base)->error)
         return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
     for (int t = 0; t < 2; t++)
-        for (int k = 0; k < tables[t]->n; k++) {
-            const rb_rolling_result *r = &tables[t]->row[k];
-            rb_guess_try(&guess, r->name);
-            if (strcmp(r->name, own) != 0)
+        for (int k = 0; k < from.table[t]->n; k++) {
+            const study_result found = {&from.table[t]->row[k], from.of[t], 0};
+            rb_guess_try(&guess, found.r->name);
+            if (strcmp(found.r->name, own) != 0 || !has_meaning(st, &found))
                 continue;
-            choose(st, (study_result){r, t == 1, 0});
-            return bar && !r->error_bar
+            choose(st, found);
+            return bar && !has_error_bar(st, &found)
                        ? cli_fail(CLI_USAGE, "--%s: %s has no error bar", option, own)
                        : CLI_CONTINUE;
         }
-    return refuse_result(option, name, &guess, bar);
+    return refuse_result(st, option, name, &guess, bar);
 }
 
 /* The next of --results, whose name ends at *at. */
@@ -210,8 +251,8 @@ static void choose_error_bars(study *st)
 {
     const int n = st->results;
     for (int k = 0; k < n; k++)
-        if (st->result[k].r->error_bar)
-            choose(st, (study_result){st->result[k].r, st->result[k].of_stress, 1});
+        if (has_error_bar(st, &st->result[k]))
+            choose(st, (study_result){st->result[k].r, st->result[k].of, 1});
 }
 
 /* Not every body's stress is known; what else is wrong is known with the first case. */
@@ -220,29 +261,34 @@ static cli_exit check_stress(const study *st)
     rb_message why = {""};
     const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
     for (int k = 0; k < st->results; k++)
-        if (st->result[k].of_stress && s != RB_OK)
+        if (st->result[k].of == OF_STRESS && s != RB_OK)
             return cli_case_refused(st->one, s, &why);
     return CLI_CONTINUE;
 }
 
-/* Those that the cases have and no option names, then those of --results and --show, then
- * the error bars of all. */
+/* Those of the crack, or those that the cases have and no option names, then those of
+ * --results and --show, then the error bars of all. */
 static cli_exit choose_results(study *st)
 {
     const rb_resolved_case *one = rb_case_resolved(st->one);
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
     cli_exit code = CLI_CONTINUE;
-    for (int k = 1; (r = rb_rolling_study_column(k)); k++)
+    for (int k = 0; k < rb_case_crack_scalars.n && st->has_crack; k++)
+        if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0}))
+            choose(st, (study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0});
+    for (int k = 1; (r = rb_rolling_study_column(k)) && !st->has_crack; k++)
         if (rb_rolling_has_result(r, &one->rc) &&
             !is_given(st, rb_rolling_heading(r, one->units, heading)))
-            choose(st, (study_result){r, 0, 0});
+            choose(st, (study_result){r, OF_SOLUTION, 0});
     for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
         code = choose_next(st, &at);
     if (code == CLI_CONTINUE && cli_study_has_pictures(st))
         code = choose_shown(st);
     if (code == CLI_CONTINUE && one->error)
         choose_error_bars(st);
+    if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
+        code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
         rb_message why = {""};
         if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars,
@@ -292,11 +338,17 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
         return rb_case_slope_shown(&st->slopes.of[slope],
                                    rb_case_resolved(st->base)->units, row->own[slope]);
     const study_result *result = &st->result[j - st->columns - 2];
-    const void *owner = result->of_stress  ? result->is_error
-                                                 ? (const void *)&row->errors.stress
-                                                 : (const void *)&row->stress
-                        : result->is_error ? (const void *)&row->errors.scalar
-                                           : (const void *)&row->solution;
+    if (result->of == OF_CRACK) {
+        const double x = rb_case_crack_of_row(result->r, result->is_error, row);
+        return result->r->unit
+                   ? rb_unit_shown(rb_case_resolved(st->base)->units, result->r->unit, x)
+                   : x;
+    }
+    const void *owner = result->of == OF_STRESS ? result->is_error
+                                                      ? (const void *)&row->errors.stress
+                                                      : (const void *)&row->stress
+                        : result->is_error      ? (const void *)&row->errors.scalar
+                                                : (const void *)&row->solution;
     return rb_rolling_number(result->r, owner);
 }
 
@@ -401,6 +453,7 @@ static cli_exit begin_json(study *st)
     return st->list ? CLI_CONTINUE : cli_fail(CLI_INTERNAL, "out of memory");
 }
 
+/* Inputs are those of the first case. */
 static rb_status write_json(study *st)
 {
     char heading[STUDY_HEADING];
@@ -411,7 +464,12 @@ static rb_status write_json(study *st)
     }
     rb_report_json_set(&root, "units",
                        rb_report_json_units(rb_case_resolved(st->base)->units));
-    rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base));
+    json_t *inputs = rb_report_json_inputs(st->base);
+    rb_message why;
+    if (st->has_crack && cli_study_try_one(st, 0, &why) == RB_OK)
+        rb_report_json_crack_inputs(&inputs, &st->one_crack,
+                                    rb_case_resolved(st->base)->units);
+    rb_report_json_set(&root, "inputs", inputs);
     rb_report_json_set(&root, "table", table);
     return rb_report_json_write(st->out, root);
 }
@@ -438,6 +496,15 @@ static rb_status measure_slopes(const rb_rolling_model *model, double *own, void
     for (int k = 0; k < st->slopes.n; k++)
         own[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
     return s == RB_ENOMEM ? s : RB_OK;
+}
+
+static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
+{
+    study *st = context;
+    const rb_status s = cli_study_try_one(st, k, why);
+    return s == RB_OK
+               ? rb_case_crack_row(rb_case_resolved(st->one), &st->one_crack, row, why)
+               : s;
 }
 
 /* ---- Progress ---------------------------------------------------------------------- */
@@ -719,7 +786,7 @@ static rb_rolling_sweep sweep_of(study *st)
 {
     unsigned also = rb_case_resolved(st->base)->error ? RB_ROW_ERRORS : 0;
     for (int k = 0; k < st->results; k++)
-        if (st->result[k].of_stress)
+        if (st->result[k].of == OF_STRESS)
             also |= RB_ROW_STRESS;
     return (rb_rolling_sweep){.first = st->first,
                               .also = also,
@@ -727,6 +794,7 @@ static rb_rolling_sweep sweep_of(study *st)
                               .workers = st->o->jobs,
                               .make = make_case,
                               .measure = st->slopes.n > 0 ? measure_slopes : NULL,
+                              .solve = st->has_crack ? solve_crack : NULL,
                               .see = see_row,
                               .tick = tick,
                               .context = st};
@@ -794,6 +862,8 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
             code = cli_study_sample(st, c);
     }
     /* with values, because other options may stand only beside one that varies */
+    if (st->has_crack) /* its contact may be any that passes */
+        rb_case_set_purpose(c, RB_CASE_CRACK);
     if (code == CLI_CONTINUE)
         code = cli_study_set_values(st, c, cli_study_first(st, c));
     if (code == CLI_CONTINUE)
@@ -833,16 +903,22 @@ int cli_sweep(int argc, char **argv)
     study_options o = {0};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_STUDY);
-    study st = {.base = c, .o = &o, .over = -1, .family = -1};
+    study st = {
+        .base = c, .o = &o, .crack = rb_case_crack_defaults(), .over = -1, .family = -1};
+    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     if (!c)
         return CLI_INTERNAL;
     const cli_spec spec = {
         "rollbem sweep [OPTION...] [STUDY.ini]",
         about,
         notes,
-        {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
-        3};
+        {rb_case_options(c),
+         {options, OPTIONS, &o, o.given, NULL},
+         {rb_case_crack_options, rb_case_crack_options_n, &st.crack, given, plain},
+         cli_example_set()},
+        4};
     st.own = &spec.sets[1];
+    st.cracks = &spec.sets[2];
     cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {
         rb_case_free(c);

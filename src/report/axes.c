@@ -52,6 +52,27 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+const char *rb_report_raised(const char *unit, char text[40])
+{
+    text[0] = '\0';
+    while (*unit) {
+        const size_t n = strcspn(unit, ".^");
+        rb_append(text, 40, "%.*s", (int)n, unit);
+        unit += n;
+        if (*unit == '.') {
+            rb_append(text, 40, "·");
+            unit++;
+        } else if (*unit == '^') {
+            const size_t digits = strspn(unit + 1, "-.0123456789");
+            const int root = digits == 3 && strncmp(unit + 1, "0.5", 3) == 0;
+            rb_append(text, 40, "^{%.*s}", root ? 3 : (int)digits,
+                      root ? "1/2" : unit + 1);
+            unit += 1 + digits;
+        }
+    }
+    return text;
+}
+
 const char *rb_report_large_number(double x, char text[40])
 {
     /* what is a power of ten when it is rounded to five digits is one */

@@ -45,6 +45,16 @@ static json_t *numbers(const rb_crack_summary *s)
     return object;
 }
 
+void rb_report_json_crack_inputs(json_t **inputs, const rb_case_crack *crack,
+                                 rb_units units)
+{
+    for (int k = 0; k < rb_case_crack_options_n; k++) {
+        const rb_option *o = &rb_case_crack_options[k];
+        if (o->kind != RB_OPTION_GROUP)
+            rb_report_json_set(inputs, o->name, rb_report_json_option(o, crack, units));
+    }
+}
+
 void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
 {
     const rb_report_columns columns = columns_of(r);
@@ -125,16 +135,6 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
                                      : "");
     }
     fprintf(out, "  residual  %.2g\n", s->residual);
-}
-
-/* The unit of K with its exponent raised. */
-static const char *raised(rb_units units, char text[32])
-{
-    const char *name = rb_unit_name(units, "MPa.mm^0.5"), *power = strchr(name, '^');
-    const int n = (int)(strchr(name, '.') - name); /* before the dot of the product */
-    snprintf(text, 32, "%.*s·%.*s^{%s}", n, name, (int)(power - name) - n - 1,
-             name + n + 1, strcmp(power + 1, "0.5") == 0 ? "1/2" : power + 1);
-    return text;
 }
 
 /* ---- Picture: K over the position, zones below ---------------------------------------
@@ -238,7 +238,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     const rb_crack_history *h = &r->history;
     const rb_report_place place = rb_report_place_of(canvas);
     const double a = r->half_width;
-    char unit[32];
+    char unit[40];
     const int wet = r->summary.fluid_pressure_max > 0.0;
     double along = 0.0; /* the whole crack, in half-widths */
 
@@ -261,7 +261,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
                            : 0.83,
             0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
             0.925 + 1.4 * place.up, rb_report_key_font(canvas),
-            place.titled ? "stress intensity" : "K", raised(r->units, unit), 0.68);
+            place.titled ? "stress intensity" : "K",
+            rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), unit), 0.68);
     if (wet)
         fprintf(out,
                 "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics "
@@ -325,8 +326,8 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
-    char unit[32];
-    const char *K = raised(v->r->units, unit);
+    char unit[40];
+    const char *K = rb_report_raised(rb_unit_name(v->r->units, "MPa.mm^0.5"), unit);
 
     write_steps(out, v->r, v->r->half_width);
     write_title(out, v, place);
@@ -373,7 +374,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const rb_crack_path *path = &r->shape.path;
     const int n = h->nodes, k = nearest(r, v->at * r->half_width);
     const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
-    char name[32];
+    char name[40];
     const double *D = h->D + (size_t)k * 2 * (size_t)n;
     double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
 
@@ -411,7 +412,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
                 "set label 2 'K_{I} = %.4g,  K_{II} = %.4g %s' at screen 0.54, 0.935 "
                 "center\n",
                 h->x[k] / r->half_width, times, h->K_I[k], h->K_II[k],
-                raised(r->units, name));
+                rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), name));
     const double margin = 0.25 * size;
     fprintf(out,
             "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"

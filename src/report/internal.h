@@ -100,6 +100,8 @@ int rb_report_exponent(double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 /* Five digits, 2·10^{5} from 1e5 on: no "2e+05" in a picture. */
+/* "MPa.mm^0.5" as gnuplot writes it, exponents raised.  Returns text. */
+const char *rb_report_raised(const char *unit, char text[40]);
 const char *rb_report_large_number(double x, char text[40]);
 /* As many labels as that part of the canvas takes without one touching the next. */
 double rb_report_labels_in(double height);

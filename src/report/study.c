@@ -187,13 +187,24 @@ static axis axis_of_result(const rb_report_study *s)
     return a;
 }
 
-/* gnuplot would lower what follows an underscore. */
+/* In words: gnuplot would lower what follows an underscore, as it shall of K alone. */
 static const char *plain(const char *name, char room[64])
 {
-    snprintf(room, 64, "%s", name);
-    for (char *c = room; *c; c++)
-        if (*c == '_' || *c == '-')
-            *c = ' ';
+    room[0] = '\0';
+    if (strncmp(name, "delta_K", 7) == 0) {
+        rb_append(room, 64, "Δ");
+        name += strlen("delta_");
+    }
+    while (*name)
+        if (strncmp(name, "K_", 2) == 0) {
+            const size_t n = strspn(name + 2, "I");
+            rb_append(room, 64, "K_{%.*s}", n ? (int)n : (int)strlen("θ"),
+                      n ? name + 2 : "θ");
+            name += 2 + (n ? n : strlen("theta"));
+        } else {
+            rb_append(room, 64, "%c", *name == '_' || *name == '-' ? ' ' : *name);
+            name++;
+        }
     return room;
 }
 
@@ -201,13 +212,14 @@ static const char *plain(const char *name, char room[64])
 static void write_label(FILE *out, const char *label, const rb_report_quantity *q,
                         const axis *a)
 {
-    char name[64];
+    char name[64], unit[40];
     fprintf(out, "set %s '%s", label, plain(q->name, name));
     if (a->exponent || q->unit[0])
         fputs("  [", out);
     if (a->exponent)
         fprintf(out, "10^{%d}%s", a->exponent, q->unit[0] ? " " : "");
-    fprintf(out, "%s%s'\n", q->unit, a->exponent || q->unit[0] ? "]" : "");
+    fprintf(out, "%s%s'\n", rb_report_raised(q->unit, unit),
+            a->exponent || q->unit[0] ? "]" : "");
 }
 
 static void write_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a,

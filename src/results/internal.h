@@ -11,7 +11,6 @@
 rb_rolling_solution rb_rolling_no_scalars(rb_status status);
 /* The same of a row: NAN throughout. */
 rb_rolling_row rb_rolling_no_row(rb_status status);
-rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
 
 /* Zeros for every column of the table that the case has; the owner's others stay NULL.
  * What there is on RB_ENOMEM is freed as if it were complete. */

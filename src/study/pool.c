@@ -62,9 +62,13 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
     rb_rolling_case rc;
     rb_rolling_model model = {0};
     rb_rolling_solution solution = {0};
-    rb_status s = sweep->make(k, &rc, sweep->context);
 
-    *row = rb_rolling_no_row(s);
+    *row = rb_rolling_no_row(RB_OK);
+    if (sweep->solve) {
+        row->solution.status = sweep->solve(k, row, sweep->context, why);
+        return;
+    }
+    rb_status s = sweep->make(k, &rc, sweep->context);
     if (s == RB_OK)
         s = rb_rolling_solve_model(&rc, &model, &solution, why);
     if (s >= 0 && solution.p)
