@@ -261,6 +261,38 @@ static void coupled(void **state)
     check_refused(HERTZ "--mu 0 --coupled --unloaded --remote-stress 1", 64, "exclude");
 }
 
+/* Friction of 0.4 between the faces turns the crack of 45 degrees upwards by 70.5 degrees
+ * (pure K_II): a step of three half-widths leaves the body, the summary and the note say
+ * so. */
+static void back_to_the_surface(void **state)
+{
+    static const char *const line = HERTZ
+        "--mu 0 --crack-friction 0.4 --crack-angle 45 --paris 1e-12,3 --growth "
+        "tension --grow-to 4 --grow-steps %d --units inch --half-width 1mm --radius "
+        "1000mm --young 94500MPa";
+    char text[300];
+    (void)state;
+    for (int steps = 1; steps <= 8; steps += 7) {
+        snprintf(text, sizeof text, line, steps);
+        json_t *root = run_json(text);
+        const json_t *growth = json_object_get(root, "growth");
+        const size_t n = json_array_size(json_object_get(growth, "length"));
+        CHECK_ABS(entry(growth, "angle", 0), 45.0, 1e-9, "as it is given");
+        if (steps == 1) {
+            assert_true(json_is_true(json_object_get(growth, "surfaced")));
+            assert_int_equal(n, 1);
+            assert_non_null(strstr(
+                json_string_value(json_array_get(json_object_get(root, "notes"), 0)),
+                "back to the surface beyond a length of 0.03937 in: a piece"));
+        } else {
+            CHECK_ABS(entry(growth, "angle", 1), 45.0 - 70.528779365, 1e-6, "upwards");
+            for (size_t k = 0; k < n; k++)
+                CHECK_MAX(entry(growth, "tip_y", k), 0.0, "below the surface");
+        }
+        json_decref(root);
+    }
+}
+
 /* A study of cracks is `rollbem crack` case by case, with its error bars, in units, from
  * a case file, and it goes on where it was cut. */
 #define VARIED                                                                           \
@@ -389,6 +421,7 @@ int main(void)
                                        cmocka_unit_test(pictures),
                                        cmocka_unit_test(loads_of_every_kind),
                                        cmocka_unit_test(coupled),
+                                       cmocka_unit_test(back_to_the_surface),
                                        cmocka_unit_test(studies),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -468,6 +468,19 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
              0.0);
 }
 
+static void note_end_of_growth(rb_units units, rb_case_crack_result *r)
+{
+    const rb_case_crack_growth *g = &r->growth;
+    if ((!g->surfaced && !g->rests) || r->notes == RB_CASE_CRACK_NOTES)
+        return;
+    snprintf(r->note[r->notes++], sizeof r->note[0],
+             g->surfaced ? "The crack came back to the surface beyond a length of %.4g "
+                           "%s: a piece breaks out."
+                         : "The crack rests: dK is below the threshold at a length of "
+                           "%.4g %s.",
+             rb_unit_shown(units, "mm", g->length[g->n - 1]), rb_unit_name(units, "mm"));
+}
+
 /* One mesh: as many elements as times `finer` says, of crack and contact. */
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
                             rb_case_crack_result *r, rb_message *why)
@@ -521,14 +534,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
             r->summary = rb_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
             s = rb_case_grow_crack(c, k, &passage, r, why);
-        if (r->growth.surfaced)
-            note(r,
-                 "The crack came back to the surface at a length of %.4g mm: a piece "
-                 "breaks out.",
-                 r->growth.length[r->growth.n - 1]);
-        if (r->growth.rests)
-            note(r, "The crack rests: dK is below the threshold at a length of %.4g mm.",
-                 r->growth.length[r->growth.n - 1]);
+        note_end_of_growth(c->units, r);
     }
     rb_crack_free(crack);
     track_free(&t);

@@ -4,8 +4,7 @@
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 
-/* Each straight piece has as many elements: with two the quadrature at kinks of 70 degrees
- * leaves a matrix that is not definite. */
+/* Elements that each new straight piece brings: the others stay as fine as they were. */
 enum { PIECE_ELEMENTS = 4 };
 
 rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
@@ -120,7 +119,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
             g->surfaced = 1;
             break;
         }
-        shape.elements = GSL_MAX(shape.elements, PIECE_ELEMENTS * shape.path.pieces);
+        shape.elements = k->elements + PIECE_ELEMENTS * (shape.path.pieces - 1);
         s = rb_crack_create(&shape, &crack, why);
         if (s == RB_OK)
             s = rb_crack_pass(crack, passage, &history, why);

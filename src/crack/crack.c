@@ -11,7 +11,7 @@
 
 /* Points per element; HALF of them, graded towards an end where the stress is singular.
  */
-enum { POINTS = 10, GRADED = 24, LEAST_ELEMENTS = 4, MOST_ELEMENTS = 2000 };
+enum { POINTS = 10, GRADED = 24, PIECE_ELEMENTS = 3, LEAST_ELEMENTS = 4, MOST_ELEMENTS = 2000 };
 /* Below this angle [degrees] the faces of so few elements would be wrong. */
 enum { SHALLOW_ANGLE = 15, SHALLOW_ELEMENTS = 40 };
 /* K_I of a crack of 90 degrees with its mouth in the surface, unit tension, a = 1. */
@@ -77,6 +77,7 @@ static void grade(const rb_crack_path *path, int n, double *s)
 {
     double length = 0.0, before = 0.0, phi_before = 0.0;
     int from = 0;
+    const int least = GSL_MIN(PIECE_ELEMENTS, n / path->pieces);
 
     for (int k = 0; k < path->pieces; k++)
         length += cabs(place(path, k + 1) - place(path, k));
@@ -84,11 +85,11 @@ static void grade(const rb_crack_path *path, int n, double *s)
         const double end = before + cabs(place(path, k + 1) - place(path, k));
         const double phi =
             k + 1 == path->pieces ? 1.0 : asin(sqrt(fmin(end / length, 1.0))) / M_PI_2;
-        /* at least one element for this piece and for each one that is left */
+        /* so many at least for this piece and for each one that is left */
         const int to = k + 1 == path->pieces
                            ? n
-                           : GSL_MIN(GSL_MAX((int)lround(n * phi), from + 1),
-                                     n - (path->pieces - 1 - k));
+                           : GSL_MIN(GSL_MAX((int)lround(n * phi), from + least),
+                                     n - least * (path->pieces - 1 - k));
         for (int j = from; j <= to; j++) {
             const double u = phi_before + (phi - phi_before) * (j - from) / (to - from);
             const double sine = sin(M_PI_2 * u);
