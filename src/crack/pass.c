@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of a step: how far the mouth may still be from closing when the fluid is trapped. */
+static const double CLOSING = 1e-5;
+
 /* ---- State ------------------------------------------------------------------------- */
 
 rb_status rb_crack_state_alloc(const rb_crack *c, rb_crack_state *state)
@@ -294,6 +297,57 @@ static double largest_stress(const rb_crack_passage *p)
     return largest;
 }
 
+/* Nodal forces on the way from step k - 1 to step k; part = 1: in step k. */
+static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int k,
+                              double part, double *T)
+{
+    const size_t m = 2 * (size_t)c->n;
+    const rb_bem_edge_load *now = p->loads > 0 ? &p->load[p->loads > 1 ? k : 0] : NULL;
+    if (part == 1.0)
+        return rb_crack_load(c, now, p->x[k], p->tension, T);
+    const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
+    const rb_status s = rb_crack_load(c, now, x, p->tension, T);
+    if (s != RB_OK || p->loads < 2)
+        return s;
+    double *before = rb_alloc(m, 1);
+    const rb_status t =
+        before ? rb_crack_load(c, now - 1, x, p->tension, before) : RB_ENOMEM;
+    for (size_t i = 0; i < m && t == RB_OK; i++)
+        T[i] = part * T[i] + (1.0 - part) * before[i];
+    free(before);
+    return t;
+}
+
+/* What is trapped is the volume at the place where the mouth closes, and near it the
+ * crack closes fast: the state becomes that just before this place, by bisection. */
+static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
+                                  double scale, double *T, rb_crack_state *state,
+                                  rb_message *why)
+{
+    rb_crack_state trial;
+    double open = 0.0, closed = 1.0;
+    rb_status s = rb_crack_state_alloc(c, &trial);
+
+    for (double part = 1.0; closed - open > CLOSING && s == RB_OK;
+         part = 0.5 * (open + closed)) {
+        memcpy(trial.D, state->D, 2 * (size_t)c->n * sizeof *trial.D);
+        s = load_between(c, p, k, part, T);
+        trial.volume = 0.0; /* so that nothing is trapped */
+        if (s == RB_OK)
+            s = rb_crack_step(c, T, RB_CRACK_TRAPPED, 0.0, scale, &trial, why);
+        if (s == RB_OK && trial.zone[0] == RB_ZONE_SEPARATED) {
+            const rb_crack_state passed = *state;
+            *state = trial;
+            trial = passed;
+            open = part;
+        } else {
+            closed = part;
+        }
+    }
+    rb_crack_state_free(&trial);
+    return s;
+}
+
 rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history *h,
                         rb_message *why)
 {
@@ -325,8 +379,12 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         const double at_mouth =
             load ? pressure_at(load, c->shape.path.x[0] - p->x[step]) : 0.0;
         double max_pressure = 0.0;
-        s = rb_crack_load(c, p->wheel ? NULL : load, p->x[step], p->tension, T);
         rb_message reason = {""};
+        if (p->fluid == RB_CRACK_TRAPPED && step > 0 &&
+            state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
+            s = approach_closing(c, p, step, scale, T, &state, &reason);
+        if (s == RB_OK)
+            s = rb_crack_load(c, p->wheel ? NULL : load, p->x[step], p->tension, T);
         if (s == RB_OK && p->wheel)
             s = rb_crack_step_coupled(c, p->wheel, p->x[step], T, scale, &state,
                                       &max_pressure, &reason);
