@@ -603,10 +603,8 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
-    One process per processor, or ``workers``.  With options of a crack, given or as lists, the
-    contact of each case passes over it, and the results are also those of :func:`crack`.
-
-    One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
+    With options of a crack, given or as lists, the contact of each case passes over it, and the
+    results are also those of :func:`crack`.  One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
     cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
     """
     workers = _values.whole("workers", workers)

@@ -11,7 +11,13 @@
 
 /* Points per element; HALF of them, graded towards an end where the stress is singular.
  */
-enum { POINTS = 10, GRADED = 24, PIECE_ELEMENTS = 3, LEAST_ELEMENTS = 4, MOST_ELEMENTS = 2000 };
+enum {
+    POINTS = 10,
+    GRADED = 24,
+    PIECE_ELEMENTS = 3,
+    LEAST_ELEMENTS = 4,
+    MOST_ELEMENTS = 2000
+};
 /* Below this angle [degrees] the faces of so few elements would be wrong. */
 enum { SHALLOW_ANGLE = 15, SHALLOW_ELEMENTS = 40 };
 /* K_I of a crack of 90 degrees with its mouth in the surface, unit tension, a = 1. */
