@@ -715,7 +715,16 @@ static void files_are_blamed_by_line(void **state)
          RB_EFORMAT},
         {"load = 4\napproach = 2\n",
          "case.ini:2: approach and case.ini:1: load exclude each other", RB_EFORMAT},
-        {"load = 4\nforce = 10\n", "case.ini: force Q = 10", RB_EFORMAT},
+        {"load = 4\nforce = 10\n", "case.ini:2: force Q = 10", RB_EFORMAT},
+        {"support = halfplane\nload = 4\nradius = 50\nsimilar = yes\nradius-b = -30\n",
+         "case.ini:5: radius of body B: a bore", RB_EFORMAT},
+        {"load = 4\nrelaxation-time = 2\n",
+         "case.ini:2: --relaxation-time and --relaxation-ratio", RB_EFORMAT},
+        {"support = halfplane\nload = 4\nzone = 1e30\n", "case.ini:3: zone: 1e+30 mm",
+         RB_EFORMAT},
+        {"support = halfplane\nload = 4\nforce-ratio = 3\nformulation = steady\n",
+         "case.ini:3: force ratio Q/(mu P) = 3", RB_EFORMAT},
+        {"load = 4\nconductivity = 50\n", "case.ini:2: conductivity: ", RB_EFORMAT},
         {"gap = nothere.txt\nload = 4\n", "nothere.txt", RB_ENOENT},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

@@ -133,7 +133,7 @@ static const struct {
     {"mu = 0.1\nmu = 0.2\n", "case.ini:2: key 'mu' was given before, in line 1"},
     {"mu = 0.1\nnonsense\n", "case.ini:2: expected [section] or key = value"},
     {"approach = 1\nload = 5\n", "case.ini:1: approach and case.ini:2: load exclude"},
-    {"formulation = steady\nshift = 1\n", "case.ini: shift"},
+    {"formulation = steady\nshift = 1\n", "case.ini:2: shift"},
     {"contact-elements = 10000000\nzone = 10\n", "GB of memory"},
 };
 

@@ -576,6 +576,30 @@ static void unsolved_cases_leave_holes(void **state)
                   64, "--plot: no case has a force_ratio");
 }
 
+/* What the file of a study says stands there, whatever varies. */
+static void files_of_studies_are_blamed_by_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *part;
+    } wrong[] = {
+        {"radius-b = -30", "f.ini:6: radius of body B: a bore takes in"},
+        {"hardening = -3", "f.ini:6: hardening: of an interface that yields"},
+        {"cover-thickness-b = 1", "f.ini:6: cover thickness of body B: its core"},
+        {"shift = 1", "f.ini:6: shift: rolling is driven by"},
+        {"zone = 1e30", "f.ini:6: zone: 1e+30 mm is wider than"},
+        {"force-ratio = 3", "f.ini:6: force ratio Q/(mu P) = 3"}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "radius = 50\nload = 500\nsupport = halfplane\nsimilar = yes\n"
+                 "formulation = steady\n%s\n",
+                 wrong[k].line);
+        write_file("f.ini", text);
+        check_refused("sweep f.ini --vary-1 'mu .1 .2'", 65, wrong[k].part);
+    }
+}
+
 static void what_cannot_be_drawn_is_refused(void **state)
 {
     (void)state;
@@ -742,6 +766,7 @@ int main(void)
         cmocka_unit_test(curves_are_those_of_the_family),
         cmocka_unit_test(a_resumed_study_draws_all_its_rows),
         cmocka_unit_test(unsolved_cases_leave_holes),
+        cmocka_unit_test(files_of_studies_are_blamed_by_line),
         cmocka_unit_test(what_cannot_be_drawn_is_refused),
         cmocka_unit_test(rows_have_stresses_and_error_bars),
         cmocka_unit_test(an_empty_file_is_a_start),

@@ -251,6 +251,38 @@ static int all_from_file(const rb_case *c)
     return c->path[0] != '\0';
 }
 
+/* The line of the case file with the option that a refusal speaks of: "zone: ...",
+ * "radius of body B: ...", or the first of its --options that stands there.  0: none
+ * does. */
+static int line_of_blamed(const rb_case *c, const char *text)
+{
+    static const char of_a[] = " of body A", of_b[] = " of body B";
+    char name[60];
+    size_t n = strcspn(text, ":(");
+    if (n < sizeof name - 2) {
+        snprintf(name, sizeof name, "%.*s", (int)n, text);
+        if (n > strlen(of_a) && strcmp(name + n - strlen(of_a), of_a) == 0)
+            name[n - strlen(of_a)] = '\0';
+        else if (n > strlen(of_b) && strcmp(name + n - strlen(of_b), of_b) == 0)
+            memcpy(name + n - strlen(of_b), "-b", 3);
+        for (char *at = name; *at; at++)
+            *at = *at == ' ' ? '-' : *at;
+        /* "force ratio Q", "load begins at 3": of the words that it begins with */
+        for (char *end = name + strlen(name); end; end = strrchr(name, '-')) {
+            *end = '\0';
+            if (rb_case_given(c, name) > 0)
+                return rb_case_given(c, name);
+        }
+    }
+    for (const char *at = strstr(text, "--"); at; at = strstr(at + 2, "--")) {
+        n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
+        if (rb_case_given(c, name) > 0)
+            return rb_case_given(c, name);
+    }
+    return 0;
+}
+
 /* "history: row 3: ..." of the library, by the file and its line: RB_EFORMAT; else
  * RB_OK. */
 static rb_status locate_row(const case_table *t, const char *name, rb_message *why)
@@ -279,10 +311,12 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
     rb_status located = RB_OK;
     for (int k = 0; k < CASE_TABLES && located == RB_OK; k++)
         located = locate_row(&c->table[k], names[k], why);
-    if (located != RB_OK || !all_from_file(c))
+    const int line = located == RB_OK && *c->path ? line_of_blamed(c, why->text) : 0;
+    if (located != RB_OK || (line == 0 && !all_from_file(c)))
         return located != RB_OK ? located : s;
     const rb_message said = *why;
-    return rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
+    return line > 0 ? rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text)
+                    : rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
 }
 
 /* ---- Body B ------------------------------------------------------------------------ */
@@ -666,7 +700,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = check_purpose(c, why);
     if (s != RB_OK)
-        return s;
+        return rb_case_locate(c, s, why);
     choose_mesh(c);
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
