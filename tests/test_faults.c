@@ -151,7 +151,7 @@ static const char *const allocating[] = {
     "lcp in/dense --json --solution",
     "lcp in/rod.txt --start in/start.txt --json",
     "lcp in/rod.txt --cover in/start.txt --json",
-    "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --measure iterations "
+    "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --cost iterations "
     "--json "
     "--profiles q.tsv --plot p.svg --plot-script p.gp",
     "contact in/carter.inp --tractions",

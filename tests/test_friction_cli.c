@@ -267,10 +267,39 @@ static void profiles_are_printed(void **state)
         0);
 }
 
+/* In units in which W is 1e4 times as large, (13) with rho = 1 is content after one
+ * sweep; the scaled measure does not see the units. */
+static void the_chosen_measure_decides(void **state)
+{
+    (void)state;
+    static const char *const sweeps[] = {"scaled", "acary"};
+    write_file("stiff", "3\n2\n0\n6 6\n6 6\n2e4 0 0 1e4 0 0\n0 2e4 0 0 1e4 0\n"
+                        "0 0 2e4 0 0 1e4\n1e4 0 0 2e4 0 0\n0 1e4 0 0 2e4 0\n"
+                        "0 0 1e4 0 0 2e4\n-3e4 1e4 0 -3e4 0 4e4\n0.3 0.3\n");
+    for (int k = 0; k < 2; k++) {
+        char line[200];
+        snprintf(line, sizeof line,
+                 "compare stiff --solvers nsgs-ac --tol 1e-2 --measure %s --cost "
+                 "iterations --json",
+                 sweeps[k]);
+        assert_int_equal(rollbem(line), 0);
+        json_t *root = json_loads(out, 0, NULL);
+        const json_t *run = json_array_get(json_object_get(root, "runs"), 0);
+        CHECK_ABS(number_in(run, "iterations"), k == 0 ? 3.0 : 1.0, 0.0, "%s", sweeps[k]);
+        assert_string_equal(json_string_value(json_object_get(root, "measure")),
+                            sweeps[k]);
+        assert_string_equal(json_string_value(json_object_get(root, "cost")),
+                            "iterations");
+        json_decref(root);
+    }
+    check_refused("compare stiff --measure flops", 64, "--measure: expected scaled or");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_answer_can_be_checked),
+        cmocka_unit_test(the_chosen_measure_decides),
         cmocka_unit_test(every_solver_is_there_by_name),
         cmocka_unit_test(bad_files_get_a_line_each_and_the_others_run),
         cmocka_unit_test(what_is_not_solved_says_so),

@@ -18,17 +18,17 @@ typedef enum { COST_FLOPS, COST_SECONDS, COST_ITERATIONS } cost_kind;
 typedef struct {
     const char *solvers;
     double tol, limit;
-    int measure, max_iters;
+    int cost, measure, max_iters;
     rb_report_style style;
     const char *plot, *output, *profiles;
     cli_pictures pictures;
     int given[20];
 } compare_options;
 
-static const rb_choice measures[] = {{"flops", COST_FLOPS},
-                                     {"seconds", COST_SECONDS},
-                                     {"iterations", COST_ITERATIONS},
-                                     {NULL, 0}};
+static const rb_choice costs[] = {{"flops", COST_FLOPS},
+                                  {"seconds", COST_SECONDS},
+                                  {"iterations", COST_ITERATIONS},
+                                  {NULL, 0}};
 
 #define PLACE(member) offsetof(compare_options, member)
 
@@ -37,12 +37,14 @@ static const rb_option options[] = {
     RB_TEXT_LINE("solvers", PLACE(solvers), "A,B,...", "which solvers",
                  .unset = "all that rollbem friction has"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "scaled error, recomputed, that counts as solved"),
+                   "error, recomputed, that counts as solved"),
+    RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
+                   "which error decides, as for rollbem friction"),
     RB_NUMBER_LINE("limit", PLACE(limit), "s", RB_ABOVE(0.0),
                    "time for one solver on one problem"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
                     .unset = "each solver's own"),
-    RB_CHOICE_LINE("measure", PLACE(measure), measures,
+    RB_CHOICE_LINE("cost", PLACE(cost), costs,
                    "cost that the profiles and the picture compare"),
     RB_GROUP_LINE("output", "Output"),
     CLI_STYLE_LINES(PLACE(style)),
@@ -148,6 +150,7 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
     const rb_friction_solution solution = {r, u, NULL};
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = c->o->tol;
+    opt.measure = (rb_friction_measure_name)c->o->measure;
     opt.seconds = c->o->limit;
     opt.max_iters = c->o->max_iters;
     cli_exit code = r && u ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
@@ -183,7 +186,7 @@ static double cost_of(const comparison *c, int problem, int solver)
     const run_result *one = &c->result[problem * c->solvers + solver];
     if (one->status != RB_OK || one->info.seconds > c->o->limit)
         return INFINITY;
-    switch ((cost_kind)c->o->measure) {
+    switch ((cost_kind)c->o->cost) {
     case COST_FLOPS:
         return fmax(one->info.flops, 1.0);
     case COST_SECONDS:
@@ -253,8 +256,8 @@ static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
         rb_report_cell_text(&cells, c->solver[s]);
     rb_report_cells_end_row(&cells);
     rb_report_comment_origin(&cells, cli_command_line());
-    rb_report_comment(&cells, "profiles over %s, %d problems",
-                      measures[c->o->measure].name, c->problems);
+    rb_report_comment(&cells, "profiles over %s, %d problems", costs[c->o->cost].name,
+                      c->problems);
     for (int k = 0; k < TAUS; k++) {
         rb_report_cell_number(&cells, c->tau[k]);
         for (int s = 0; s < c->solvers; s++)
@@ -290,7 +293,9 @@ static json_t *json_runs(const comparison *c)
 static rb_status write_json(const comparison *c, FILE *out)
 {
     json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
-    rb_report_json_set(&root, "measure", json_string(measures[c->o->measure].name));
+    rb_report_json_set(&root, "cost", json_string(costs[c->o->cost].name));
+    rb_report_json_set(&root, "measure",
+                       json_string(cli_friction_measures[c->o->measure].name));
     rb_report_json_set(&root, "tol", rb_report_json_number(c->o->tol));
     rb_report_json_set(&root, "runs", json_runs(c));
     rb_report_json_set(&root, "tau", rb_report_json_numbers(TAUS, c->tau));
@@ -316,7 +321,7 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                                          .solvers = c->solvers,
                                          .n = TAUS,
                                          .solver = c->solver,
-                                         .measure = measures[c->o->measure].name,
+                                         .measure = costs[c->o->cost].name,
                                          .tau = c->tau,
                                          .rho = c->rho};
     return rb_report_profiles_picture(out, canvas, &profiles, why);

@@ -42,9 +42,6 @@ static const rb_choice formats[] = {
     {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
     {NULL, 0}};
 
-static const rb_choice measures[] = {
-    {"scaled", RB_FRICTION_BY_SCALED}, {"acary", RB_FRICTION_BY_ACARY}, {NULL, 0}};
-
 #define PLACE(member) offsetof(friction_options, member)
 
 static const rb_option options[] = {
@@ -52,7 +49,7 @@ static const rb_option options[] = {
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "error that counts as solved: see below"),
-    RB_CHOICE_LINE("measure", PLACE(measure), measures,
+    RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
                    "which error decides: scaled, or acary: (13), which depends on the "
                    "units of the file"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
@@ -158,7 +155,8 @@ static void add_problem(friction_run *run, const friction_result *r)
     rb_report_json_set(&p, "iterations", count(r->m > 0, r->info.iters));
     rb_report_json_set(&p, "residual", rb_report_json_number(r->info.residual));
     rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
-    rb_report_json_set(&p, "measure", json_string(measures[run->o->measure].name));
+    rb_report_json_set(&p, "measure",
+                       json_string(cli_friction_measures[run->o->measure].name));
     rb_report_json_set(&p, "note",
                        r->note.text[0] ? json_string(r->note.text) : json_null());
     rb_report_json_set(&p, "floor", rb_report_json_number(r->info.floor));

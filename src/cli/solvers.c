@@ -2,6 +2,9 @@
 
 #include <stdio.h>
 
+const rb_choice cli_friction_measures[] = {
+    {"scaled", RB_FRICTION_BY_SCALED}, {"acary", RB_FRICTION_BY_ACARY}, {NULL, 0}};
+
 cli_exit cli_friction_solver(const char *option, const char *name,
                              const rb_friction_solver **solver)
 {

@@ -13,4 +13,7 @@ cli_exit cli_friction_solver(const char *option, const char *name,
 /* One line per solver, for --help; text: of that size, written from its start. */
 void cli_friction_solver_lines(char *text, size_t size);
 
+/* Which error of a friction problem decides that it is solved. */
+extern const rb_choice cli_friction_measures[];
+
 #endif
