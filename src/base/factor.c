@@ -181,18 +181,6 @@ static cholmod_dense dense_view(int n, double *x)
                            .dtype = CHOLMOD_DOUBLE};
 }
 
-static rb_status cholmod_outcome(rb_sparse_cholesky *f)
-{
-    if (f->c.status < 0) /* no memory, or more entries than its indices count */
-        return RB_ENOMEM;
-    /* cholmod_rcond: (smallest/largest diagonal of L)^2.  A structure condensed to its
-     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0.
-     */
-    if (f->l->minor < f->l->n || cholmod_rcond(f->l, &f->c) < 1e-11)
-        return RB_SINGULAR;
-    return RB_OK;
-}
-
 /* S K S; a zero or negative diagonal entry is left for the factorisation to refuse. */
 static rb_status equilibrate(const rb_sparse *k, double *scale, rb_sparse *sks)
 {
@@ -240,7 +228,16 @@ static rb_status factorize(const rb_sparse *k, rb_sparse_cholesky *f)
         cholmod_factorize(&view, f->l, &f->c);
     f->flops = f->c.fl;
     rb_sparse_free(&sks);
-    return f->l ? cholmod_outcome(f) : RB_ENOMEM;
+    if (!f->l)
+        return RB_ENOMEM;
+    if (f->c.status < 0) /* no memory, or more entries than its indices count */
+        return RB_ENOMEM;
+    /* cholmod_rcond: (smallest/largest diagonal of L)^2.  A structure condensed to its
+     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0.
+     */
+    if (f->l->minor < f->l->n || cholmod_rcond(f->l, &f->c) < 1e-11)
+        return RB_SINGULAR;
+    return RB_OK;
 }
 
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor)

@@ -10,36 +10,36 @@ static int min2(int a, int b)
     return a < b ? a : b;
 }
 
-/* Optimal string alignment: insertions, deletions, substitutions and swapped neighbours.
- */
-static int edit_distance(const char *a, const char *b)
-{
-    enum { MAX = 40 };
-    const size_t n = strlen(a), m = strlen(b);
-    if (n > MAX || m > MAX)
-        return MAX;
-    int d[MAX + 1][MAX + 1];
-    for (size_t i = 0; i <= n; i++)
-        d[i][0] = (int)i;
-    for (size_t j = 0; j <= m; j++)
-        d[0][j] = (int)j;
-    for (size_t i = 1; i <= n; i++)
-        for (size_t j = 1; j <= m; j++) {
-            d[i][j] = min2(d[i - 1][j] + 1, d[i][j - 1] + 1);
-            d[i][j] = min2(d[i][j], d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = min2(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[n][m];
-}
-
 void rb_guess_try(rb_guess *guess, const char *candidate)
 {
     /* every letter more or less is an edit */
     const int at_least = abs((int)strlen(guess->word) - (int)strlen(candidate));
     if (guess->best && at_least >= guess->distance)
         return;
-    const int distance = edit_distance(guess->word, candidate);
+    int distance;
+    /* Optimal string alignment: insertions, deletions, substitutions and swapped
+     * neighbours. */
+    enum { MAX = 40 };
+    const size_t n = strlen(guess->word), m = strlen(candidate);
+    if (n > MAX || m > MAX)
+        distance = MAX;
+    else {
+        int d[MAX + 1][MAX + 1];
+        for (size_t i = 0; i <= n; i++)
+            d[i][0] = (int)i;
+        for (size_t j = 0; j <= m; j++)
+            d[0][j] = (int)j;
+        for (size_t i = 1; i <= n; i++)
+            for (size_t j = 1; j <= m; j++) {
+                d[i][j] = min2(d[i - 1][j] + 1, d[i][j - 1] + 1);
+                d[i][j] = min2(d[i][j], d[i - 1][j - 1] +
+                                            (guess->word[i - 1] != candidate[j - 1]));
+                if (i > 1 && j > 1 && guess->word[i - 1] == candidate[j - 2] &&
+                    guess->word[i - 2] == candidate[j - 1])
+                    d[i][j] = min2(d[i][j], d[i - 2][j - 2] + 1);
+            }
+        distance = d[n][m];
+    }
     if (guess->best && distance >= guess->distance)
         return;
     guess->best = candidate;

@@ -6,18 +6,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Made once; two threads that come first both make one, which costs a few bytes. */
-static locale_t c_locale(void)
+void *rb_locale_begin(void)
 {
+    /* Made once; two threads that come first both make one, which costs a few bytes. */
     static _Atomic(locale_t) made;
     if (!made)
         made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return made;
-}
-
-void *rb_locale_begin(void)
-{
-    const locale_t own = c_locale();
+    const locale_t own = made;
     return own ? (void *)uselocale(own) : NULL;
 }
 

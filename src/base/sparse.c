@@ -34,39 +34,6 @@ static void running_sum(int n, int *counts)
         counts[k + 1] += counts[k];
 }
 
-static rb_status sorted_by_row(const rb_triplets *t, int *order)
-{
-    int *start = rb_alloc_int((size_t)t->rows + 1);
-    if (!start)
-        return RB_ENOMEM;
-    for (int k = 0; k < t->nz; k++)
-        start[t->row[k] + 1]++;
-    running_sum(t->rows, start);
-    for (int k = 0; k < t->nz; k++)
-        order[start[t->row[k]]++] = k;
-    free(start);
-    return RB_OK;
-}
-
-/* Entries of one column arrive by increasing row: equal rows are neighbours. */
-static void add_equal_places(rb_sparse *a)
-{
-    int kept = 0;
-    for (int j = 0, begin = 0; j < a->cols; j++) {
-        const int end = a->p[j + 1], first = kept;
-        for (int k = begin; k < end; k++) {
-            if (kept > first && a->i[kept - 1] == a->i[k]) {
-                a->x[kept - 1] += a->x[k];
-            } else {
-                a->i[kept] = a->i[k];
-                a->x[kept++] = a->x[k];
-            }
-        }
-        begin = end;
-        a->p[j + 1] = kept;
-    }
-}
-
 static rb_status place_entries(const rb_triplets *t, const int *order, rb_sparse *a)
 {
     int *next = rb_alloc_int((size_t)a->cols);
@@ -83,7 +50,21 @@ static rb_status place_entries(const rb_triplets *t, const int *order, rb_sparse
         a->x[to] = t->x[from];
     }
     free(next);
-    add_equal_places(a);
+    /* Entries of one column arrive by increasing row: equal rows are neighbours. */
+    int kept = 0;
+    for (int j = 0, begin = 0; j < a->cols; j++) {
+        const int end = a->p[j + 1], first = kept;
+        for (int k = begin; k < end; k++) {
+            if (kept > first && a->i[kept - 1] == a->i[k]) {
+                a->x[kept - 1] += a->x[k];
+            } else {
+                a->i[kept] = a->i[k];
+                a->x[kept++] = a->x[k];
+            }
+        }
+        begin = end;
+        a->p[j + 1] = kept;
+    }
     return RB_OK;
 }
 
@@ -103,8 +84,19 @@ rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
     int *order = rb_alloc_int((size_t)t->nz);
     if (s == RB_OK && !order)
         s = RB_ENOMEM;
-    if (s == RB_OK)
-        s = sorted_by_row(t, order);
+    if (s == RB_OK) {
+        int *start = rb_alloc_int((size_t)t->rows + 1);
+        if (!start)
+            s = RB_ENOMEM;
+        else {
+            for (int k = 0; k < t->nz; k++)
+                start[t->row[k] + 1]++;
+            running_sum(t->rows, start);
+            for (int k = 0; k < t->nz; k++)
+                order[start[t->row[k]]++] = k;
+            free(start);
+        }
+    }
     if (s == RB_OK)
         s = place_entries(t, order, a);
     if (s != RB_OK)
@@ -188,25 +180,6 @@ rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
     return RB_OK;
 }
 
-/* Column j of the product: sum, over the entries of B's column, of columns of A; touched:
- * its rows, each once, marked by seen = j + 1. */
-static int multiply_column(const rb_sparse *a, const rb_sparse *b, int j, double *sum,
-                           int *seen, int *touched)
-{
-    int count = 0;
-    for (int l = b->p[j]; l < b->p[j + 1]; l++)
-        for (int k = a->p[b->i[l]]; k < a->p[b->i[l] + 1]; k++) {
-            const int i = a->i[k];
-            if (seen[i] != j + 1) {
-                seen[i] = j + 1;
-                sum[i] = 0.0;
-                touched[count++] = i;
-            }
-            sum[i] += a->x[k] * b->x[l];
-        }
-    return count;
-}
-
 rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *c)
 {
     *c = (rb_sparse){0};
@@ -218,7 +191,19 @@ rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *
     rb_status s = sum && seen ? RB_OK : RB_ENOMEM;
     for (int j = 0; s == RB_OK && j < b->cols; j++) {
         int *touched = seen + a->rows;
-        const int count = multiply_column(a, b, j, sum, seen, touched);
+        /* Column j of the product: sum, over the entries of B's column, of columns of A;
+         * touched: its rows, each once, marked by seen = j + 1. */
+        int count = 0;
+        for (int l = b->p[j]; l < b->p[j + 1]; l++)
+            for (int k = a->p[b->i[l]]; k < a->p[b->i[l] + 1]; k++) {
+                const int i = a->i[k];
+                if (seen[i] != j + 1) {
+                    seen[i] = j + 1;
+                    sum[i] = 0.0;
+                    touched[count++] = i;
+                }
+                sum[i] += a->x[k] * b->x[l];
+            }
         for (int k = 0; k < count; k++)
             rb_triplets_add(&t, touched[k], j, sum[touched[k]]);
         s = t.status;

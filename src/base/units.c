@@ -215,27 +215,6 @@ double rb_unit_of(const char *name, const char *unit, double x)
     return u ? to_stored(u, x) : x;
 }
 
-/* Why the unit `word` of `text` is none of that kind. */
-static rb_status refuse(const char *text, const char *word, const char *unit,
-                        rb_message *why)
-{
-    const int known = find(word, strlen(word), NULL) != NULL;
-    rb_guess guess = {.word = word};
-    char names[200] = "";
-    size_t used = 0;
-    for (int k = 0; k < ROWS && strcmp(unit, "-") != 0; k++)
-        if (strcmp(table[k].kind, unit) == 0 && used < sizeof names) {
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
-                                     used ? ", " : "", table[k].name);
-            rb_guess_try(&guess, table[k].name);
-        }
-    if (names[0])
-        return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", names,
-                       text, known ? "" : rb_guess_text(&guess, ""));
-    return known ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
-                 : RB_EINVAL;
-}
-
 rb_status rb_unit_read(const char *text, const char *unit, double *value, int *plain,
                        rb_message *why)
 {
@@ -261,8 +240,25 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
     /* what does not begin like a unit is no number at all */
     if (!u && !find(word, strlen(word), NULL) && strpbrk(word, "0123456789+-., ()"))
         return RB_EINVAL;
-    if (!u)
-        return refuse(text, word, unit, why);
+    if (!u) {
+        /* Why the unit `word` of `text` is none of that kind. */
+        const int known = find(word, strlen(word), NULL) != NULL;
+        rb_guess guess = {.word = word};
+        char names[200] = "";
+        size_t used = 0;
+        for (int k = 0; k < ROWS && strcmp(unit, "-") != 0; k++)
+            if (strcmp(table[k].kind, unit) == 0 && used < sizeof names) {
+                used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
+                                         used ? ", " : "", table[k].name);
+                rb_guess_try(&guess, table[k].name);
+            }
+        if (names[0])
+            return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", names,
+                           text, known ? "" : rb_guess_text(&guess, ""));
+        return known
+                   ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
+                   : RB_EINVAL;
+    }
     *value = to_stored(u, *value);
     return RB_OK;
 }

@@ -80,26 +80,6 @@ static void take_interface(rb_bond *bond, const double *X)
         }
 }
 
-/* One solve with a right-hand side for every dof of the core's boundary. */
-static rb_status condense_core(rb_bond *bond, rb_message *why)
-{
-    const size_t rows = 2 * (size_t)bond->core.n;
-    rb_bem_system *system;
-    rb_status s = rb_bem_system_create_as(&bond->core, bond->material, 1, &system, why);
-
-    if (s != RB_OK)
-        return s;
-    double *X = rb_alloc(rows, rows);
-    s = X ? load_columns(bond, X) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = rb_bem_system_solve_columns(system, (int)rows, X);
-    if (s == RB_OK)
-        take_interface(bond, X);
-    free(X);
-    rb_bem_system_free(system);
-    return s;
-}
-
 rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
                          rb_bem_material material, rb_bond **bond, rb_message *why)
 {
@@ -119,8 +99,23 @@ rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
         b->W = b->C ? b->C + 4 * (size_t)b->n * (size_t)b->n : NULL;
         s = b->C ? check_interface(cover, b, why) : RB_ENOMEM;
     }
-    if (s == RB_OK)
-        s = condense_core(b, why);
+    if (s == RB_OK) {
+        /* One solve with a right-hand side for every dof of the core's boundary. */
+        const size_t rows = 2 * (size_t)b->core.n;
+        rb_bem_system *system;
+        s = rb_bem_system_create_as(&b->core, b->material, 1, &system, why);
+
+        if (s == RB_OK) {
+            double *X = rb_alloc(rows, rows);
+            s = X ? load_columns(b, X) : RB_ENOMEM;
+            if (s == RB_OK)
+                s = rb_bem_system_solve_columns(system, (int)rows, X);
+            if (s == RB_OK)
+                take_interface(b, X);
+            free(X);
+            rb_bem_system_free(system);
+        }
+    }
     if (s == RB_OK)
         *bond = b;
     else

@@ -128,16 +128,6 @@ static void fit_growth(outer_layout *layout, int wanted)
     count_elements(&layout->left, (int)round((wanted - 2) * left / (right + left)));
 }
 
-/* The hub's elements are as small as the largest outer ones, and resolve the rim. */
-static int hub_elements(const rb_bem_cylinder *cylinder, double scale)
-{
-    const double rho = cylinder->hub_ratio;
-    const double size =
-        fmin(largest_angle,
-             fmin(2.0 * M_PI * rho / 36.0, fmax((1.0 - rho) / 4.0, smallest_feature)));
-    return (int)fmin(fmax(16.0, ceil(scale * 2.0 * M_PI * rho / size)), 20000.0);
-}
-
 /* Angle at which the mirror image of the upstream element ends, left of the contact: it
  * is to the first contact element what the upstream one is to the last. */
 static double downstream_angle(double R, int n_c, const double *ends)
@@ -252,7 +242,14 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         layout.hub_n = layout.interface.middle_n + layout.interface.right.free_n +
                        layout.interface.left.free_n;
     } else if (cylinder->support == RB_BEM_HUB) {
-        layout.hub_n = hub_elements(cylinder, finer);
+        /* The hub's elements are as small as the largest outer ones, and resolve the rim.
+         */
+        const double rho = cylinder->hub_ratio;
+        const double size =
+            fmin(largest_angle, fmin(2.0 * M_PI * rho / 36.0,
+                                     fmax((1.0 - rho) / 4.0, smallest_feature)));
+        layout.hub_n =
+            (int)fmin(fmax(16.0, ceil(finer * 2.0 * M_PI * rho / size)), 20000.0);
     }
     return layout;
 }
@@ -349,24 +346,6 @@ static void place(rb_bem_mesh *mesh, int j, point from, point to, rb_bem_conditi
     mesh->condition[2 * j] = mesh->condition[2 * j + 1] = type;
 }
 
-static void place_outer(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
-                        const outer_layout *layout, rb_bem_mesh *mesh)
-{
-    const int arc_first = n_c + 1 + layout->right.free_n,
-              arc_n = layout->right.arc_n + layout->left.arc_n,
-              n = n_c + outer_count(layout);
-    point from = outer_node(layout, cylinder->radius, n_c, ends, 0);
-    for (int j = 0; j < n; j++) {
-        const point to = outer_node(layout, cylinder->radius, n_c, ends, j + 1);
-        const int clamped = j >= arc_first && j < arc_first + arc_n;
-        place(mesh, j, from, to,
-              j < n_c   ? RB_BEM_CONTACT
-              : clamped ? RB_BEM_DISPLACEMENT
-                        : RB_BEM_TRACTION);
-        from = to;
-    }
-}
-
 /* Angle of end k of the inner contour, from that of end 0 to 2 pi less. */
 static double inner_angle(const outer_layout *layout, int k)
 {
@@ -428,15 +407,22 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
         return rb_fail(why, s, "cylinder: out of memory for %d elements",
                        outer + layout.hub_n);
     mesh->contact_n = n_c;
-    place_outer(cylinder, n_c, ends, &layout, mesh);
+    const int arc_first = n_c + 1 + layout.right.free_n,
+              arc_n = layout.right.arc_n + layout.left.arc_n,
+              n = n_c + outer_count(&layout);
+    point from = outer_node(&layout, cylinder->radius, n_c, ends, 0);
+    for (int j = 0; j < n; j++) {
+        const point to = outer_node(&layout, cylinder->radius, n_c, ends, j + 1);
+        const int clamped = j >= arc_first && j < arc_first + arc_n;
+        place(mesh, j, from, to,
+              j < n_c   ? RB_BEM_CONTACT
+              : clamped ? RB_BEM_DISPLACEMENT
+                        : RB_BEM_TRACTION);
+        from = to;
+    }
     place_hub(cylinder->radius, inner_radius(cylinder), &layout, outer, mesh);
     s = check_chords(cylinder, outer, mesh, why);
     return s == RB_OK ? rb_bem_mesh_check(mesh, why) : s;
-}
-
-static int is_held(const rb_bem_mesh *mesh, int j)
-{
-    return mesh->condition[2 * j] == RB_BEM_DISPLACEMENT;
 }
 
 rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
@@ -447,7 +433,8 @@ rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *c
     int n = 0;
 
     *core = (rb_bem_mesh){0};
-    while (n < cover->n && is_held(cover, cover->n - 1 - n))
+    while (n < cover->n &&
+           cover->condition[2 * (cover->n - 1 - n)] == RB_BEM_DISPLACEMENT)
         n++;
     if (!(hub < 0.98 * outside))
         return rb_fail(

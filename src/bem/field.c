@@ -69,25 +69,6 @@ static piece half_element(double complex from, double complex to, double complex
                    strip.along * (f_to - f_from) / strip.h};
 }
 
-static void make_pieces(rb_bem_field *f, const double *t_contact)
-{
-    const rb_bem_mesh *mesh = &f->system->mesh;
-    const double unit = rb_bem_mesh_size(mesh);
-
-    for (int c = 0; c < mesh->contact_n; c++) {
-        const int j = mesh->contact_first + c;
-        const double complex from = mesh->x0[j] + mesh->y0[j] * I;
-        const double complex to = mesh->x1[j] + mesh->y1[j] * I,
-                             middle = 0.5 * (from + to);
-        const double complex own = own_traction(mesh, t_contact, c);
-        f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c),
-                                       own, f->system->material, unit);
-        f->piece[2 * c + 1] =
-            half_element(middle, to, own, end_traction(mesh, t_contact, c + 1),
-                         f->system->material, unit);
-    }
-}
-
 /* Of all strips but the two halves of contact element `without`; -1: of all. */
 static void add_strips(const rb_bem_field *f, double complex z, int without,
                        double stress[3])
@@ -172,7 +153,21 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     }
     if (f && value && f->piece && f->u) {
         f->t = f->u + dofs;
-        make_pieces(f, t_contact);
+        const rb_bem_mesh *mesh = &f->system->mesh;
+        const double unit = rb_bem_mesh_size(mesh);
+
+        for (int c = 0; c < mesh->contact_n; c++) {
+            const int j = mesh->contact_first + c;
+            const double complex from = mesh->x0[j] + mesh->y0[j] * I;
+            const double complex to = mesh->x1[j] + mesh->y1[j] * I,
+                                 middle = 0.5 * (from + to);
+            const double complex own = own_traction(mesh, t_contact, c);
+            f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c),
+                                           own, f->system->material, unit);
+            f->piece[2 * c + 1] =
+                half_element(middle, to, own, end_traction(mesh, t_contact, c + 1),
+                             f->system->material, unit);
+        }
         for (int j = 0; j < system->mesh.n; j++)
             left_over(f, j, value + 2 * j);
         s = system->bond

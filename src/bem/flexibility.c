@@ -195,14 +195,6 @@ static void pair_free(void *data)
     free(pair);
 }
 
-static void mirror(int n, const double *x, double *y)
-{
-    for (int i = 0; i < n; i++) {
-        y[i] = x[i];
-        y[n + i] = -x[n + i];
-    }
-}
-
 static void add_mirrored(int m, const double *w, double *sum)
 {
     for (int i = 0; i < m; i++) {
@@ -214,7 +206,10 @@ static void add_mirrored(int m, const double *w, double *sum)
 static void pair_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     const body_pair *pair = f->data;
-    mirror(f->n, r, pair->r);
+    for (int i = 0; i < f->n; i++) {
+        pair->r[i] = r[i];
+        pair->r[f->n + i] = -r[f->n + i];
+    }
     rb_bem_flexibility_apply(&pair->a, r, w);
     rb_bem_flexibility_apply(&pair->b, pair->r, pair->w);
     add_mirrored(f->m, pair->w, w);

@@ -184,25 +184,6 @@ static rb_status for_clusters(const rb_given *g, int level, stage *run)
     return s;
 }
 
-/* Points from the root down, skeletons from the leaves up. */
-static rb_status make_tree(const rb_given *g)
-{
-    cluster *root = at(g, 0, 0);
-    rb_status s = RB_OK;
-
-    root->near = g->matrix.n;
-    root->point = rb_alloc_int((size_t)root->near);
-    if (!root->point)
-        return RB_ENOMEM;
-    for (int i = 0; i < root->near; i++)
-        root->point[i] = i;
-    for (int level = 1; level <= g->levels && s == RB_OK; level++)
-        s = for_clusters(g, level, part_points);
-    for (int level = g->levels; level > 0 && s == RB_OK; level--)
-        s = for_clusters(g, level, skeletonise);
-    return s;
-}
-
 /* The points of all clusters leaf by leaf; view NULL: only counted. */
 static void list_views(const rb_given *g, view *list, int *next)
 {
@@ -227,43 +208,6 @@ static void list_views(const rb_given *g, view *list, int *next)
     }
 }
 
-static rb_status make_views(rb_given *g)
-{
-    const size_t leaves = (size_t)1 << g->levels;
-    int *next = rb_alloc_int(leaves);
-
-    g->first = rb_alloc_int(leaves + 1);
-    if (next && g->first) {
-        list_views(g, NULL, next);
-        for (size_t k = 0; k < leaves; k++) {
-            g->first[k + 1] = g->first[k] + next[k];
-            next[k] = g->first[k];
-        }
-        g->view = calloc((size_t)g->first[leaves] + 1, sizeof *g->view);
-        if (g->view)
-            list_views(g, g->view, next);
-    }
-    free(next);
-    return g->view ? RB_OK : RB_ENOMEM;
-}
-
-/* Columns that are of order one, like those of the unknowns. */
-static rb_status make_matrix(const rb_bem_mesh *mesh, rb_bem_material material,
-                             const double *unit, rb_given *g)
-{
-    rb_status s = rb_mixed_make(mesh, material, unit, g->levels, g->order, &g->matrix);
-
-    if (s != RB_OK)
-        return s;
-    rb_held_contours_free(&g->matrix.contours); /* which belong to the unknowns */
-    for (int i = 0; i < 2 * mesh->n; i++) {
-        const double own = unit[g->order[i / 2]];
-        g->factor[i] = g->matrix.held[i] ? -1.0 : -1.0 / own;
-        g->matrix.held[i] = !g->matrix.held[i];
-    }
-    return RB_OK;
-}
-
 rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
                           const double *unit, double tolerance, rb_given **given)
 {
@@ -280,12 +224,54 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
         s = g->order && g->factor && g->cluster ? RB_OK : RB_ENOMEM;
     }
     const int threads = rb_blas_threads(1);
-    if (s == RB_OK)
-        s = make_matrix(mesh, material, unit, g);
-    if (s == RB_OK)
-        s = make_tree(g);
-    if (s == RB_OK)
-        s = make_views(g);
+    if (s == RB_OK) {
+        /* Columns that are of order one, like those of the unknowns. */
+        s = rb_mixed_make(mesh, material, unit, g->levels, g->order, &g->matrix);
+
+        if (s == RB_OK) {
+            rb_held_contours_free(&g->matrix.contours); /* which belong to the unknowns */
+            for (int i = 0; i < 2 * mesh->n; i++) {
+                const double own = unit[g->order[i / 2]];
+                g->factor[i] = g->matrix.held[i] ? -1.0 : -1.0 / own;
+                g->matrix.held[i] = !g->matrix.held[i];
+            }
+        }
+    }
+    if (s == RB_OK) {
+        /* Points from the root down, skeletons from the leaves up. */
+        cluster *root = at(g, 0, 0);
+
+        root->near = g->matrix.n;
+        root->point = rb_alloc_int((size_t)root->near);
+        if (!root->point)
+            s = RB_ENOMEM;
+        else {
+            for (int i = 0; i < root->near; i++)
+                root->point[i] = i;
+            for (int level = 1; level <= g->levels && s == RB_OK; level++)
+                s = for_clusters(g, level, part_points);
+            for (int level = g->levels; level > 0 && s == RB_OK; level--)
+                s = for_clusters(g, level, skeletonise);
+        }
+    }
+    if (s == RB_OK) {
+        const size_t leaves = (size_t)1 << g->levels;
+        int *next = rb_alloc_int(leaves);
+
+        g->first = rb_alloc_int(leaves + 1);
+        if (next && g->first) {
+            list_views(g, NULL, next);
+            for (size_t k = 0; k < leaves; k++) {
+                g->first[k + 1] = g->first[k] + next[k];
+                next[k] = g->first[k];
+            }
+            g->view = calloc((size_t)g->first[leaves] + 1, sizeof *g->view);
+            if (g->view)
+                list_views(g, g->view, next);
+        }
+        free(next);
+        s = g->view ? RB_OK : RB_ENOMEM;
+    }
     rb_blas_threads(threads);
     *given = s == RB_OK ? g : NULL;
     if (s != RB_OK)
@@ -348,31 +334,6 @@ static rb_status parent_values(const product *p, int level, int k, values *v)
     return RB_OK;
 }
 
-/* The skeleton's values: its own, and T times those of the others. */
-static rb_status condense(const product *p, const cluster *c, values *v)
-{
-    const size_t kept = (size_t)c->kept, others = (size_t)c->columns - kept;
-    double *rest = rb_alloc(others + 1, (size_t)p->q);
-
-    v->skeleton = rb_alloc(kept, (size_t)p->q);
-    if (!rest || !v->skeleton) {
-        free(rest);
-        return RB_ENOMEM;
-    }
-    for (size_t l = 0; l < (size_t)p->q; l++) {
-        const double *all = v->all + l * (size_t)c->columns;
-        for (size_t i = 0; i < kept; i++)
-            v->skeleton[i + l * kept] = all[c->order[i]];
-        for (size_t i = 0; i < others; i++)
-            rest[i + l * others] = all[c->order[kept + i]];
-    }
-    if (others > 0)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q, (int)others,
-                    1.0, c->T, c->kept, rest, (int)others, 1.0, v->skeleton, c->kept);
-    free(rest);
-    return RB_OK;
-}
-
 static rb_status make_values(const product *p, int level, int k)
 {
     const cluster *c = at(p->g, level, k);
@@ -380,8 +341,30 @@ static rb_status make_values(const product *p, int level, int k)
     rb_status s =
         level == p->g->levels ? leaf_values(p, c, v) : parent_values(p, level, k, v);
 
-    if (s == RB_OK && v->all)
-        s = condense(p, c, v);
+    if (s == RB_OK && v->all) {
+        /* The skeleton's values: its own, and T times those of the others. */
+        const size_t kept = (size_t)c->kept, others = (size_t)c->columns - kept;
+        double *rest = rb_alloc(others + 1, (size_t)p->q);
+
+        v->skeleton = rb_alloc(kept, (size_t)p->q);
+        if (!rest || !v->skeleton) {
+            free(rest);
+            s = RB_ENOMEM;
+        } else {
+            for (size_t l = 0; l < (size_t)p->q; l++) {
+                const double *all = v->all + l * (size_t)c->columns;
+                for (size_t i = 0; i < kept; i++)
+                    v->skeleton[i + l * kept] = all[c->order[i]];
+                for (size_t i = 0; i < others; i++)
+                    rest[i + l * others] = all[c->order[kept + i]];
+            }
+            if (others > 0)
+                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q,
+                            (int)others, 1.0, c->T, c->kept, rest, (int)others, 1.0,
+                            v->skeleton, c->kept);
+            free(rest);
+        }
+    }
     if (level < p->g->levels) {
         free(v->all);
         v->all = NULL;

@@ -60,20 +60,6 @@ static rb_status make_leaf(const rb_hierarchical *h, int level, int k,
     return s;
 }
 
-/* A(rows of a, columns of b), to the place of D given. */
-static rb_status between(const rb_hierarchical *h, const rb_hierarchical_cluster *a,
-                         const rb_hierarchical_cluster *b, double *D, int ld)
-{
-    rb_mixed_rows rows;
-    rb_status s = rb_mixed_rows_make(&h->matrix, a->e.kept, a->e.row, NULL, 0, &rows);
-
-    if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column,
-                           (rb_matrix_view){D, 1, (size_t)ld});
-    rb_mixed_rows_free(&rows);
-    return s;
-}
-
 /* The skeletons of `count` clusters as one. */
 static rb_status merge(const rb_hierarchical *h, rb_hierarchical_cluster *part, int count,
                        rb_hierarchical_cluster *c)
@@ -91,8 +77,18 @@ static rb_status merge(const rb_hierarchical *h, rb_hierarchical_cluster *part, 
             if (i == j)
                 LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[j].e.kept, part[j].e.kept,
                                     part[j].D, part[j].e.m, D, m);
-            else
-                s = between(h, &part[i], &part[j], D, m);
+            else {
+                /* A(rows of a, columns of b), to the place of D given. */
+                const rb_hierarchical_cluster *a = &part[i];
+                const rb_hierarchical_cluster *b = &part[j];
+                rb_mixed_rows rows;
+                s = rb_mixed_rows_make(&h->matrix, a->e.kept, a->e.row, NULL, 0, &rows);
+
+                if (s == RB_OK)
+                    s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column,
+                                       (rb_matrix_view){D, 1, (size_t)m});
+                rb_mixed_rows_free(&rows);
+            }
     }
     for (int i = 0; i < count; i++) {
         free(part[i].D);
@@ -168,35 +164,6 @@ static rb_status for_clusters(const rb_hierarchical *h, int level, stage *run)
     return s;
 }
 
-/* One stage after the other: a cluster looks at its neighbours' lists before any is put
- * into a new order. */
-static rb_status reduce_level(const rb_hierarchical *h, int level)
-{
-    rb_status s = for_clusters(h, level, make_cluster);
-
-    if (s == RB_OK)
-        s = for_clusters(h, level, rb_hierarchical_skeletonise);
-    if (s == RB_OK)
-        s = for_clusters(h, level, eliminate);
-    return s;
-}
-
-/* What is left at the top, dense. */
-static rb_status solve_top(const rb_hierarchical *h)
-{
-    rb_hierarchical_cluster *top = rb_hierarchical_cluster_at(h, 0, 0);
-    rb_status s = h->levels == 0
-                      ? make_leaf(h, 0, 0, top)
-                      : merge(h, rb_hierarchical_cluster_at(h, TOP, 0), 1 << TOP, top);
-    if (s == RB_OK)
-        s = rb_elimination_keep(0, &top->e);
-    if (s == RB_OK)
-        s = rb_elimination_run(&top->e, top->D);
-    free(top->D);
-    top->D = NULL;
-    return s;
-}
-
 static rb_hierarchical *hierarchical_alloc(int n, double tolerance)
 {
     rb_hierarchical *h = calloc(1, sizeof *h);
@@ -224,10 +191,29 @@ rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material materi
                     : RB_ENOMEM;
     const int threads = rb_blas_threads(1);
 
-    for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--)
-        s = reduce_level(h, level);
-    if (s == RB_OK)
-        s = solve_top(h);
+    for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--) {
+        /* One stage after the other: a cluster looks at its neighbours' lists before any
+         * is put into a new order. */
+        s = for_clusters(h, level, make_cluster);
+
+        if (s == RB_OK)
+            s = for_clusters(h, level, rb_hierarchical_skeletonise);
+        if (s == RB_OK)
+            s = for_clusters(h, level, eliminate);
+    }
+    if (s == RB_OK) {
+        /* What is left at the top, dense. */
+        rb_hierarchical_cluster *top = rb_hierarchical_cluster_at(h, 0, 0);
+        s = h->levels == 0
+                ? make_leaf(h, 0, 0, top)
+                : merge(h, rb_hierarchical_cluster_at(h, TOP, 0), 1 << TOP, top);
+        if (s == RB_OK)
+            s = rb_elimination_keep(0, &top->e);
+        if (s == RB_OK)
+            s = rb_elimination_run(&top->e, top->D);
+        free(top->D);
+        top->D = NULL;
+    }
     if (s == RB_OK)
         s = rb_hierarchical_verify(h);
     rb_blas_threads(threads);

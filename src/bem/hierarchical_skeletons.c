@@ -94,25 +94,6 @@ static rb_status see_rows(const rb_hierarchical *h, const rb_hierarchical_cluste
     return status;
 }
 
-/* Both decompositions to the larger of their ranks. */
-static rb_status split(const rb_hierarchical *h, rb_hierarchical_cluster *c,
-                       rb_skeleton *columns, rb_skeleton *rows)
-{
-    rb_elimination *e = &c->e;
-    rb_status s = rb_skeleton_factor(columns, h->tolerance);
-
-    if (s == RB_OK)
-        s = rb_skeleton_factor(rows, h->tolerance);
-    if (s == RB_OK)
-        s = rb_elimination_keep(rows->rank > columns->rank ? rows->rank : columns->rank,
-                                e);
-    if (s == RB_OK)
-        s = rb_skeleton_split(columns, e->kept, c->order + e->m, e->Z);
-    if (s == RB_OK)
-        s = rb_skeleton_split(rows, e->kept, c->order, e->V);
-    return s;
-}
-
 rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k)
 {
     rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
@@ -126,8 +107,21 @@ rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k
         s = see_columns(h, c, &near, reach, &columns);
     if (s == RB_OK)
         s = see_rows(h, c, &near, reach, &rows);
-    if (s == RB_OK)
-        s = split(h, c, &columns, &rows);
+    if (s == RB_OK) {
+        /* Both decompositions to the larger of their ranks. */
+        rb_elimination *e = &c->e;
+        s = rb_skeleton_factor(&columns, h->tolerance);
+
+        if (s == RB_OK)
+            s = rb_skeleton_factor(&rows, h->tolerance);
+        if (s == RB_OK)
+            s = rb_elimination_keep(rows.rank > columns.rank ? rows.rank : columns.rank,
+                                    e);
+        if (s == RB_OK)
+            s = rb_skeleton_split(&columns, e->kept, c->order + e->m, e->Z);
+        if (s == RB_OK)
+            s = rb_skeleton_split(&rows, e->kept, c->order, e->V);
+    }
     rb_skeleton_free(&columns);
     rb_skeleton_free(&rows);
     free(near.row);

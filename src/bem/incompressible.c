@@ -16,36 +16,28 @@ void rb_held_contours_free(rb_held_contours *held)
     *held = (rb_held_contours){0};
 }
 
-static int is_held(const rb_bem_mesh *mesh, int j)
-{
-    return mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
-           mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
-}
-
-/* Elements first ... last - 1 are a whole contour. */
-static void add_contour(const rb_bem_mesh *mesh, int first, int last,
-                        rb_held_contours *held)
-{
-    for (int j = first; j < last; j++) {
-        const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
-                     scale = 1.0 / (hypot(dx, dy) * sqrt(last - first));
-        held->contour[j] = held->count;
-        held->normal[2 * j] = dy * scale;
-        held->normal[2 * j + 1] = -dx * scale;
-    }
-    held->count++;
-}
-
 static void add_contours(const rb_bem_mesh *mesh, const int *next, rb_held_contours *held)
 {
     int first = 0, all = 1;
     for (int j = 0; j < mesh->n; j++) {
         held->contour[j] = -1;
-        all = all && is_held(mesh, j);
+        all = all && mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
+              mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
         if (next[j] == j + 1)
             continue;
-        if (all)
-            add_contour(mesh, first, j + 1, held);
+        if (all) {
+            /* Elements first ... last - 1 are a whole contour. */
+            const int last = j + 1;
+            for (int i = first; i < last; i++) {
+                const double dx = mesh->x1[i] - mesh->x0[i],
+                             dy = mesh->y1[i] - mesh->y0[i],
+                             scale = 1.0 / (hypot(dx, dy) * sqrt(last - first));
+                held->contour[i] = held->count;
+                held->normal[2 * i] = dy * scale;
+                held->normal[2 * i + 1] = -dx * scale;
+            }
+            held->count++;
+        }
         first = j + 1;
         all = 1;
     }

@@ -125,40 +125,36 @@ static cplx cauchy(cplx f, cplx f_s, const rb_piece *p, cplx z, double l, cplx t
     return -(f + f_s * conj(p->direction) * (z - p->z1)) * turn - f_s * l;
 }
 
-/* displaced: the sums of the displacement too, which cost more than those of the stress.
- */
-static void add_piece(const rb_interior *in, const rb_piece *p, double x, double y,
-                      int displaced, rb_field *field)
-{
-    const rb_view_angles v = rb_view_angles_of(&p->e, x, y);
-    const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th),
-               back = conj(p->direction);
-    const double l = 2.0 * p->e.a;
-    const cplx shift = -2.0 * I * v.d * back;
-    const cplx I0 = -back * turn,
-               I1 = back * back * I0 + shift * l / complex_of(v.Z_re, v.Z_im);
-    const cplx A = p->a_t + p->a_s, B = conj(p->a_s - in->kap * p->a_t);
-
-    field->angle += v.Th;
-    field->normal += A * I0;
-    field->deviator += B * I0 - A * I1;
-    if (displaced) {
-        const double L =
-            v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th - l * (1.0 + p->e.log_r0);
-        const cplx J1 = back * back * l + shift * I0;
-        field->twoGu += 2.0 * in->kap * L * p->a_t - conj(A * J1) +
-                        in->kap * cauchy(p->alpha, p->a_s, p, z, l, turn) -
-                        conj(cauchy(conj(p->alpha), conj(p->a_s), p, z, l, turn));
-    }
-}
-
 /* 0: the point lies outside the body */
 static int evaluate_inside(const rb_interior *in, double x, double y,
                            double *displacement, double *stress)
 {
     rb_field field = {0};
-    for (int k = 0; k < in->n; k++)
-        add_piece(in, &in->piece[k], x, y, displacement != NULL, &field);
+    for (int k = 0; k < in->n; k++) {
+        /* displaced: the sums of the displacement too, which cost more than those of the
+         * stress. */
+        const rb_piece *p = &in->piece[k];
+        const rb_view_angles v = rb_view_angles_of(&p->e, x, y);
+        const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th),
+                   back = conj(p->direction);
+        const double l = 2.0 * p->e.a;
+        const cplx shift = -2.0 * I * v.d * back;
+        const cplx I0 = -back * turn,
+                   I1 = back * back * I0 + shift * l / complex_of(v.Z_re, v.Z_im);
+        const cplx A = p->a_t + p->a_s, B = conj(p->a_s - in->kap * p->a_t);
+
+        field.angle += v.Th;
+        field.normal += A * I0;
+        field.deviator += B * I0 - A * I1;
+        if (displacement != NULL) {
+            const double L = v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th -
+                             l * (1.0 + p->e.log_r0);
+            const cplx J1 = back * back * l + shift * I0;
+            field.twoGu += 2.0 * in->kap * L * p->a_t - conj(A * J1) +
+                           in->kap * cauchy(p->alpha, p->a_s, p, z, l, turn) -
+                           conj(cauchy(conj(p->alpha), conj(p->a_s), p, z, l, turn));
+        }
+    }
     const double mean = 2.0 * creal(field.normal);
     if (displacement) {
         displacement[0] = creal(field.twoGu) / (2.0 * in->shear);
@@ -204,22 +200,6 @@ static cplx slope_at(const rb_interior *in, int j, double s)
     return middle + part * ((s < 0.0 ? before : after) - middle);
 }
 
-/* sigma_nn, sigma_ns from t, and sigma_ss from the plane-strain Hooke law
- * 2G eps_ss = (1-nu) sigma_ss - nu sigma_nn; turned back to x, y. */
-static void surface_stress(const rb_interior *in, int j, double s, double *stress)
-{
-    const cplx e = in->piece[2 * j].direction, t = pair_of(in->t, j) * conj(e);
-    const double ns = creal(t), nn = -cimag(t); /* outward normal = -i e */
-    const double strain = creal(slope_at(in, j, s) * conj(e));
-    const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
-    /* in the axes (e, i e): s11 = ss, s22 = nn, s12 = -ns */
-    const double mean = 0.5 * (ss + nn);
-    const cplx deviator = complex_of(0.5 * (nn - ss), -ns) * conj(e) * conj(e);
-    stress[0] = mean - creal(deviator);
-    stress[1] = mean + creal(deviator);
-    stress[2] = cimag(deviator);
-}
-
 static void evaluate_surface(const rb_interior *in, int j, double s, double *displacement,
                              double *stress)
 {
@@ -228,8 +208,20 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
         displacement[0] = creal(u);
         displacement[1] = cimag(u);
     }
-    if (stress)
-        surface_stress(in, j, s, stress);
+    if (stress) {
+        /* sigma_nn, sigma_ns from t, and sigma_ss from the plane-strain Hooke law
+         * 2G eps_ss = (1-nu) sigma_ss - nu sigma_nn; turned back to x, y. */
+        const cplx e = in->piece[2 * j].direction, t = pair_of(in->t, j) * conj(e);
+        const double ns = creal(t), nn = -cimag(t); /* outward normal = -i e */
+        const double strain = creal(slope_at(in, j, s) * conj(e));
+        const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
+        /* in the axes (e, i e): s11 = ss, s22 = nn, s12 = -ns */
+        const double mean = 0.5 * (ss + nn);
+        const cplx deviator = complex_of(0.5 * (nn - ss), -ns) * conj(e) * conj(e);
+        stress[0] = mean - creal(deviator);
+        stress[1] = mean + creal(deviator);
+        stress[2] = cimag(deviator);
+    }
 }
 
 /* The first point outside the body, or `points`. */

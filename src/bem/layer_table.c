@@ -60,14 +60,6 @@ static int find(double X, double *t)
     return k;
 }
 
-/* How many reach as far. */
-static int pieces_for(double reach)
-{
-    double t;
-    const int least = FIRST + NEAR_OCTAVES * PER_OCTAVE;
-    return (int)fmax(least, find(reach, &t) + 1);
-}
-
 /* ---- Waves ------------------------------------------------------------------------- */
 
 /* int_0^inf (Z exp(i sigma X/x_0) - Z(0) exp(-sigma)) dsigma/sigma, al = sigma/x_0, along
@@ -151,20 +143,6 @@ static void waves_free(waves *w)
     free(w->Z);
 }
 
-static void kernel_at(const waves *w, double X, double of[3])
-{
-    double complex sum[3] = {w->constant[0], w->constant[1], w->constant[2]};
-
-    for (int k = 0; k < w->n; k++) {
-        const double complex e = cexp(I * w->sigma[k] * (X / w->unit));
-        for (int c = 0; c < 3; c++)
-            sum[c] += w->Z[k][c] * e;
-    }
-    of[0] = creal(sum[0]);
-    of[1] = creal(sum[1]);
-    of[2] = cimag(sum[2]);
-}
-
 /* ---- Polynomials ------------------------------------------------------------------- */
 
 /* From values at Chebyshev's points cos(pi (j + 1/2)/SAMPLES) to powers of t. */
@@ -226,8 +204,18 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
             s = make_waves(&body, unit, &w);
         }
         for (int j = 0; j < SAMPLES && s == RB_OK; j++) {
-            kernel_at(&w, low + 0.5 * width * (1.0 + cos(M_PI * (j + 0.5) / SAMPLES)),
-                      value[j]);
+            const double X = low + 0.5 * width * (1.0 + cos(M_PI * (j + 0.5) / SAMPLES));
+            double *of = value[j];
+            double complex sum[3] = {w.constant[0], w.constant[1], w.constant[2]};
+
+            for (int i = 0; i < w.n; i++) {
+                const double complex e = cexp(I * w.sigma[i] * (X / w.unit));
+                for (int c = 0; c < 3; c++)
+                    sum[c] += w.Z[i][c] * e;
+            }
+            of[0] = creal(sum[0]);
+            of[1] = creal(sum[1]);
+            of[2] = cimag(sum[2]);
             value[j][2] *= side ? -1.0 : 1.0;
         }
         if (s == RB_OK)
@@ -337,15 +325,6 @@ void rb_bem_layer_table_release(const rb_bem_layer_table *table)
     pthread_mutex_unlock(&tables);
 }
 
-/* `tables` is locked. */
-static void keep(rb_bem_layer_table *table, int old)
-{
-    if (old == KEPT)
-        leave(kept[--old]);
-    memmove(kept + 1, kept, (size_t)old * sizeof *kept);
-    kept[0] = table;
-}
-
 /* Of the same kernel. */
 static int is_for(const rb_bem_layer_table *table, const rb_bem_surface *body)
 {
@@ -403,7 +382,10 @@ static rb_bem_layer_table *make_table(const rb_bem_surface *body, int pieces,
 
 const rb_bem_layer_table *rb_bem_layer_table_of(const rb_bem_surface *body, double reach)
 {
-    const int pieces = pieces_for(reach);
+    /* How many reach as far. */
+    double t;
+    const int least = FIRST + NEAR_OCTAVES * PER_OCTAVE;
+    const int pieces = (int)fmax(least, find(reach, &t) + 1);
     int k = 0;
 
     pthread_mutex_lock(&tables);
@@ -420,7 +402,12 @@ const rb_bem_layer_table *rb_bem_layer_table_of(const rb_bem_surface *body, doub
             kept[0] = table;
             leave(found);
         } else if (table) {
-            keep(table, k);
+            /* `tables` is locked. */
+            int old = k;
+            if (old == KEPT)
+                leave(kept[--old]);
+            memmove(kept + 1, kept, (size_t)old * sizeof *kept);
+            kept[0] = table;
         }
         found = table;
         if (found)

@@ -95,33 +95,6 @@ static double angle(int q, int points)
     return 2.0 * M_PI * q / points;
 }
 
-/* x, y: of the points, after those of the rows' elements. */
-static void put_on_circle(const rb_circle *circle, int points, double *x, double *y,
-                          rb_mixed_rows *r)
-{
-    for (int q = 0; q < points; q++) {
-        const int point = r->elements + q;
-        x[point] = circle->x + circle->r * cos(angle(q, points));
-        y[point] = circle->y + circle->r * sin(angle(q, points));
-        for (int k = 0; k < 2; k++)
-            r->at[r->own + 2 * q + k] = 2 * point + k;
-    }
-}
-
-static void put_elements(const rb_mixed *a, double *x, double *y, rb_mixed_rows *r)
-{
-    int last = -1;
-    for (int i = 0; i < r->own; i++) {
-        const int j = r->row[i] / 2;
-        if (j != last) {
-            x[r->elements] = a->element[j].mx;
-            y[r->elements] = a->element[j].my;
-            r->element[r->elements++] = last = j;
-        }
-        r->at[i] = 2 * (r->elements - 1) + r->row[i] % 2;
-    }
-}
-
 rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
                              const rb_circle *circle, int points, rb_mixed_rows *r)
 {
@@ -133,8 +106,24 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
     r->at = rb_alloc_int(all);
     r->element = rb_alloc_int((size_t)rows);
     if (x && r->at && r->element) {
-        put_elements(a, x, y, r);
-        put_on_circle(circle, points, x, y, r);
+        int last = -1;
+        for (int i = 0; i < r->own; i++) {
+            const int j = r->row[i] / 2;
+            if (j != last) {
+                x[r->elements] = a->element[j].mx;
+                y[r->elements] = a->element[j].my;
+                r->element[r->elements++] = last = j;
+            }
+            r->at[i] = 2 * (r->elements - 1) + r->row[i] % 2;
+        }
+        /* x, y: of the points, after those of the rows' elements. */
+        for (int q = 0; q < points; q++) {
+            const int point = r->elements + q;
+            x[point] = circle->x + circle->r * cos(angle(q, points));
+            y[point] = circle->y + circle->r * sin(angle(q, points));
+            for (int k = 0; k < 2; k++)
+                r->at[r->own + 2 * q + k] = 2 * point + k;
+        }
         s = rb_points_make(r->elements + points, x, y, &r->points);
     }
     free(x);

@@ -28,19 +28,6 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
 
 enum { WIDE = 96 };
 
-/* K = Q R first where there are many columns: pivoting cannot work on whole blocks, and
- * then does so on fewer rows. */
-static void shorten(rb_skeleton *s, double *work, lapack_int room)
-{
-    const int n = s->columns;
-
-    if (n < WIDE || s->rows < n)
-        return;
-    LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work, room);
-    s->rows = n;
-    LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1, s->ld);
-}
-
 rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 {
     const int n = s->columns, most = s->rows < n ? s->rows : n, block = 64;
@@ -49,7 +36,15 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 
     if (!work)
         return RB_ENOMEM;
-    shorten(s, work, room);
+    /* K = Q R first where there are many columns: pivoting cannot work on whole blocks,
+     * and then does so on fewer rows. */
+    if (!(n < WIDE || s->rows < n)) {
+        LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work,
+                            room);
+        s->rows = n;
+        LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1,
+                            s->ld);
+    }
     LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale,
                         work, room);
     free(work);
@@ -57,21 +52,6 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
     while (s->rank < most && fabs(s->K[(size_t)s->rank * (size_t)(s->ld + 1)]) > least)
         s->rank++;
     return RB_OK;
-}
-
-/* to[i]: the place of pivot i among the first `kept`, or among the others. */
-static void sort_pivots(const rb_skeleton *s, int kept, int *order, int *to)
-{
-    const int n = s->columns;
-    int *place = order; /* of each column in the pivots, until it is overwritten */
-
-    for (int i = 0; i < n; i++)
-        place[s->pivot[i] - 1] = i;
-    int first = 0, other = kept;
-    for (int c = 0; c < n; c++)
-        to[place[c]] = place[c] < kept ? first++ : other++;
-    for (int i = 0; i < n; i++)
-        order[to[i]] = s->pivot[i] - 1;
 }
 
 rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T)
@@ -92,7 +72,17 @@ rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *
     if (used && others)
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit,
                     used, others, 1.0, s->K, s->ld, X, kept);
-    sort_pivots(s, kept, order, to);
+    /* to[i]: the place of pivot i among the first `kept`, or among the others. */
+    const int n = s->columns;
+    int *place = order; /* of each column in the pivots, until it is overwritten */
+
+    for (int i = 0; i < n; i++)
+        place[s->pivot[i] - 1] = i;
+    int first = 0, other = kept;
+    for (int c = 0; c < n; c++)
+        to[place[c]] = place[c] < kept ? first++ : other++;
+    for (int i = 0; i < n; i++)
+        order[to[i]] = s->pivot[i] - 1;
     for (int j = 0; j < others; j++)
         for (int i = 0; i < kept; i++)
             T[to[i] + (size_t)(to[kept + j] - kept) * (size_t)kept] =

@@ -66,12 +66,6 @@ static double strip_log(double X, double b, double d)
     return far - 2.0 * b + b * log(s1 / d * (s2 / d));
 }
 
-/* int sgn(x - s) ds over the same strip: -2b where it lies ahead (X >= b). */
-static double strip_sign(double X, double b)
-{
-    return -2.0 * fmin(fmax(X, -b), b);
-}
-
 /* Displacement at a point under a strip of half-length b whose middle lies X upstream of
  * it: w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi
  * G) w_T = -K int q ln|(x-s)/d| - c int p sgn(x-s),  c = (1-2nu)(1+nu)/(2E) =
@@ -106,7 +100,9 @@ typedef struct {
 
 static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
 {
-    double log = k->slow * strip_log(X, b, k->depth), sign = k->slow * strip_sign(X, b);
+    /* int sgn(x - s) ds over the same strip: -2b where it lies ahead (X >= b). */
+    double log = k->slow * strip_log(X, b, k->depth),
+           sign = k->slow * (-2.0 * fmin(fmax(X, -b), b));
     if (k->body->terms > 0) {
         double log_memory, sign_memory;
         rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
@@ -172,22 +168,6 @@ rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
                                  : RB_OK;
 }
 
-/* Distances are differences of ends, exact where the ends nearly meet (B9). */
-static rb_status fill(int n, const double *ends, const rb_bem_surface *body,
-                      const double *x, double *F)
-{
-    const strip_kernel kernel = kernel_of(body);
-    const response to = {(size_t)n + 1, (size_t)n, F};
-
-    for (size_t j = 0; j < to.n; j++)
-        for (size_t i = 0; i < to.m; i++)
-            set_entries(&kernel,
-                        0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
-                        0.5 * (ends[j + 1] - ends[j]), &to, i, j);
-    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, n + 1, x, n, ends, F)
-                                 : RB_OK;
-}
-
 rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
                                      const rb_bem_surface *body, rb_bem_flexibility *f,
                                      rb_message *why)
@@ -202,7 +182,18 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
     s = rb_bem_flexibility_dense(n_c, f, &F);
     if (s == RB_OK) {
         rb_bem_flexibility_place(ends, f);
-        s = fill(n_c, ends, body, f->x, F);
+        /* Distances are differences of ends, exact where the ends nearly meet (B9). */
+        const strip_kernel kernel = kernel_of(body);
+        const response to = {(size_t)n_c + 1, (size_t)n_c, F};
+
+        for (size_t j = 0; j < to.n; j++)
+            for (size_t i = 0; i < to.m; i++)
+                set_entries(&kernel,
+                            0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
+                            0.5 * (ends[j + 1] - ends[j]), &to, i, j);
+        s = body->thickness > 0.0
+                ? rb_bem_layer_add_remainder(body, n_c + 1, f->x, n_c, ends, F)
+                : RB_OK;
     }
     if (s == RB_OK)
         return s;

@@ -13,16 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a hierarchical matrix: 1e-9 leaves an error of the flexibility of 1e-8, far below
- * that of the elements (1e-4 at such lengths).  In a nearly incompressible body the
- * matrix hardly feels a uniform pressure on a held contour, by 1 - 2 nu: this has to
- * stand out. */
-static double tolerance(rb_bem_material material)
-{
-    const double volume = 1.0 - 2.0 * material.poisson;
-    return rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
-}
-
 static double dense_bytes(int n, int n_c)
 {
     const double dofs = 2.0 * n, loads = 2.0 * n_c;
@@ -232,38 +222,35 @@ static double norm_one(int n, const double *A, int ld)
     return norm;
 }
 
-/* A singular system is one whose condition leaves no digit. */
-static rb_status factor_dense(rb_bem_system *s, rb_message *why)
-{
-    const lapack_int n = s->dofs;
-    const double norm = norm_one(n, s->A, s->ld);
-    double *work = rb_alloc((size_t)n, 4);
-    lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
-    rb_status status = RB_ENOMEM;
-
-    if (work && iwork) {
-        const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
-        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, s->ld, s->pivot);
-        rb_blas_threads(threads);
-        LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond, work,
-                            iwork);
-        status = s->rcond > 1e-14
-                     ? RB_OK
-                     : rb_fail(why, RB_SINGULAR,
-                               "boundary elements: the system is singular (reciprocal "
-                               "condition %.2g)",
-                               s->rcond);
-    }
-    free(iwork);
-    free(work);
-    return status;
-}
-
 /* Its condition is not known. */
 static rb_status factor(rb_bem_system *s, rb_message *why)
 {
-    if (s->A)
-        return factor_dense(s, why);
+    if (s->A) {
+        /* A singular system is one whose condition leaves no digit. */
+        const lapack_int n = s->dofs;
+        const double norm = norm_one(n, s->A, s->ld);
+        double *work = rb_alloc((size_t)n, 4);
+        lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
+        rb_status status = RB_ENOMEM;
+
+        if (work && iwork) {
+            const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
+            LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, s->ld, s->pivot);
+            rb_blas_threads(threads);
+            LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond,
+                                work, iwork);
+            status =
+                s->rcond > 1e-14
+                    ? RB_OK
+                    : rb_fail(why, RB_SINGULAR,
+                              "boundary elements: the system is singular (reciprocal "
+                              "condition %.2g)",
+                              s->rcond);
+        }
+        free(iwork);
+        free(work);
+        return status;
+    }
     s->rcond = NAN;
     const rb_status status =
         rb_hierarchical_create(&s->mesh, s->material, s->unit, s->tolerance, &s->h);
@@ -277,14 +264,6 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
     return (dense ? dense_bytes : hierarchical_bytes)(mesh->n, mesh->contact_n);
 }
 
-static rb_status check_memory(const rb_bem_mesh *mesh, int dense, rb_message *why)
-{
-    char what[80];
-
-    snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
-    return rb_memory_check(bytes_of(mesh, dense), what, why);
-}
-
 /* Takes over the bond; NULL: none. */
 static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                         rb_bond *bond, rb_bem_system **system, rb_message *why)
@@ -294,8 +273,12 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
         status = rb_bem_material_check(material, why);
     if (status == RB_OK)
         status = rb_bem_support_check(mesh, why);
-    if (status == RB_OK)
-        status = check_memory(mesh, dense, why);
+    if (status == RB_OK) {
+        char what[80];
+
+        snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
+        status = rb_memory_check(bytes_of(mesh, dense), what, why);
+    }
     if (status != RB_OK) {
         rb_bond_free(bond);
         return status;
@@ -304,7 +287,14 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
     rb_bem_system *s = system_alloc(mesh, dense);
     if (s) {
         s->material = material;
-        s->tolerance = tolerance(material);
+        /* Of a hierarchical matrix: 1e-9 leaves an error of the flexibility of 1e-8, far
+         * below that of the elements (1e-4 at such lengths).  In a nearly incompressible
+         * body the matrix hardly feels a uniform pressure on a held contour, by 1 - 2 nu:
+         * this has to stand out. */
+        const double volume = 1.0 - 2.0 * material.poisson;
+        s->tolerance = rb_is_incompressible(material)
+                           ? 1e-9
+                           : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
         s->bond = bond;
     } else {
         rb_bond_free(bond);
@@ -363,44 +353,24 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
                                    why);
 }
 
-/* x -> u and t: what was given (value), what was solved for. */
-static void distribute(const rb_bem_system *s, const double *x, const double *value,
-                       double *u, double *t)
-{
-    for (int dof = 0; dof < s->dofs; dof++) {
-        const double unknown = x[(dof - s->offset + s->dofs) % s->dofs];
-        const int held = s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
-        u[dof] = held ? value[dof] : unknown;
-        t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
-    }
-    if (s->bond) {
-        const int from = 2 * s->bond->first, n = 2 * s->bond->n;
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from, 1,
-                    1.0, u + from, 1);
-    }
-}
-
-/* Solutions come in the order of the dofs, the unknowns are turned by `offset`. */
-static rb_status solve_hierarchical(const rb_bem_system *s, int columns, double *X)
-{
-    const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
-    double *turned = rb_alloc(dofs, 1);
-    rb_status status = turned ? rb_hierarchical_solve(s->h, columns, X) : RB_ENOMEM;
-
-    for (int k = 0; k < columns && status == RB_OK; k++) {
-        double *x = X + (size_t)k * dofs;
-        memcpy(turned, x + offset, (dofs - offset) * sizeof *x);
-        memcpy(turned + dofs - offset, x, offset * sizeof *x);
-        memcpy(x, turned, dofs * sizeof *x);
-    }
-    free(turned);
-    return status;
-}
-
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
 {
-    if (!s->A)
-        return solve_hierarchical(s, columns, X);
+    if (!s->A) {
+        /* Solutions come in the order of the dofs, the unknowns are turned by `offset`.
+         */
+        const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
+        double *turned = rb_alloc(dofs, 1);
+        rb_status status = turned ? rb_hierarchical_solve(s->h, columns, X) : RB_ENOMEM;
+
+        for (int k = 0; k < columns && status == RB_OK; k++) {
+            double *x = X + (size_t)k * dofs;
+            memcpy(turned, x + offset, (dofs - offset) * sizeof *x);
+            memcpy(turned + dofs - offset, x, offset * sizeof *x);
+            memcpy(x, turned, dofs * sizeof *x);
+        }
+        free(turned);
+        return status;
+    }
     LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, columns, s->A, s->ld, s->pivot, X,
                         s->dofs);
     return RB_OK;
@@ -412,8 +382,20 @@ static rb_status solve_values(const rb_bem_system *s, double *x, const double *v
 {
     const rb_status status = rb_bem_system_solve_columns(s, 1, x);
 
-    if (status == RB_OK)
-        distribute(s, x, value, u, t);
+    if (status == RB_OK) {
+        /* x -> u and t: what was given (value), what was solved for. */
+        for (int dof = 0; dof < s->dofs; dof++) {
+            const double unknown = x[(dof - s->offset + s->dofs) % s->dofs];
+            const int held = s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
+            u[dof] = held ? value[dof] : unknown;
+            t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
+        }
+        if (s->bond) {
+            const int from = 2 * s->bond->first, n = 2 * s->bond->n;
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from,
+                        1, 1.0, u + from, 1);
+        }
+    }
     return status;
 }
 

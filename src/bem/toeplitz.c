@@ -202,17 +202,6 @@ static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double 
         turn(o, -1, f->m, w, w);
 }
 
-/* Entries of point i and element j in the surface's frames: NN, TN, NT, TT. */
-static void entry(const toeplitz *o, size_t i, size_t j, double *e)
-{
-    const size_t k = (size_t)o->n + i - j;
-
-    e[0] = o->t[N][k];
-    e[2] = o->s[k];
-    e[1] = -e[2];
-    e[3] = o->t[T][k];
-}
-
 /* e = R_i^T e R_j for the turns R of turn(). */
 static void turn_entry(const toeplitz *o, size_t i, size_t j, double *e)
 {
@@ -237,7 +226,14 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
     for (size_t j = 0; j < n; j++) {
         double *column_N = F + j * ld, *column_T = F + (j + n) * ld, e[4];
         for (size_t i = 0; i < m; i++) {
-            entry(o, i, j, e);
+            /* Entries of point i and element j in the surface's frames: NN, TN, NT, TT.
+             */
+            const size_t k = (size_t)o->n + i - j;
+
+            e[0] = o->t[N][k];
+            e[2] = o->s[k];
+            e[1] = -e[2];
+            e[3] = o->t[T][k];
             if (o->cosine)
                 turn_entry(o, i, j, e);
             column_N[i] = e[0];

@@ -144,14 +144,6 @@ static double set_hertz(const rb_io_contact_case *in, double width, rb_rolling_c
     return a;
 }
 
-/* Parabola or circle; where its lowest point is. */
-static double set_gap(const rb_io_contact_case *in, rb_rolling_case *rc)
-{
-    rc->gap = in->base == 2 ? RB_GAP_EXACT : RB_GAP_PARABOLA;
-    rc->a.radius = in->base == 2 ? in->radius : 0.5 / in->b[0];
-    return in->base == 2 ? in->centre : 0.0 - 0.5 * in->b[3] / in->b[0]; /* no -0 */
-}
-
 static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
 {
     rb_rolling_case *rc = &c->rc;
@@ -198,18 +190,6 @@ static void set_loading(const rb_io_contact_case *in, double width, double sign,
         rc->shift = tangential;
 }
 
-/* M = 4: a layer that gives way by LAYTHK/GG3 and yields at TAU_C0, which neither 0 nor
- * more than 1e10 does. */
-static void set_layer(const rb_io_contact_case *in, rb_rolling_case *rc)
-{
-    if (in->digit.M != 4)
-        return;
-    if (in->layer != 0.0)
-        rc->interlayer_tangential = in->layer / in->layer_shear;
-    rc->yield_stress = in->yield > 1e10 ? 0.0 : in->yield;
-    rc->hardening = rc->yield_stress > 0.0 ? in->hardening : 0.0;
-}
-
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
 {
     memset(c, 0, sizeof *c);
@@ -231,11 +211,21 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
         to = in->hertz[2] * set_hertz(in, c->width, &c->rc);
         from = -to;
     } else {
-        c->centre = set_gap(in, &c->rc);
+        /* Parabola or circle; where its lowest point is. */
+        c->rc.gap = in->base == 2 ? RB_GAP_EXACT : RB_GAP_PARABOLA;
+        c->rc.a.radius = in->base == 2 ? in->radius : 0.5 / in->b[0];
+        c->centre = in->base == 2 ? in->centre : 0.0 - 0.5 * in->b[3] / in->b[0];
     }
     set_friction(in, c);
     set_loading(in, c->width, c->sign, &c->rc);
-    set_layer(in, &c->rc);
+    /* M = 4: a layer that gives way by LAYTHK/GG3 and yields at TAU_C0, which neither 0
+     * nor more than 1e10 does. */
+    if (in->digit.M == 4) {
+        if (in->layer != 0.0)
+            c->rc.interlayer_tangential = in->layer / in->layer_shear;
+        c->rc.yield_stress = in->yield > 1e10 ? 0.0 : in->yield;
+        c->rc.hardening = c->rc.yield_stress > 0.0 ? in->hardening : 0.0;
+    }
     if (!rb_rolling_can(&c->rc, RB_BODY_ELASTIC))
         c->rc.speed = in->velocity;
     c->rc.mesh = RB_MESH_UNIFORM;

@@ -65,7 +65,7 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
     return s;
 }
 
-/* 1: the option has a meaning in the case, so that it could be given. */
+/* The option must have a meaning in the case, so that it could be given. */
 static int has_meaning(const rb_case *c, const rb_option *o, int entry, double value)
 {
     const double step = 1e-3 * (value != 0.0 ? fabs(value) : natural_scale(c, o));
@@ -82,30 +82,6 @@ static int has_meaning(const rb_case *c, const rb_option *o, int entry, double v
     return means;
 }
 
-static void add_number(const rb_case *c, const rb_option *o, int entry,
-                       rb_case_number *number, int *n)
-{
-    rb_resolved_case resolved = c->resolved, words = c->words;
-    const double value = *place_of(o, entry, &resolved);
-
-    if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
-        (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
-        (o->word && value == o->word_value && o->word_value != 0.0) ||
-        (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
-        rb_case_is_replaced(c, o) || !has_meaning(c, o, entry, value))
-        return;
-    rb_case_number *it = &number[(*n)++];
-    *it = (rb_case_number){.option = o, .entry = entry, .c = c};
-    snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name, entry + 1);
-    it->input =
-        (rb_sensitivity_input){.value = value,
-                               .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
-                               .from = o->range.from,
-                               .to = o->range.to,
-                               .vary = vary,
-                               .context = it};
-}
-
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
                           rb_message *why)
 {
@@ -116,18 +92,32 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
             (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
         if (o->kind != RB_OPTION_NUMBER || o->frozen)
             continue;
-        for (int entry = 0; entry < (o->list && list->n > 1 ? list->n : 1); entry++)
-            add_number(c, o, entry, number, n);
+        for (int entry = 0; entry < (o->list && list->n > 1 ? list->n : 1); entry++) {
+            rb_resolved_case resolved = c->resolved, words = c->words;
+            const double value = *place_of(o, entry, &resolved);
+
+            if (!(*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
+                  (entry == 0 &&
+                   isnan(*(double *)(void *)((char *)&words + o->offset))) ||
+                  (o->word && value == o->word_value && o->word_value != 0.0) ||
+                  (o->word && value == o->word_value && value == 0.0 &&
+                   o->range.from >= 0.0) ||
+                  rb_case_is_replaced(c, o) || !has_meaning(c, o, entry, value))) {
+                rb_case_number *it = &number[(*n)++];
+                *it = (rb_case_number){.option = o, .entry = entry, .c = c};
+                snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name,
+                         entry + 1);
+                it->input = (rb_sensitivity_input){
+                    .value = value,
+                    .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
+                    .from = o->range.from,
+                    .to = o->range.to,
+                    .vary = vary,
+                    .context = it};
+            }
+        }
     }
     return RB_OK;
-}
-
-static int is_asked(int n, const char *const *names, const char *name)
-{
-    int asked = n == 0;
-    for (int k = 0; k < n; k++)
-        asked |= strcmp(names[k], name) == 0;
-    return asked;
 }
 
 /* ---- By gap and mu over x ---------------------------------------------------------- */
@@ -205,7 +195,11 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
     for (int k = 0; status == RB_OK && k < numbers; k++) {
-        if (!is_asked(n, names, number[k].name))
+        const char *name = number[k].name;
+        int asked = n == 0;
+        for (int i = 0; i < n; i++)
+            asked |= strcmp(names[i], name) == 0;
+        if (!asked)
             continue;
         rb_case_derivative *it = &all->of[all->n++];
         memcpy(it->name, number[k].name, sizeof it->name);

@@ -120,21 +120,6 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     return s;
 }
 
-/* What is irregular about the surfaces, and what is worn off them. */
-static rb_status read_surfaces(rb_case *c, rb_message *why)
-{
-    rb_resolved_case *resolved = &c->resolved;
-    rb_status s = RB_OK;
-    if (resolved->irregularity_file)
-        s = read_over_x(c, &c->table[CASE_IRREGULARITY], resolved->irregularity_file,
-                        units_of_file(c, "irregularity"), 2, &resolved->rc.irregularity,
-                        why);
-    if (s == RB_OK && resolved->worn_file)
-        s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file,
-                        units_of_file(c, "worn"), 2, &resolved->rc.worn, why);
-    return s;
-}
-
 /* The table stands in the place of --mu: on the command line it wins over mu of the case
  * file. */
 static rb_status resolve_table_and_mu(rb_case *c, rb_message *why)
@@ -161,7 +146,7 @@ static rb_status read_friction(rb_case *c, rb_message *why)
 
 /* ---- The history ------------------------------------------------------------------- */
 
-/* Index of a column in rb_rolling_program_columns; -1: none has that name. */
+/* The column in rb_rolling_program_columns that has the name. */
 static int program_column(const char *name, rb_guess *guess)
 {
     for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++) {
@@ -272,8 +257,18 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
 rb_status rb_case_read_files(rb_case *c, rb_message *why)
 {
     rb_status s = read_profile(c, why);
-    if (s == RB_OK)
-        s = read_surfaces(c, why);
+    if (s == RB_OK) {
+        /* What is irregular about the surfaces, and what is worn off them. */
+        rb_resolved_case *resolved = &c->resolved;
+
+        if (resolved->irregularity_file)
+            s = read_over_x(c, &c->table[CASE_IRREGULARITY], resolved->irregularity_file,
+                            units_of_file(c, "irregularity"), 2,
+                            &resolved->rc.irregularity, why);
+        if (s == RB_OK && resolved->worn_file)
+            s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file,
+                            units_of_file(c, "worn"), 2, &resolved->rc.worn, why);
+    }
     return s == RB_OK ? read_friction(c, why) : s;
 }
 

@@ -51,7 +51,7 @@ static double last_angle(const rb_crack_path *path)
            (180.0 / M_PI);
 }
 
-/* Straight on, or as a new piece in another direction.  0: that would be outside. */
+/* Straight on, or as a new piece in another direction. */
 static int extend(double by, double angle, rb_crack_path *path)
 {
     const double w = angle * (M_PI / 180.0), turn = fabs(angle - last_angle(path));

@@ -129,19 +129,6 @@ static int handle_key(void *context, const char *section, const char *name,
     return st->status == RB_OK;
 }
 
-static rb_status read_keys(ini_state *st, const char *text)
-{
-    st->at = text;
-    const int bad_line = ini_parse_stream(read_line, st, handle_key, st);
-    if (st->status == RB_OK && bad_line < 0)
-        st->status = rb_fail(st->why, RB_ENOMEM, "%s: out of memory", st->path);
-    else if (st->status == RB_OK && bad_line)
-        st->status =
-            rb_fail(st->why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
-                    st->path, bad_line);
-    return st->status;
-}
-
 static rb_status read_text(rb_case *c, const char *path, const char *text, int n,
                            const rb_option_set *also, rb_message *why)
 {
@@ -153,7 +140,15 @@ static rb_status read_text(rb_case *c, const char *path, const char *text, int n
     if (n > 0)
         memcpy(sets + 1, also, sizeof *sets * (size_t)n);
     snprintf(c->path, sizeof c->path, "%s", path);
-    const rb_status s = read_keys(&st, text);
+    st.at = text;
+    const int bad_line = ini_parse_stream(read_line, &st, handle_key, &st);
+    if (st.status == RB_OK && bad_line < 0)
+        st.status = rb_fail(st.why, RB_ENOMEM, "%s: out of memory", st.path);
+    else if (st.status == RB_OK && bad_line)
+        st.status =
+            rb_fail(st.why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
+                    st.path, bad_line);
+    const rb_status s = st.status;
     free(sets);
     return s;
 }

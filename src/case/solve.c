@@ -3,24 +3,6 @@
 
 #include <string.h>
 
-static rb_status solve_steps(const rb_resolved_case *c, rb_rolling_step *step,
-                             void *context, rb_case_result *r, rb_message *why)
-{
-    const double start = rb_seconds();
-    const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
-    const rb_rolling_observer observer = {step, context};
-    rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
-        &c->rc, program, &observer, &r->model, &r->history, why);
-    if (s >= 0 && r->model.state.p) {
-        const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
-        s = t == RB_OK ? s : t;
-    }
-    if (s >= 0)
-        r->solution.status = s;
-    r->solution.seconds_total = rb_seconds() - start;
-    return s;
-}
-
 rb_status rb_case_solve(const rb_resolved_case *c, rb_rolling_step *step, void *context,
                         rb_case_result *r, rb_message *why)
 {
@@ -41,8 +23,22 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step,
         return rb_rolling_solve_model_reuse(&c->rc, &r->model, &r->solution, why);
     }
     rb_rolling_model_free(&model);
-    if (rb_case_has_steps(c))
-        return solve_steps(c, step, context, r, why);
+    if (rb_case_has_steps(c)) {
+        const double start = rb_seconds();
+        const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
+        const rb_rolling_observer observer = {step, context};
+        rb_status s =
+            (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
+                &c->rc, program, &observer, &r->model, &r->history, why);
+        if (s >= 0 && r->model.state.p) {
+            const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
+            s = t == RB_OK ? s : t;
+        }
+        if (s >= 0)
+            r->solution.status = s;
+        r->solution.seconds_total = rb_seconds() - start;
+        return s;
+    }
     r->has_errors = 1;
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,

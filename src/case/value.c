@@ -35,32 +35,20 @@ static int in_range(double v, const rb_range *r)
     return above && below;
 }
 
-static void range_text(const rb_range *r, char *text, size_t size)
-{
-    if (isfinite(r->from) && isfinite(r->to))
-        rb_format(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
-                  r->to_open ? ')' : ']');
-    else if (isfinite(r->from))
-        rb_format(text, size, " %s %g", r->from_open ? ">" : ">=", r->from);
-    else if (isfinite(r->to))
-        rb_format(text, size, " %s %g", r->to_open ? "<" : "<=", r->to);
-    else
-        text[0] = '\0';
-}
-
-static void choices_text(const rb_choice *c, char *text, size_t size)
-{
-    text[0] = '\0';
-    for (int i = 0; c[i].name; i++) {
-        const char *between = i == 0 ? "" : c[i + 1].name ? ", " : " or ";
-        rb_append(text, size, "%s%s", between, c[i].name);
-    }
-}
-
 const char *rb_option_expected(const rb_option *o, char *text, size_t size)
 {
     char range[64];
-    range_text(&o->range, range, sizeof range);
+    if (isfinite(o->range.from) && isfinite(o->range.to))
+        rb_format(range, sizeof range, " in %c%g, %g%c", o->range.from_open ? '(' : '[',
+                  o->range.from, o->range.to, o->range.to_open ? ')' : ']');
+    else if (isfinite(o->range.from))
+        rb_format(range, sizeof range, " %s %g",
+                  o->range.from_open ? ">" : ">=", o->range.from);
+    else if (isfinite(o->range.to))
+        rb_format(range, sizeof range, " %s %g",
+                  o->range.to_open ? "<" : "<=", o->range.to);
+    else
+        range[0] = '\0';
     switch (o->kind) {
     case RB_OPTION_NUMBER:
         snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
@@ -69,9 +57,13 @@ const char *rb_option_expected(const rb_option *o, char *text, size_t size)
     case RB_OPTION_INTEGER:
         snprintf(text, size, "a whole number%s", range);
         break;
-    case RB_OPTION_CHOICE:
-        choices_text(o->choices, text, size);
-        break;
+    case RB_OPTION_CHOICE: {
+        text[0] = '\0';
+        for (int i = 0; o->choices[i].name; i++) {
+            const char *between = i == 0 ? "" : o->choices[i + 1].name ? ", " : " or ";
+            rb_append(text, size, "%s%s", between, o->choices[i].name);
+        }
+    } break;
     case RB_OPTION_FLAG:
         snprintf(text, size, "yes or no");
         break;

@@ -216,13 +216,6 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-/* The folder of a file; owned by the caller, NULL: no memory. */
-static char *folder_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
-}
-
 static cli_exit check_file(const char *path, const check_options *o)
 {
     char *text = NULL;
@@ -232,7 +225,9 @@ static cli_exit check_file(const char *path, const check_options *o)
     if (s != RB_OK)
         return cli_say(s, &why);
     rb_case *words = cli_case_create(RB_CASE_SINGLE);
-    char *folder = folder_of(path);
+    /* The folder of the file. */
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     const char first = text[strspn(text, " \t\r\n")];
     cli_exit code = CLI_INTERNAL;
     if (words && !folder)

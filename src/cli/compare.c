@@ -196,24 +196,6 @@ static double cost_of(const comparison *c, int problem, int solver)
     }
 }
 
-static cli_exit make_profiles(comparison *c)
-{
-    double *cost = rb_alloc((size_t)c->problems, (size_t)c->solvers);
-    c->rho = rb_alloc(TAUS, (size_t)c->solvers);
-    if (!cost || !c->rho) {
-        free(cost);
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    }
-    for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
-        c->tau[k] = pow(10.0, 0.05 * k);
-    for (int p = 0; p < c->problems; p++)
-        for (int s = 0; s < c->solvers; s++)
-            cost[p + s * c->problems] = cost_of(c, p, s);
-    rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
-    free(cost);
-    return CLI_OK;
-}
-
 /* ---- Output ------------------------------------------------------------------------ */
 
 static const char *status_of(const comparison *c, const run_result *one)
@@ -290,8 +272,12 @@ static json_t *json_runs(const comparison *c)
     return runs;
 }
 
-static rb_status write_json(const comparison *c, FILE *out)
+static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
+    const comparison *c = context;
+    (void)why;
+    if (c->o->style.format != RB_REPORT_JSON)
+        return print_runs(c, out);
     json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
     rb_report_json_set(&root, "cost", json_string(costs[c->o->cost].name));
     rb_report_json_set(&root, "measure",
@@ -304,13 +290,6 @@ static rb_status write_json(const comparison *c, FILE *out)
                            rb_report_json_numbers(TAUS, c->rho + s * TAUS));
     rb_report_json_set(&root, "profiles", profiles);
     return rb_report_json_write(out, root);
-}
-
-static rb_status write_results(FILE *out, const void *context, rb_message *why)
-{
-    const comparison *c = context;
-    (void)why;
-    return c->o->style.format == RB_REPORT_JSON ? write_json(c, out) : print_runs(c, out);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
@@ -344,7 +323,18 @@ static cli_exit compare_files(comparison *c, int n, char **files)
     }
     if (!c->problems)
         return worst; /* of the files that cannot be read */
-    code = make_profiles(c);
+    double *cost = rb_alloc((size_t)c->problems, (size_t)c->solvers);
+    c->rho = rb_alloc(TAUS, (size_t)c->solvers);
+    if (cost && c->rho) {
+        for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
+            c->tau[k] = pow(10.0, 0.05 * k);
+        for (int p = 0; p < c->problems; p++)
+            for (int s = 0; s < c->solvers; s++)
+                cost[p + s * c->problems] = cost_of(c, p, s);
+        rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
+    }
+    code = cost && c->rho ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
+    free(cost);
     if (code == CLI_OK)
         code = cli_write_file(c->o->output, write_results, c);
     if (code == CLI_OK && c->o->profiles)

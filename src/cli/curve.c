@@ -152,24 +152,6 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     return s;
 }
 
-/* Equal ratios are different creepages where mu differs, and the curves of a picture over
- * xi would end one after another: it has its own, over all the creepages that occur. */
-static rb_status solve_drawn(const cli_case_run *run, curve *r, rb_message *why)
-{
-    range_options common = r->range;
-    if (!run->o.plot || common.over != RB_OVER_CREEP_RATIO || r->curves.n < 2)
-        return RB_OK;
-    common.over = RB_OVER_CREEP;
-    common.from = INFINITY;
-    common.to = -INFINITY;
-    for (int k = 0; k < r->curves.n; k++) {
-        const rb_rolling_curve *c = &r->curves.curve[k];
-        common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
-        common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
-    }
-    return solve_curves(NULL, run->c, &common, &r->drawn, why);
-}
-
 static void convert(rb_report_curves *curves, rb_units units)
 {
     for (int k = 0; k < RB_REPORT_CURVES; k++) {
@@ -209,8 +191,25 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 {
     curve *r = run->own;
     rb_status s = solve_curves(run->words, run->c, &r->range, &r->curves, why);
-    if (s == RB_OK)
-        s = solve_drawn(run, r, why);
+    if (s == RB_OK) {
+        /* Equal ratios are different creepages where mu differs, and the curves of a
+         * picture over xi would end one after another: it has its own, over all the
+         * creepages that occur. */
+        range_options common = r->range;
+        if (run->o.plot && common.over == RB_OVER_CREEP_RATIO && r->curves.n >= 2) {
+            common.over = RB_OVER_CREEP;
+            common.from = INFINITY;
+            common.to = -INFINITY;
+            for (int k = 0; k < r->curves.n; k++) {
+                const rb_rolling_curve *c = &r->curves.curve[k];
+                common.from =
+                    fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
+                common.to =
+                    fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
+            }
+            s = solve_curves(NULL, run->c, &common, &r->drawn, why);
+        }
+    }
     convert(&r->curves, run->c->units);
     note_last(run, r);
     convert(&r->drawn, run->c->units);
@@ -268,24 +267,26 @@ static void choose_purpose(cli_case_run *run)
         rb_case_set_purpose(run->words, RB_CASE_SPEEDS);
 }
 
-/* The picture shows the force as a part of the friction, mu P. */
-static cli_exit check_picture(const cli_case_run *run, const range_options *r)
+static cli_exit check(cli_case_run *run)
 {
-    const rb_resolved_case *c = run->c;
-    rb_rolling_case rc = c->rc;
-    int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
-    for (int k = 0; k < c->mus.n; k++) {
-        rc.mu = c->mus.value[k];
-        frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
+    range_options *r = &((curve *)run->own)->range;
+    cli_exit code = read_range(run, r);
+    if (code == CLI_CONTINUE) {
+        /* The picture shows the force as a part of the friction, mu P. */
+        const rb_resolved_case *c = run->c;
+        rb_rolling_case rc = c->rc;
+        int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
+        for (int k = 0; k < c->mus.n; k++) {
+            rc.mu = c->mus.value[k];
+            frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
+        }
+        code = run->o.plot && frictionless && r->over != RB_OVER_SPEED
+                   ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
+                   : CLI_CONTINUE;
     }
-    return run->o.plot && frictionless && r->over != RB_OVER_SPEED
-               ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
-               : CLI_CONTINUE;
-}
-
-/* Names of results and of numbers. */
-static cli_exit check_derivatives(const cli_case_run *run, const range_options *r)
-{
+    if (code != CLI_CONTINUE)
+        return code;
+    /* Names of results and of numbers. */
     const rb_rolling_range range = range_of(r);
     rb_case_slopes slopes;
     rb_message why = {""};
@@ -297,15 +298,6 @@ static cli_exit check_derivatives(const cli_case_run *run, const range_options *
         rb_case_curve_choose(run->words, &range, r->derivatives, &slopes, &why);
     rb_case_slopes_free(&slopes);
     return s == RB_OK ? CLI_CONTINUE : cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
-}
-
-static cli_exit check(cli_case_run *run)
-{
-    range_options *r = &((curve *)run->own)->range;
-    cli_exit code = read_range(run, r);
-    if (code == CLI_CONTINUE)
-        code = check_picture(run, r);
-    return code == CLI_CONTINUE ? check_derivatives(run, r) : code;
 }
 
 static const cli_case_command command = {

@@ -92,19 +92,6 @@ static void print_upper(const char *text)
         putchar(toupper((unsigned char)*text));
 }
 
-static void print_man_option(const rb_option *o, const void *target)
-{
-    char values[120], text[600];
-    cli_option_metavar(o, values, sizeof values);
-    cli_option_text(o, target, text, sizeof text);
-    fputs(".TP\n\\fB\\-\\-", stdout);
-    print_escaped(o->name, "-", "\\");
-    fputs("\\fR\\fI", stdout);
-    print_escaped(values, "-", "\\");
-    puts("\\fR");
-    print_troff(text);
-}
-
 static void print_man(const cli_spec *spec)
 {
     char command[24];
@@ -123,7 +110,15 @@ static void print_man(const cli_spec *spec)
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
             if (is_option(o)) {
-                print_man_option(o, spec->sets[s].target);
+                char values[120], text[600];
+                cli_option_metavar(o, values, sizeof values);
+                cli_option_text(o, spec->sets[s].target, text, sizeof text);
+                fputs(".TP\n\\fB\\-\\-", stdout);
+                print_escaped(o->name, "-", "\\");
+                fputs("\\fR\\fI", stdout);
+                print_escaped(values, "-", "\\");
+                puts("\\fR");
+                print_troff(text);
                 continue;
             }
             fputs(".SH OPTIONS: ", stdout);
@@ -292,14 +287,6 @@ static void fish_command(const cli_spec *spec)
 
 /* ---- The schema of --json --------------------------------------------------------- */
 
-static cli_exit print_schema(void)
-{
-    const rb_message why = {""};
-    const rb_status s = rb_report_json_write(stdout, rb_report_json_schema());
-    /* what could not be written is said by main */
-    return s == RB_ENOMEM ? cli_say(s, &why) : CLI_OK;
-}
-
 static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
@@ -312,8 +299,12 @@ enum { FORMS = sizeof forms / sizeof *forms };
 
 cli_exit cli_describe(const cli_spec *spec, const char *form)
 {
-    if (strcmp(form, "schema") == 0)
-        return print_schema();
+    if (strcmp(form, "schema") == 0) {
+        const rb_message why = {""};
+        const rb_status s = rb_report_json_write(stdout, rb_report_json_schema());
+        /* what could not be written is said by main */
+        return s == RB_ENOMEM ? cli_say(s, &why) : CLI_OK;
+    }
     for (int k = 0; k < FORMS; k++)
         if (strcmp(forms[k].name, form) == 0) {
             forms[k].print(spec);

@@ -150,23 +150,6 @@ void cli_find_options(const cli_spec *spec)
     }
 }
 
-/* Those of all commands, each once; a command shows its own where it is asked to. */
-static void find_options(void)
-{
-    static char describe[] = "--describe=search";
-    search.title = "Options";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
-        search.seen_n = 0;
-        for (int k = -1; k < 0 || cli_command_name(k); k++) {
-            char name[24];
-            snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
-            char *words[] = {name, describe, NULL};
-            if (strcmp(name, "help") != 0)
-                cli_run(name, 2, words);
-        }
-    }
-}
-
 /* ---- Everything else ----------------------------------------------------------------
  */
 
@@ -198,35 +181,6 @@ static void find_results(void)
             }
 }
 
-/* What may have the unit that the one word is. */
-static void find_units(const rb_option_set *set)
-{
-    char one[60], text[2000] = "";
-    double value;
-    int plain;
-    if (search.n != 1)
-        return;
-    snprintf(one, sizeof one, "1%.50s", search.word[0]);
-    for (int i = 0; i < set->n; i++) {
-        const rb_option *o = &set->options[i];
-        if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
-            rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
-            rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
-    }
-    search.title = "Units";
-    if (*text)
-        print(search.word[0], text);
-}
-
-static void find_examples(void)
-{
-    char name[60], about[1000];
-    search.title = "Examples";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (int k = 0; cli_example_about(k, name, sizeof name, about, sizeof about); k++)
-            show_if(name, about);
-}
-
 static void find_texts(int kind, const char *title)
 {
     search.title = title;
@@ -249,10 +203,42 @@ static void guess(rb_guess *guess, const rb_option_set *set)
 static void find_everything(const rb_option_set *options)
 {
     find_commands();
-    find_options();
-    find_units(options);
+    /* Those of all commands, each once; a command shows its own where it is asked to. */
+    static char describe[] = "--describe=search";
+    search.title = "Options";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
+        search.seen_n = 0;
+        for (int k = -1; k < 0 || cli_command_name(k); k++) {
+            char name[24];
+            snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
+            char *words[] = {name, describe, NULL};
+            if (strcmp(name, "help") != 0)
+                cli_run(name, 2, words);
+        }
+    }
+    /* What may have the unit that the one word is. */
+    char one[60], text[2000] = "";
+    double value;
+    int plain;
+    if (search.n == 1) {
+        snprintf(one, sizeof one, "1%.50s", search.word[0]);
+        for (int i = 0; i < options->n; i++) {
+            const rb_option *o = &options->options[i];
+            if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
+                rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
+                rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ",
+                          o->name);
+        }
+        search.title = "Units";
+        if (*text)
+            print(search.word[0], text);
+    }
     find_results();
-    find_examples();
+    char name[60], about[1000];
+    search.title = "Examples";
+    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
+        for (int k = 0; cli_example_about(k, name, sizeof name, about, sizeof about); k++)
+            show_if(name, about);
     find_texts(WORD, "Glossary");
     find_texts(QUESTION, "Questions");
 }

@@ -135,15 +135,6 @@ static json_t *count(int known, int n)
     return known ? json_integer(n) : json_null();
 }
 
-static void add_facts(json_t **p, const friction_result *r)
-{
-    rb_report_json_set(p, "rank", count(r->m > 0, r->facts.rank));
-    rb_report_json_set(p, "hyperstaticity", count(r->m > 0, r->facts.hyperstaticity));
-    rb_report_json_set(p, "nullity", count(r->m > 0, r->facts.nullity));
-    rb_report_json_set(p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
-    rb_report_json_set(p, "indefinite", count(r->m > 0, r->facts.indefinite));
-}
-
 static void add_problem(friction_run *run, const friction_result *r)
 {
     json_t *p = json_object();
@@ -162,8 +153,14 @@ static void add_problem(friction_run *run, const friction_result *r)
     rb_report_json_set(&p, "floor", rb_report_json_number(r->info.floor));
     rb_report_json_set(&p, "flops", rb_report_json_number(r->info.flops));
     rb_report_json_set(&p, "seconds", rb_report_json_number(r->info.seconds));
-    if (run->o->facts)
-        add_facts(&p, r);
+    if (run->o->facts) {
+        rb_report_json_set(&p, "rank", count(r->m > 0, r->facts.rank));
+        rb_report_json_set(&p, "hyperstaticity",
+                           count(r->m > 0, r->facts.hyperstaticity));
+        rb_report_json_set(&p, "nullity", count(r->m > 0, r->facts.nullity));
+        rb_report_json_set(&p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
+        rb_report_json_set(&p, "indefinite", count(r->m > 0, r->facts.indefinite));
+    }
     if (run->o->solution) {
         rb_report_json_set(&p, "r",
                            r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
@@ -183,59 +180,6 @@ static const char *columns_of(const friction_options *o)
                       "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
                     : "file solver status contacts dimension iterations residual floor "
                       "seconds scaled";
-}
-
-static void print_row(const friction_run *run, rb_report_cells *c,
-                      const friction_result *r)
-{
-    rb_report_cell_text(c, r->file);
-    rb_report_cell_text(c, r->info.solver);
-    rb_report_cell_words(c, r->status);
-    rb_report_cell_whole(c, r->contacts);
-    rb_report_cell_whole(c, r->dimension);
-    rb_report_cell_whole(c, r->info.iters);
-    rb_report_cell_number(c, r->info.residual);
-    rb_report_cell_number(c, r->info.floor);
-    rb_report_cell_number(c, r->info.seconds);
-    rb_report_cell_number(c, r->info.scaled);
-    if (run->o->facts) {
-        rb_report_cell_whole(c, r->facts.rank);
-        rb_report_cell_whole(c, r->facts.hyperstaticity);
-        rb_report_cell_whole(c, r->facts.nullity);
-        rb_report_cell_number(c, r->facts.asymmetry);
-        rb_report_cell_whole(c, r->facts.indefinite);
-    }
-    rb_report_cells_end_row(c);
-}
-
-static void print_solution(const friction_run *run, rb_report_cells *c,
-                           const friction_result *r)
-{
-    rb_report_comment(c,
-                      "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
-                      r->file, r->status, r->info.solver, r->contacts, r->info.iters,
-                      r->info.residual, r->info.seconds);
-    if (run->o->facts)
-        rb_report_comment(c, "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
-                          r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
-                          r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
-    for (int i = 0; i < r->m; i++) {
-        rb_report_cell_text(c, r->file);
-        rb_report_cell_whole(c, i + 1);
-        rb_report_cell_number(c, r->r[i]);
-        rb_report_cell_number(c, r->u[i]);
-        rb_report_cells_end_row(c);
-    }
-}
-
-static void print_problem(friction_run *run, const friction_result *r)
-{
-    if (r->m && r->note.text[0])
-        rb_report_comment(&run->files.cells, "note: %s: %s", r->file, r->note.text);
-    if (r->m && run->o->solution)
-        print_solution(run, &run->files.cells, r);
-    else if (r->m)
-        print_row(run, &run->files.cells, r);
 }
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -341,15 +285,6 @@ static rb_friction_options solver_options(friction_run *run)
     return opt;
 }
 
-/* Rolling contacts are solved as two contacts each and told as one of five entries. */
-static void unite_rolling(const rb_friction_problem *p, friction_result *r)
-{
-    rb_friction_unite_rolling(p, r->r, r->u, r->r, r->u);
-    r->contacts = p->contacts / 2;
-    r->dimension = 5;
-    r->m = r->dimension * r->contacts;
-}
-
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
@@ -375,20 +310,17 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         code = assess(run, r, s);
         if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
             r->status = "infeasible";
-        if (p.lengths)
-            unite_rolling(&p, r);
+        if (p.lengths) {
+            /* Rolling contacts are solved as two contacts each and told as one of five
+             * entries. */
+            rb_friction_unite_rolling(&p, r->r, r->u, r->r, r->u);
+            r->contacts = p.contacts / 2;
+            r->dimension = 5;
+            r->m = r->dimension * r->contacts;
+        }
     }
     rb_friction_problem_free(&p);
     return code;
-}
-
-/* Back from slope 1 to the slopes of the file. */
-static void restore_slopes(const rb_friction_soclcp_data *d, double *x, double *y)
-{
-    for (int c = 0, at = 0; c < d->problem.cones; at += d->size[c++]) {
-        x[at] /= d->tau[c];
-        y[at] *= d->tau[c];
-    }
 }
 
 static cli_exit solve_cones(friction_run *run, friction_result *r)
@@ -410,7 +342,11 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
-        restore_slopes(&d, r->r, r->u);
+        /* Back from slope 1 to the slopes of the file. */
+        for (int c = 0, at = 0; c < d.problem.cones; at += d.size[c++]) {
+            r->r[at] /= d.tau[c];
+            r->u[at] *= d.tau[c];
+        }
         code = assess(run, r, s);
     }
     rb_friction_soclcp_data_free(&d);
@@ -438,8 +374,49 @@ static cli_exit solve_file(void *context, const char *path)
         code = solve_friction(run, &r);
     if (is_json(run->o))
         add_problem(run, &r);
-    else
-        print_problem(run, &r);
+    else {
+        if (r.m && r.note.text[0])
+            rb_report_comment(&run->files.cells, "note: %s: %s", r.file, r.note.text);
+        if (r.m && run->o->solution) {
+            rb_report_comment(
+                &run->files.cells,
+                "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s", r.file,
+                r.status, r.info.solver, r.contacts, r.info.iters, r.info.residual,
+                r.info.seconds);
+            if (run->o->facts)
+                rb_report_comment(
+                    &run->files.cells,
+                    "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                    r.facts.rank, r.facts.hyperstaticity, r.facts.nullity,
+                    r.facts.asymmetry, r.facts.indefinite ? ", indefinite" : "");
+            for (int i = 0; i < r.m; i++) {
+                rb_report_cell_text(&run->files.cells, r.file);
+                rb_report_cell_whole(&run->files.cells, i + 1);
+                rb_report_cell_number(&run->files.cells, r.r[i]);
+                rb_report_cell_number(&run->files.cells, r.u[i]);
+                rb_report_cells_end_row(&run->files.cells);
+            }
+        } else if (r.m) {
+            rb_report_cell_text(&run->files.cells, r.file);
+            rb_report_cell_text(&run->files.cells, r.info.solver);
+            rb_report_cell_words(&run->files.cells, r.status);
+            rb_report_cell_whole(&run->files.cells, r.contacts);
+            rb_report_cell_whole(&run->files.cells, r.dimension);
+            rb_report_cell_whole(&run->files.cells, r.info.iters);
+            rb_report_cell_number(&run->files.cells, r.info.residual);
+            rb_report_cell_number(&run->files.cells, r.info.floor);
+            rb_report_cell_number(&run->files.cells, r.info.seconds);
+            rb_report_cell_number(&run->files.cells, r.info.scaled);
+            if (run->o->facts) {
+                rb_report_cell_whole(&run->files.cells, r.facts.rank);
+                rb_report_cell_whole(&run->files.cells, r.facts.hyperstaticity);
+                rb_report_cell_whole(&run->files.cells, r.facts.nullity);
+                rb_report_cell_number(&run->files.cells, r.facts.asymmetry);
+                rb_report_cell_whole(&run->files.cells, r.facts.indefinite);
+            }
+            rb_report_cells_end_row(&run->files.cells);
+        }
+    }
     json_decref(run->steps);
     free(r.r);
     free(r.u);
@@ -451,14 +428,6 @@ static cli_exit solve_file(void *context, const char *path)
 static const char conventions[] =
     "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
     "uhat, complementary to r in K";
-
-static void resolve_format(friction_options *o)
-{
-    if (o->format >= KIND)
-        o->kind = o->format - KIND;
-    else if (o->format != RB_REPORT_TSV)
-        o->style.format = (rb_report_format)o->format;
-}
 
 int cli_friction(int argc, char **argv)
 {
@@ -474,7 +443,10 @@ int cli_friction(int argc, char **argv)
                            {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
-    resolve_format(&o);
+    if (o.format >= KIND)
+        o.kind = o.format - KIND;
+    else if (o.format != RB_REPORT_TSV)
+        o.style.format = (rb_report_format)o.format;
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
     if (code == CLI_CONTINUE)

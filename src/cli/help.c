@@ -80,24 +80,6 @@ static void print_set(const rb_option_set *set, int common)
     }
 }
 
-static void print_groups(const cli_spec *spec)
-{
-    char text[1000] = "";
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
-            if (o->kind == RB_OPTION_GROUP)
-                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
-        }
-    puts("\nMore");
-    cli_print_entry("--help=all", "every option");
-    cli_print_entry("--help=GROUP", text);
-    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
-                                         "speak of it, such as: rollbem help rubber");
-    cli_print_entry("rollbem help",
-                    "the other commands: curve, stress, wear, sweep, ...");
-}
-
 /* The command's own options, and the common ones of the case. */
 static void print_short_help(const cli_spec *spec)
 {
@@ -114,29 +96,20 @@ static void print_short_help(const cli_spec *spec)
     for (int s = 0; s < spec->set_n; s++)
         if (is_abbreviated(spec, s))
             print_set(&spec->sets[s], 1);
-    print_groups(spec);
-}
-
-static void print_whole_help(const cli_spec *spec)
-{
-    printf("Usage: %s\n\n", spec->synopsis);
-    print_text(spec->about);
+    char text[1000] = "";
     for (int s = 0; s < spec->set_n; s++)
-        print_set(&spec->sets[s], 0);
-    puts("\nCommon");
-    cli_print_entry("--help[=all|GROUP]", "this text, or the options of a group");
-    cli_print_entry("--usage", "the options on a few lines");
-    cli_print_entry("--version", "the version");
-    cli_print_entry("--color=auto|always|never",
-                    "colours on a terminal (auto: without NO_COLOR)");
-    cli_print_entry("--describe=man|markdown",
-                    "this text as a manual page or for a page; =schema: the JSON Schema "
-                    "of --json");
-    cli_print_entry("--completion=bash|zsh|fish", "the completion of a shell");
-    if (spec->notes) {
-        puts("");
-        print_text(spec->notes);
-    }
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const rb_option *o = &spec->sets[s].options[i];
+            if (o->kind == RB_OPTION_GROUP)
+                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
+        }
+    puts("\nMore");
+    cli_print_entry("--help=all", "every option");
+    cli_print_entry("--help=GROUP", text);
+    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
+                                         "speak of it, such as: rollbem help rubber");
+    cli_print_entry("rollbem help",
+                    "the other commands: curve, stress, wear, sweep, ...");
 }
 
 /* The group or the option of that name; 0: there is none. */
@@ -169,8 +142,27 @@ int cli_print_help(const cli_spec *spec, const char *part)
         found = print_part(spec, part);
     else if (!part && pager && common)
         print_short_help(spec);
-    else
-        print_whole_help(spec);
+    else {
+        printf("Usage: %s\n\n", spec->synopsis);
+        print_text(spec->about);
+        for (int s = 0; s < spec->set_n; s++)
+            print_set(&spec->sets[s], 0);
+        puts("\nCommon");
+        cli_print_entry("--help[=all|GROUP]", "this text, or the options of a group");
+        cli_print_entry("--usage", "the options on a few lines");
+        cli_print_entry("--version", "the version");
+        cli_print_entry("--color=auto|always|never",
+                        "colours on a terminal (auto: without NO_COLOR)");
+        cli_print_entry(
+            "--describe=man|markdown",
+            "this text as a manual page or for a page; =schema: the JSON Schema "
+            "of --json");
+        cli_print_entry("--completion=bash|zsh|fish", "the completion of a shell");
+        if (spec->notes) {
+            puts("");
+            print_text(spec->notes);
+        }
+    }
     cli_close_pager(pager);
     if (found)
         return CLI_OK;

@@ -181,22 +181,6 @@ static json_t *vector(int n, const double *x)
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
 
-/* z and w of the only solution, or the list of all. */
-static void add_solutions(const lcp_options *o, const lcp_result *r, json_t **p)
-{
-    if (!o->all) {
-        rb_report_json_set(p, "z", vector(r->n, r->z));
-        rb_report_json_set(p, "w", vector(r->n, r->w));
-        return;
-    }
-    json_t *list = json_array();
-    for (int k = 0; k < r->solutions; k++)
-        rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
-                                               vector(r->n, r->z + (size_t)k * r->n), "w",
-                                               vector(r->n, r->w + (size_t)k * r->n)));
-    rb_report_json_set(p, "solutions", list);
-}
-
 static void add_problem(lcp_run *run, const lcp_result *r)
 {
     const int known = r->n > 0;
@@ -215,8 +199,21 @@ static void add_problem(lcp_run *run, const lcp_result *r)
     if (run->o->game)
         rb_report_json_set(&p, "payoffs",
                            known ? rb_report_json_numbers(2, r->payoff) : json_null());
-    if (run->o->solution || run->o->all)
-        add_solutions(run->o, r, &p);
+    if (run->o->solution || run->o->all) {
+        /* z and w of the only solution, or the list of all. */
+        if (!run->o->all) {
+            rb_report_json_set(&p, "z", vector(r->n, r->z));
+            rb_report_json_set(&p, "w", vector(r->n, r->w));
+        } else {
+            json_t *list = json_array();
+            for (int k = 0; k < r->solutions; k++)
+                rb_report_json_append(
+                    &list,
+                    json_pack("{s:o, s:o}", "z", vector(r->n, r->z + (size_t)k * r->n),
+                              "w", vector(r->n, r->w + (size_t)k * r->n)));
+            rb_report_json_set(&p, "solutions", list);
+        }
+    }
     if (run->o->trace)
         rb_report_json_set(&p, "pivots", json_incref(run->pivots));
     rb_report_json_append(&run->files.problems, p);
@@ -409,21 +406,6 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     return say_all(run->o, r, &all);
 }
 
-/* The vectors of the options, each of n numbers. */
-static rb_status read_vectors(const lcp_options *o, int n, lcp_result *r, rb_message *why)
-{
-    rb_status s = RB_OK;
-    if (o->lower)
-        s = rb_io_bounds_read(o->lower, n, "lower", &r->lower, why);
-    if (s == RB_OK && o->upper)
-        s = rb_io_bounds_read(o->upper, n, "upper", &r->upper, why);
-    if (s == RB_OK && o->cover)
-        s = rb_io_vector_read(o->cover, n, "cover", &r->cover, why);
-    if (s == RB_OK && o->start)
-        s = rb_io_vector_read(o->start, n, "start", &r->start, why);
-    return s;
-}
-
 static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
 {
     r->n = p->n;
@@ -440,30 +422,23 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
     rb_io_lcp p;
     rb_message why = {""};
     rb_status s = rb_io_lcp_read(r->file, run->o->q, &p, &why);
-    if (s == RB_OK)
-        s = read_vectors(run->o, p.n, r, &why);
+    if (s == RB_OK) {
+        /* The vectors of the options, each of n numbers. */
+        if (run->o->lower)
+            s = rb_io_bounds_read(run->o->lower, p.n, "lower", &r->lower, &why);
+        if (s == RB_OK && run->o->upper)
+            s = rb_io_bounds_read(run->o->upper, p.n, "upper", &r->upper, &why);
+        if (s == RB_OK && run->o->cover)
+            s = rb_io_vector_read(run->o->cover, p.n, "cover", &r->cover, &why);
+        if (s == RB_OK && run->o->start)
+            s = rb_io_vector_read(run->o->start, p.n, "start", &r->start, &why);
+    }
     const cli_exit code = s == RB_OK ? solve_problem(run, &p, r) : failed(r, s, &why);
     rb_io_lcp_free(&p);
     return code;
 }
 
 /* ---- Games ------------------------------------------------------------------------- */
-
-/* z = (x, y), w = what each strategy loses, of all solutions; the residual is the worst,
- * the payoffs are those of the first. */
-static void measure_game(const rb_lcp_game *g, lcp_result *r)
-{
-    const size_t entries = (size_t)g->m * (size_t)g->n, n = (size_t)r->n;
-    r->info.res = 0.0;
-    for (int k = r->solutions - 1; k >= 0; k--) {
-        const double res = rb_lcp_bimatrix_regret(g, r->z + (size_t)k * n,
-                                                  r->w + (size_t)k * n, r->payoff);
-        r->info.res = fmax(r->info.res, res);
-    }
-    const double size = fmax(rb_norm_inf(entries, g->A), rb_norm_inf(entries, g->B));
-    r->floor = 1e-14 * size;
-    r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
-}
 
 static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
 {
@@ -486,7 +461,18 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
         s = take_all(r, &all);
     if (s < 0)
         return invalid(r, s, &r->info.msg);
-    measure_game(&game, r);
+    /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the
+     * worst, the payoffs are those of the first. */
+    const size_t entries = (size_t)game.m * (size_t)game.n, n = (size_t)r->n;
+    r->info.res = 0.0;
+    for (int k = r->solutions - 1; k >= 0; k--) {
+        const double res = rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n,
+                                                  r->w + (size_t)k * n, r->payoff);
+        r->info.res = fmax(r->info.res, res);
+    }
+    const double size = fmax(rb_norm_inf(entries, game.A), rb_norm_inf(entries, game.B));
+    r->floor = 1e-14 * size;
+    r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
     return run->o->all ? say_all(run->o, r, &all) : say_end(run->o, r, s);
 }
 
@@ -538,14 +524,6 @@ static cli_exit solve_file(void *context, const char *path)
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
-
-static const char *columns_of(const lcp_options *o)
-{
-    return o->trace      ? "file pivot entering leaving row ratio z0"
-           : o->all      ? "file solution i z w"
-           : o->solution ? "file i z w"
-                         : "file status n pivots residual seconds scaled solver";
-}
 
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "
                                   "the lower end, <= 0 at the upper; "
@@ -601,12 +579,18 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        lcp_run run = {.files = {.style = &o.style,
-                                 .columns = columns_of(&o),
-                                 .conventions = conventions,
-                                 .solve = solve_file,
-                                 .context = &run},
-                       .o = &o};
+        lcp_run run = {
+            .files = {.style = &o.style,
+                      .columns =
+                          o.trace ? "file pivot entering leaving row ratio z0"
+                          : o.all ? "file solution i z w"
+                          : o.solution
+                              ? "file i z w"
+                              : "file status n pivots residual seconds scaled solver",
+                      .conventions = conventions,
+                      .solve = solve_file,
+                      .context = &run},
+            .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);

@@ -34,50 +34,11 @@ static const cli_command commands[] = {
     {"", cli_solve, "solves one case of rolling contact with friction, prints its table"},
 };
 
-/* A full disc or a closed pipe shows here at the latest.  Where standard output was
- * closed from the beginning and nothing went there, nothing is lost. */
-static int close_output(int code)
-{
-    errno = 0;
-    int failed = fflush(stdout) != 0 || ferror(stdout);
-    failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
-    if (failed && errno == EPIPE) /* | head has seen enough */
-        return code == CLI_OK ? CLI_CANTWRITE : code;
-    if (failed && code != CLI_CANTWRITE) /* not said yet */
-        return cli_fail(CLI_CANTWRITE, "standard output: %s",
-                        errno ? strerror(errno) : "write error");
-    return code;
-}
-
-/* Files must not get the numbers of standard input, output and error: a closed one is
- * opened the wrong way round, so that using it is the error that it was. */
-static void fill_descriptors(void)
-{
-    for (int fd = 0; fd <= 2; fd++)
-        if (fcntl(fd, F_GETFD) < 0)
-            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
-}
-
 /* OpenBLAS reads its environment only while it is loaded: hence a second start. */
 static void start_again_with(const char *name, const char *value, char **argv)
 {
     if (!getenv(name) && setenv(name, value, 1) == 0)
         execv("/proc/self/exe", argv);
-}
-
-/* Where the second start fails, the kernels that OpenBLAS chose do as well. */
-static void prepare_blas(char **argv)
-{
-    const char *core = rb_blas_better_core();
-    if (core)
-        start_again_with("OPENBLAS_CORETYPE", core, argv);
-    if (!rb_blas_has_room()) {
-        start_again_with("OPENBLAS_NUM_THREADS", "1", argv);
-        cli_fail(CLI_INTERNAL, "out of memory: no address space for OpenBLAS's buffers");
-        _exit(CLI_INTERNAL); /* its threads would never end */
-    }
-    if (!getenv("OPENBLAS_NUM_THREADS"))
-        rb_blas_threads(1);
 }
 
 /* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
@@ -92,8 +53,22 @@ static void say_who_ended_it(void)
 int main(int argc, char **argv)
 {
     atexit(say_who_ended_it);
-    fill_descriptors();
-    prepare_blas(argv);
+    /* Files must not get the numbers of standard input, output and error: a closed one is
+     * opened the wrong way round, so that using it is the error that it was. */
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    /* Where the second start fails, the kernels that OpenBLAS chose do as well. */
+    const char *core = rb_blas_better_core();
+    if (core)
+        start_again_with("OPENBLAS_CORETYPE", core, argv);
+    if (!rb_blas_has_room()) {
+        start_again_with("OPENBLAS_NUM_THREADS", "1", argv);
+        cli_fail(CLI_INTERNAL, "out of memory: no address space for OpenBLAS's buffers");
+        _exit(CLI_INTERNAL); /* its threads would never end */
+    }
+    if (!getenv("OPENBLAS_NUM_THREADS"))
+        rb_blas_threads(1);
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
     signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
@@ -104,7 +79,18 @@ int main(int argc, char **argv)
         code = cli_run(argv[1], argc - 1, argv + 1);
     else
         code = cli_run("", argc, argv);
-    code = close_output(code);
+    /* A full disc or a closed pipe shows here at the latest.  Where standard output was
+     * closed from the beginning and nothing went there, nothing is lost. */
+    errno = 0;
+    int failed = fflush(stdout) != 0 || ferror(stdout);
+    failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
+    if (failed && errno == EPIPE)
+        code = code == CLI_OK ? CLI_CANTWRITE : code;
+    else {
+        if (failed && code != CLI_CANTWRITE)
+            code = cli_fail(CLI_CANTWRITE, "standard output: %s",
+                            errno ? strerror(errno) : "write error");
+    }
     cli_end();
     came_to_the_end = 1;
     return code;

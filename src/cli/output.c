@@ -145,18 +145,6 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
     return CLI_CONTINUE;
 }
 
-static cli_exit check_path(const rb_option *o, const char *path)
-{
-    rb_report_picture_kind kind;
-    rb_message why = {""};
-    if (o->file == RB_FILE_PICTURE &&
-        rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
-    return cli_say(o->file == RB_FILE_FOLDER ? rb_io_folder_check(path, &why)
-                                             : rb_io_writer_check(path, &why),
-                   &why);
-}
-
 /* A size needs a picture, and a script belongs to one alone. */
 static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
 {
@@ -195,37 +183,42 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
     while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
         if (is_output(o) && strcmp(path, "-") != 0)
             code = check_clash(spec, args, o, path);
-        if (code == CLI_CONTINUE && o->file != RB_FILE_READ)
-            code = check_path(o, path);
+        if (code == CLI_CONTINUE && o->file != RB_FILE_READ) {
+            rb_report_picture_kind kind;
+            rb_message why = {""};
+            if (o->file == RB_FILE_PICTURE &&
+                rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
+                code = cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
+            else
+                code = cli_say(o->file == RB_FILE_FOLDER ? rb_io_folder_check(path, &why)
+                                                         : rb_io_writer_check(path, &why),
+                               &why);
+        }
     }
     return code;
 }
 
 /* ---- Open, write, commit ----------------------------------------------------------- */
 
-/* What would go to a terminal, abbreviated there. */
-static rb_status write_to_terminal(cli_write *write, const void *context, rb_message *why)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *memory = open_memstream(&text, &size);
-    if (!memory)
-        return rb_fail(why, RB_ENOMEM, "out of memory");
-    rb_status s = write(memory, context, why);
-    if (fclose(memory) != 0 && s == RB_OK)
-        s = RB_ENOMEM;
-    if (s == RB_OK)
-        s = cli_show_table(text, lines_above + 1); /* and the command */
-    free(text);
-    return s;
-}
-
 rb_status cli_write_to(const char *path, cli_write *write, const void *context,
                        rb_message *why)
 {
     rb_io_writer w;
-    if (!path && cli_reader_is_person())
-        return write_to_terminal(write, context, why);
+    if (!path && cli_reader_is_person()) {
+        /* What would go to a terminal, abbreviated there. */
+        char *text = NULL;
+        size_t size;
+        FILE *memory = open_memstream(&text, &size);
+        if (!memory)
+            return rb_fail(why, RB_ENOMEM, "out of memory");
+        rb_status s = write(memory, context, why);
+        if (fclose(memory) != 0 && s == RB_OK)
+            s = RB_ENOMEM;
+        if (s == RB_OK)
+            s = cli_show_table(text, lines_above + 1); /* and the command */
+        free(text);
+        return s;
+    }
     rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
         return s;

@@ -46,7 +46,7 @@ static const char marker[] = "<script type=\"application/json\" id=\"carried\">"
 /* And where the page says what it does not take. */
 static const char limits_marker[] = "<script type=\"application/json\" id=\"limits\">";
 
-/* Beside the program as it is built, or where `make install` puts it; 0: not found. */
+/* Beside the program as it is built, or where `make install` puts it. */
 static int find_page(char *path, size_t size)
 {
     static const char *const places[] = {"rollbem.html", "../share/rollbem/rollbem.html"};
@@ -101,21 +101,6 @@ static cli_exit read_page(const char *given, built_page *p)
 }
 
 /* ---- The case ---------------------------------------------------------------------- */
-
-/* The options that are given, name by name, as text of a case file. */
-static json_t *given_options(rb_case *c)
-{
-    const rb_option_set set = rb_case_options(c);
-    json_t *all = json_object();
-    char room[64];
-    for (int k = 0; k < set.n; k++)
-        if (set.options[k].kind != RB_OPTION_GROUP &&
-            rb_case_given(c, set.options[k].name))
-            rb_report_json_set(
-                &all, set.options[k].name,
-                json_string(rb_option_text(&set.options[k], set.target, room)));
-    return all;
-}
 
 /* A page opens without any other file. */
 static cli_exit refuse_files(rb_case *c)
@@ -182,7 +167,16 @@ static cli_exit fill_page(rb_case *c, const page_options *o)
     if (code == CLI_CONTINUE)
         code = refuse_beyond(c, page.limits);
     if (code == CLI_CONTINUE) {
-        json_t *all = given_options(c);
+        /* The options that are given, name by name, as text of a case file. */
+        const rb_option_set set = rb_case_options(c);
+        json_t *all = json_object();
+        char room[64];
+        for (int k = 0; k < set.n; k++)
+            if (set.options[k].kind != RB_OPTION_GROUP &&
+                rb_case_given(c, set.options[k].name))
+                rb_report_json_set(
+                    &all, set.options[k].name,
+                    json_string(rb_option_text(&set.options[k], set.target, room)));
         char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
         const filled_page p = {page.text, page.place, carried};
         code = carried ? cli_write_file(o->output, write_page, &p)

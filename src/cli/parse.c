@@ -8,19 +8,6 @@
 
 /* ---- Command line ---------------------------------------------------------------- */
 
-static cli_exit unknown_option(const char *name, size_t length, rb_guess *guess)
-{
-    const char *other = cli_other_name(name, length);
-    if (other)
-        return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
-                        (int)length, name, other);
-    static const char *const common[] = {"help", "usage", "version"};
-    for (int i = 0; i < 3; i++)
-        rb_guess_try(guess, common[i]);
-    return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", (int)length, name,
-                    rb_guess_text(guess, "--"));
-}
-
 /* The value after '=', the next argument, or "yes" for a flag.  NULL: there is none. */
 static const char *value_of(const rb_option *o, const char *equals, int *i, int argc,
                             char **argv)
@@ -50,8 +37,17 @@ static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv
     int k;
     const rb_option_set *set =
         rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
-    if (!set)
-        return unknown_option(name, length, &guess);
+    if (!set) {
+        const char *other = cli_other_name(name, length);
+        if (other)
+            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
+                            (int)length, name, other);
+        static const char *const common[] = {"help", "usage", "version"};
+        for (int j = 0; j < 3; j++)
+            rb_guess_try(&guess, common[j]);
+        return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", (int)length, name,
+                        rb_guess_text(&guess, "--"));
+    }
     const rb_option *o = &set->options[k];
     char what[64];
     snprintf(what, sizeof what, "--%s", o->name);
@@ -74,29 +70,6 @@ static const char *value_behind(const char *option, const char *argument)
     return strncmp(argument, option, n) == 0 ? argument + n : NULL;
 }
 
-/* --describe=FORM and --completion=SHELL, for the building of packages. */
-static cli_exit answer_builder(const cli_spec *spec, const char *argument)
-{
-    const char *form = value_behind("--describe=", argument);
-    const char *shell = value_behind("--completion=", argument);
-    cli_exit code = CLI_CONTINUE;
-    if (form && (code = cli_describe(spec, form)) == CLI_CONTINUE)
-        return cli_fail(CLI_USAGE,
-                        "--describe: expected man, markdown, results or schema, got '%s'",
-                        form);
-    if (shell && (code = cli_complete(shell)) == CLI_CONTINUE)
-        return cli_fail(CLI_USAGE, "--completion: expected bash, zsh or fish, got '%s'",
-                        shell);
-    return code;
-}
-
-static cli_exit check_colour(const char *when)
-{
-    if (cli_set_colour(when))
-        return CLI_CONTINUE;
-    return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
-}
-
 static int answer_common(const cli_spec *spec, const char *argument)
 {
     const char *part = value_behind("--help=", argument);
@@ -106,8 +79,20 @@ static int answer_common(const cli_spec *spec, const char *argument)
         cli_print_usage(spec);
     else if (strcmp(argument, "--version") == 0)
         puts("rollbem " RB_VERSION);
-    else
-        return answer_builder(spec, argument);
+    else {
+        /* --describe=FORM and --completion=SHELL, for the building of packages. */
+        const char *form = value_behind("--describe=", argument);
+        const char *shell = value_behind("--completion=", argument);
+        cli_exit code = CLI_CONTINUE;
+        if (form && (code = cli_describe(spec, form)) == CLI_CONTINUE)
+            return cli_fail(
+                CLI_USAGE,
+                "--describe: expected man, markdown, results or schema, got '%s'", form);
+        if (shell && (code = cli_complete(shell)) == CLI_CONTINUE)
+            return cli_fail(CLI_USAGE,
+                            "--completion: expected bash, zsh or fish, got '%s'", shell);
+        return code;
+    }
     return CLI_OK;
 }
 
@@ -132,8 +117,13 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
             CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)", argument,
             other ? (int)strlen(other) : (int)n, other ? other : argument + 1);
     }
-    if (value_behind("--color=", argument))
-        return check_colour(value_behind("--color=", argument));
+    if (value_behind("--color=", argument)) {
+        const char *when = value_behind("--color=", argument);
+        if (cli_set_colour(when))
+            return CLI_CONTINUE;
+        return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'",
+                        when);
+    }
     const cli_exit code = answer_common(spec, argument);
     return code == CLI_CONTINUE ? parse_option(spec, i, argc, argv) : code;
 }

@@ -18,26 +18,6 @@ typedef struct {
     rb_message *why;
 } watch;
 
-/* Runs of a second or less are over before anyone has read it. */
-static void show_progress(watch *w, const rb_rolling_history *h, int step, int steps)
-{
-    const double now = rb_seconds(), pause = w->steps->terminal ? 0.1 : 0.5;
-    const int last = step + 1 == steps;
-    if (now - w->start < 1.0 && !w->steps->progress)
-        return;
-    if (now - w->shown < pause && !last)
-        return;
-    fprintf(stderr,
-            "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f s left%s",
-            w->steps->terminal ? "\r" : "", step + 1, steps, h->distance[step],
-            h->creepage[step], rb_unit_shown(w->units, "N/mm", h->tangential_load[step]),
-            rb_unit_name(w->units, "N/mm"),
-            (now - w->start) / (step + 1) * (steps - step - 1),
-            w->steps->terminal && !last ? "\033[K" : "\n");
-    w->shown = now;
-    cli_wait_rest();
-}
-
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *solution;
@@ -117,8 +97,26 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     const cli_steps *asked = w->steps;
     if (!model) /* a coarser run, for the error bars */
         return cli_interrupted();
-    if (asked->progress || asked->terminal)
-        show_progress(w, history, step, steps);
+    if (asked->progress || asked->terminal) {
+        /* Runs of a second or less are over before anyone has read it. */
+        const double now = rb_seconds(), pause = w->steps->terminal ? 0.1 : 0.5;
+        const int last = step + 1 == steps;
+        if (!(now - w->start < 1.0 && !w->steps->progress)) {
+            if (!(now - w->shown < pause && !last)) {
+                fprintf(stderr,
+                        "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f "
+                        "s left%s",
+                        w->steps->terminal ? "\r" : "", step + 1, steps,
+                        history->distance[step], history->creepage[step],
+                        rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
+                        rb_unit_name(w->units, "N/mm"),
+                        (now - w->start) / (step + 1) * (steps - step - 1),
+                        w->steps->terminal && !last ? "\033[K" : "\n");
+                w->shown = now;
+                cli_wait_rest();
+            }
+        }
+    }
     if (step == 0 && w->written > 0)
         remove_snapshots(w);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
@@ -126,16 +124,6 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     if (asked->states && w->failed == RB_OK)
         w->failed = keep_state(model, step, steps, asked->states, w->why);
     return cli_interrupted() || w->failed != RB_OK;
-}
-
-/* An interrupt ends the run after the step at hand. */
-static rb_status run_steps(const rb_resolved_case *c, watch *w, rb_case_result *r,
-                           rb_message *why)
-{
-    cli_interrupts_catch();
-    const rb_status s = rb_case_solve(c, after_step, w, r, why);
-    cli_interrupts_leave();
-    return s;
 }
 
 rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
@@ -151,8 +139,12 @@ rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
     if (!rb_case_has_steps(c))
         return rb_case_solve_again(c, NULL, NULL, r, why);
     rb_status s = w.steps->snapshots ? rb_io_make_folder(w.steps->snapshots, why) : RB_OK;
-    if (s == RB_OK)
-        s = run_steps(c, &w, r, why);
+    if (s == RB_OK) {
+        /* An interrupt ends the run after the step at hand. */
+        cli_interrupts_catch();
+        s = rb_case_solve(c, after_step, &w, r, why);
+        cli_interrupts_leave();
+    }
     if (w.failed == RB_OK)
         return s;
     *why = failure;

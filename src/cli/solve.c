@@ -193,39 +193,11 @@ static void summarise(FILE *out, const cli_case_run *run)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-/* Of what is asked for, in the units that are shown. */
-static rb_status differentiate(const cli_case_run *run, solved *it, rb_message *why)
-{
-    rb_status s =
-        rb_case_differentiate(run->words, &it->r.model, 0, NULL, &it->slopes, why);
-    if (s == RB_OK && it->tolerance)
-        s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation, why);
-    if (s != RB_OK) /* the case has its solution, and nothing beside it */
-        it->derivatives = it->tolerance = NULL;
-    rb_rolling_solution_convert(&it->shown.deviation, run->c->units);
-    rb_case_derivatives_convert(&it->slopes, run->c->units);
-    it->shown.all = &it->slopes;
-    return s;
-}
-
 /* What is not solved has none. */
 static void drop_derivatives(solved *it)
 {
     it->derivatives = it->tolerance = NULL;
     rb_case_slopes_free(&it->slopes_of_steps);
-}
-
-/* Of the columns of a history. */
-static rb_status differentiate_steps(const cli_case_run *run, solved *it, rb_message *why)
-{
-    it->kept.program = run->c->program.n > 0 ? &run->c->program : NULL;
-    it->kept.half_width = it->r.history.half_width;
-    const rb_status s =
-        rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
-    if (s != RB_OK)
-        drop_derivatives(it);
-    rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
-    return s;
 }
 
 static rb_status solve(cli_case_run *run, rb_message *why)
@@ -238,11 +210,26 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
-    if (s == RB_OK && it->slopes_of_steps.n > 0)
-        s = differentiate_steps(run, it, why);
-    else if (s == RB_OK && (it->derivatives || it->tolerance))
-        s = differentiate(run, it, why);
-    else
+    if (s == RB_OK && it->slopes_of_steps.n > 0) {
+        /* Of the columns of a history. */
+        it->kept.program = run->c->program.n > 0 ? &run->c->program : NULL;
+        it->kept.half_width = it->r.history.half_width;
+        s = rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
+        if (s != RB_OK)
+            drop_derivatives(it);
+        rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
+    } else if (s == RB_OK && (it->derivatives || it->tolerance)) {
+        /* Of what is asked for, in the units that are shown. */
+        s = rb_case_differentiate(run->words, &it->r.model, 0, NULL, &it->slopes, why);
+        if (s == RB_OK && it->tolerance)
+            s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation,
+                                  why);
+        if (s != RB_OK) /* the case has its solution, and nothing beside it */
+            it->derivatives = it->tolerance = NULL;
+        rb_rolling_solution_convert(&it->shown.deviation, run->c->units);
+        rb_case_derivatives_convert(&it->slopes, run->c->units);
+        it->shown.all = &it->slopes;
+    } else
         drop_derivatives(it);
     rb_case_result_convert(&it->r, units);
     for (int k = 0; k < it->all.n; k++)
@@ -303,16 +290,6 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
     return CLI_CONTINUE;
 }
 
-/* Where the states of the steps are printed, and in which units. */
-static cli_exit check_states(const cli_case_run *run)
-{
-    const solved *it = run->own;
-    if (it->states &&
-        (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
-        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
-    return CLI_CONTINUE;
-}
-
 /* Names of results and of numbers. */
 static cli_exit check_derivatives(const cli_case_run *run, solved *it)
 {
@@ -353,7 +330,13 @@ static cli_exit check(cli_case_run *run)
         code = choose_pivots(run->words);
     if (code == CLI_CONTINUE)
         code = check_derivatives(run, run->own);
-    return code == CLI_CONTINUE ? check_states(run) : code;
+    if (code != CLI_CONTINUE)
+        return code;
+    /* Where the states of the steps are printed, and in which units. */
+    if (it->states &&
+        (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
+        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
+    return CLI_CONTINUE;
 }
 
 static const cli_case_command command = {

@@ -81,21 +81,6 @@ static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support ha
 
 /* ---- What is asked for ------------------------------------------------------------ */
 
-static cli_exit read_grid(stress *st)
-{
-    int end = 0;
-    st->nx = 61;
-    st->ny = 41;
-    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 ||
-                     st->grid[end] || st->nx < 2 || st->ny < 2))
-        return cli_fail(CLI_USAGE,
-                        "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
-                        st->grid);
-    if (st->grid && st->points)
-        return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
-    return CLI_CONTINUE;
-}
-
 static cli_exit read_points(stress *st, rb_units units)
 {
     rb_message why = {""};
@@ -130,34 +115,23 @@ static cli_exit check(cli_case_run *run)
     if (st->map && run->c->rc.plane == RB_PLANE_STRESS)
         return cli_fail(CLI_USAGE, "--shakedown-map: its limits are those of plane "
                                    "strain; in plane stress take --shakedown");
-    const cli_exit code = read_grid(st);
-    return code == CLI_CONTINUE && st->points
-               ? read_points(
-                     st, rb_case_units(run->words, rb_option_given(&run->set, "points")))
-               : code;
+    int end = 0;
+    st->nx = 61;
+    st->ny = 41;
+    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 ||
+                     st->grid[end] || st->nx < 2 || st->ny < 2))
+        return cli_fail(CLI_USAGE,
+                        "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
+                        st->grid);
+    if (st->grid && st->points)
+        return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
+    if (!st->points)
+        return CLI_CONTINUE;
+    return read_points(st,
+                       rb_case_units(run->words, rb_option_given(&run->set, "points")));
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */
-
-/* The first point that is not in the body is named by its line. */
-static rb_status stress_at_points(stress *st, rb_message *why)
-{
-    const int n = st->place.rows;
-    int *inside = rb_alloc_int((size_t)n);
-    st->at_points = calloc((size_t)n, sizeof *st->at_points);
-    rb_status s = inside && st->at_points ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK)
-        s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
-    for (int k = 0; k < n && s == RB_OK; k++)
-        if (!inside[k])
-            s = rb_fail(
-                why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) mm lies outside body A",
-                st->points, st->place.line[k], st->place.x[k], st->place.x[k + n]);
-    if (s == RB_OK)
-        s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
-    free(inside);
-    return s;
-}
 
 static int wants_shakedown(const stress *st)
 {
@@ -183,47 +157,30 @@ static rb_report_stress of_grid(const cli_case_run *run,
                               .s = &st->run.solution};
 }
 
-/* The model belongs to a plain solution, whose error bars follow. */
-static rb_status solve_plain(const rb_resolved_case *c, stress *st, rb_message *why)
-{
-    rb_resolved_case plain = *c;
-    rb_rolling_stress_maxima maxima;
-    plain.error = 0;
-    rb_status s = cli_run_case(&plain, NULL, &st->run, why);
-    if (s == RB_OK && c->error)
-        s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
-    if (s == RB_OK && c->error)
-        s = rb_rolling_estimate_errors(&c->rc, &st->run.solution, &maxima, &st->errors,
-                                       why);
-    return s;
-}
-
-static void convert(stress *st, rb_units units)
-{
-    rb_rolling_stress_maxima none = st->maxima;
-    rb_rolling_shakedown *found = &st->found;
-    rb_case_result_convert(&st->run, units);
-    rb_rolling_solution_convert(&st->errors.scalar, units);
-    rb_rolling_stress_convert(0, NULL, &st->errors.stress, units);
-    rb_rolling_stress_convert(st->at_points ? st->place.rows : 0, st->at_points, &none,
-                              units);
-    rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima, units);
-    rb_rolling_stress_convert(st->fine.nx * st->fine.ny, st->fine.at, &none, units);
-    found->x = rb_unit_shown(units, "mm", found->x);
-    found->y = rb_unit_shown(units, "mm", found->y);
-    found->residual = rb_unit_shown(units, "MPa", found->residual);
-    found->shear_yield = rb_unit_shown(units, "MPa", found->shear_yield);
-}
-
 static rb_status find_stress(stress *st, int contours, rb_message *why)
 {
     const rb_rolling_model *model = &st->run.model;
     rb_status s = rb_rolling_stress_maxima_find(model, st->depth, &st->maxima, why);
     if (s == RB_OK && wants_shakedown(st))
         s = rb_rolling_shakedown_find(model, &st->found, why);
-    if (s == RB_OK && st->place.rows > 0)
-        s = stress_at_points(st, why);
-    else if (s == RB_OK)
+    if (s == RB_OK && st->place.rows > 0) {
+        /* The first point that is not in the body is named by its line. */
+        const int n = st->place.rows;
+        int *inside = rb_alloc_int((size_t)n);
+        st->at_points = calloc((size_t)n, sizeof *st->at_points);
+        s = inside && st->at_points ? RB_OK : RB_ENOMEM;
+        if (s == RB_OK)
+            s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
+        for (int k = 0; k < n && s == RB_OK; k++)
+            if (!inside[k])
+                s = rb_fail(why, RB_EFORMAT,
+                            "%.200s:%d: the point (%g, %g) mm lies outside body A",
+                            st->points, st->place.line[k], st->place.x[k],
+                            st->place.x[k + n]);
+        if (s == RB_OK)
+            s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
+        free(inside);
+    } else if (s == RB_OK)
         s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
     if (s == RB_OK && st->fringes)
         s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine,
@@ -237,10 +194,33 @@ static rb_status find_stress(stress *st, int contours, rb_message *why)
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     stress *st = run->own;
-    rb_status s = solve_plain(run->c, st, why);
+    /* The model belongs to a plain solution, whose error bars follow. */
+    rb_resolved_case plain = *run->c;
+    rb_rolling_stress_maxima maxima;
+    plain.error = 0;
+    rb_status s = cli_run_case(&plain, NULL, &st->run, why);
+    if (s == RB_OK && run->c->error)
+        s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
+    if (s == RB_OK && run->c->error)
+        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima,
+                                       &st->errors, why);
     if (s == RB_OK)
         s = find_stress(st, run->o.plot != NULL, why);
-    convert(st, run->c->units);
+    rb_rolling_stress_maxima none = st->maxima;
+    rb_rolling_shakedown *found = &st->found;
+    rb_case_result_convert(&st->run, run->c->units);
+    rb_rolling_solution_convert(&st->errors.scalar, run->c->units);
+    rb_rolling_stress_convert(0, NULL, &st->errors.stress, run->c->units);
+    rb_rolling_stress_convert(st->at_points ? st->place.rows : 0, st->at_points, &none,
+                              run->c->units);
+    rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima,
+                              run->c->units);
+    rb_rolling_stress_convert(st->fine.nx * st->fine.ny, st->fine.at, &none,
+                              run->c->units);
+    found->x = rb_unit_shown(run->c->units, "mm", found->x);
+    found->y = rb_unit_shown(run->c->units, "mm", found->y);
+    found->residual = rb_unit_shown(run->c->units, "MPa", found->residual);
+    found->shear_yield = rb_unit_shown(run->c->units, "MPa", found->shear_yield);
     st->table = of_grid(run, &st->at);
     st->picture = of_grid(run, &st->fine);
     if (st->place.rows > 0) {
@@ -279,34 +259,29 @@ static int shows_column(const cli_case_run *run)
            st->table.ny > 1;
 }
 
-static rb_status write_column(FILE *out, const cli_case_run *run)
-{
-    const stress *st = run->own;
-    rb_report_stress below = st->table;
-    rb_rolling_stress *at = calloc((size_t)below.ny, sizeof *at);
-    int *inside = below.inside ? rb_alloc_int((size_t)below.ny) : NULL;
-    rb_status s = at && (inside || !below.inside) ? RB_OK : RB_ENOMEM;
-    for (int j = 0; j < below.ny && s == RB_OK; j++) {
-        const int k = j * below.nx + column_shown(st);
-        at[j] = below.at[k];
-        if (inside)
-            inside[j] = below.inside[k];
-    }
-    below.n = below.ny;
-    below.at = at;
-    below.inside = inside;
-    if (s == RB_OK)
-        s = rb_report_stress_table(out, &below, cli_command_line(), &run->o.style);
-    free(inside);
-    free(at);
-    return s;
-}
-
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const stress *st = run->own;
-    if (shows_column(run))
-        return write_column(out, run);
+    if (shows_column(run)) {
+        rb_report_stress below = st->table;
+        rb_rolling_stress *at = calloc((size_t)below.ny, sizeof *at);
+        int *inside = below.inside ? rb_alloc_int((size_t)below.ny) : NULL;
+        rb_status s = at && (inside || !below.inside) ? RB_OK : RB_ENOMEM;
+        for (int j = 0; j < below.ny && s == RB_OK; j++) {
+            const int k = j * below.nx + column_shown(st);
+            at[j] = below.at[k];
+            if (inside)
+                inside[j] = below.inside[k];
+        }
+        below.n = below.ny;
+        below.at = at;
+        below.inside = inside;
+        if (s == RB_OK)
+            s = rb_report_stress_table(out, &below, cli_command_line(), &run->o.style);
+        free(inside);
+        free(at);
+        return s;
+    }
     return rb_report_stress_table(out, &st->table, cli_command_line(), &run->o.style);
 }
 

@@ -12,18 +12,6 @@ struct rb_fem_condensation {
     rb_fem_structure condensed;
 };
 
-/* C: the rows of H that hold anything, in their order. */
-static void sort_unknowns(const rb_fem_structure *s, rb_fem_condensation *c)
-{
-    const int entries = s->H.p[s->H.cols];
-    int nc = 0;
-    for (int k = 0; k < entries; k++)
-        c->place[s->H.i[k]] = 1;
-    for (int i = 0; i < s->dofs; i++)
-        c->place[i] = c->place[i] ? nc++ : -1 - c->nf++;
-    c->condensed.dofs = nc;
-}
-
 /* Rows and columns of a: kept where wanted C (1) or F (0); 2 keeps all columns. */
 static rb_status block(const rb_fem_condensation *c, const rb_sparse *a, int row_c,
                        int col_c, rb_sparse *b)
@@ -85,15 +73,6 @@ static rb_status reduce(const rb_fem_structure *full, rb_fem_condensation *c,
     return s;
 }
 
-static rb_status copy_contacts(const rb_fem_structure *full, rb_fem_structure *c)
-{
-    c->dimension = full->dimension;
-    c->contacts = full->contacts;
-    c->mu = rb_copy((size_t)full->contacts, full->mu);
-    c->gap = rb_copy((size_t)full->contacts, full->gap);
-    return c->mu && c->gap ? RB_OK : RB_ENOMEM;
-}
-
 rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **result,
                           rb_message *why)
 {
@@ -105,7 +84,14 @@ rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **re
     c->place = rb_alloc_int((size_t)full->dofs);
     rb_status s = c->place ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
-        sort_unknowns(full, c);
+        /* C: the rows of H that hold anything, in their order. */
+        const int entries = full->H.p[full->H.cols];
+        int nc = 0;
+        for (int k = 0; k < entries; k++)
+            c->place[full->H.i[k]] = 1;
+        for (int i = 0; i < full->dofs; i++)
+            c->place[i] = c->place[i] ? nc++ : -1 - c->nf++;
+        c->condensed.dofs = nc;
         s = c->condensed.dofs > 0
                 ? reduce(full, c, why)
                 : rb_fail(why, RB_EINVAL,
@@ -113,8 +99,13 @@ rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **re
     }
     if (s == RB_OK)
         s = block(c, &full->H, 1, 2, &c->condensed.H);
-    if (s == RB_OK)
-        s = copy_contacts(full, &c->condensed);
+    if (s == RB_OK) {
+        c->condensed.dimension = full->dimension;
+        c->condensed.contacts = full->contacts;
+        c->condensed.mu = rb_copy((size_t)full->contacts, full->mu);
+        c->condensed.gap = rb_copy((size_t)full->contacts, full->gap);
+        s = c->condensed.mu && c->condensed.gap ? RB_OK : RB_ENOMEM;
+    }
     if (s == RB_OK)
         *result = c;
     else

@@ -27,9 +27,14 @@ typedef struct {
     double jacobian; /* times the Gauss weight, which is 1 */
 } gauss_point;
 
-/* N_a = prod_k (1 + s_ak xi_k)/2 and its derivatives in the reference cell. */
-static void shape(int d, const double *xi, gauss_point *g, double local[8][3])
+static rb_status at_gauss_point(int d, const double *x, int point, gauss_point *g)
 {
+    const double place = 1.0 / sqrt(3.0);
+    double xi[3], local[8][3], inverse[3][3];
+    double J[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, d == 2}};
+    for (int k = 0; k < d; k++)
+        xi[k] = point >> k & 1 ? place : -place;
+    /* N_a = prod_k (1 + s_ak xi_k)/2 and its derivatives in the reference cell. */
     for (int a = 0; a < 1 << d; a++) {
         g->N[a] = 1.0;
         for (int k = 0; k < d; k++)
@@ -41,12 +46,12 @@ static void shape(int d, const double *xi, gauss_point *g, double local[8][3])
                     local[a][k] *= 0.5 * (1.0 + corner[a][l] * xi[l]);
         }
     }
-}
-
-/* Inverse of the d x d matrix J (the rest of the 3 x 3 is the identity); its determinant.
- */
-static double invert(double J[3][3], double inverse[3][3])
-{
+    for (int a = 0; a < 1 << d; a++)
+        for (int i = 0; i < d; i++)
+            for (int k = 0; k < d; k++)
+                J[i][k] += x[d * a + i] * local[a][k];
+    /* Inverse of the d x d matrix J (the rest of the 3 x 3 is the identity); its
+     * determinant. */
     double det = 0.0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -57,22 +62,7 @@ static double invert(double J[3][3], double inverse[3][3])
         det += J[0][k] * inverse[k][0];
     for (int i = 0; i < 9; i++)
         inverse[i / 3][i % 3] /= det;
-    return det;
-}
-
-static rb_status at_gauss_point(int d, const double *x, int point, gauss_point *g)
-{
-    const double place = 1.0 / sqrt(3.0);
-    double xi[3], local[8][3], inverse[3][3];
-    double J[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, d == 2}};
-    for (int k = 0; k < d; k++)
-        xi[k] = point >> k & 1 ? place : -place;
-    shape(d, xi, g, local);
-    for (int a = 0; a < 1 << d; a++)
-        for (int i = 0; i < d; i++)
-            for (int k = 0; k < d; k++)
-                J[i][k] += x[d * a + i] * local[a][k];
-    g->jacobian = invert(J, inverse);
+    g->jacobian = det;
     for (int a = 0; a < 1 << d; a++)
         for (int i = 0; i < d; i++) {
             g->dN[a][i] = 0.0;

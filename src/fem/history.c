@@ -43,34 +43,6 @@ static double tangential(int d, const double *x)
     return d == 2 ? fabs(x[1]) : hypot(x[1], x[2]);
 }
 
-/* Separated: r_N below 1e-9 of the largest.  Slip: friction at its limit (1e-8) and an
- * increment above 1e-9 of the largest one; least: what counts as no displacement at all.
- */
-static void classify(const rb_fem_structure *s, double least, rb_fem_step *step)
-{
-    const int d = s->dimension;
-    double r_max = 0.0, du_max = least;
-    for (int i = 0; i < s->contacts; i++) {
-        r_max = fmax(r_max, step->r[d * i]);
-        du_max = fmax(du_max, tangential(d, step->du + d * i));
-    }
-    step->stick = step->slip = step->separated = 0;
-    for (int i = 0; i < s->contacts; i++) {
-        const double limit = s->mu[i] * step->r[d * i];
-        if (step->r[d * i] <= 1e-9 * r_max) {
-            step->contact[i] = RB_FEM_SEPARATED;
-            step->separated++;
-        } else if (limit - tangential(d, step->r + d * i) <= 1e-8 * limit &&
-                   tangential(d, step->du + d * i) > 1e-9 * du_max) {
-            step->contact[i] = RB_FEM_SLIP;
-            step->slip++;
-        } else {
-            step->contact[i] = RB_FEM_STICK;
-            step->stick++;
-        }
-    }
-}
-
 typedef struct {
     const rb_fem_model *model;
     rb_fem_condensation *condensation;
@@ -95,16 +67,6 @@ static rb_status open_runner(const rb_fem_model *model, runner *run, rb_message 
     if (!run->load_c || !run->v || !run->du || !run->u)
         return RB_ENOMEM;
     return rb_fem_state_alloc(run->condensed, &run->state);
-}
-
-static void close_runner(runner *run)
-{
-    rb_fem_condensation_free(run->condensation);
-    rb_fem_state_free(&run->state);
-    free(run->load_c);
-    free(run->v);
-    free(run->du);
-    free(run->u);
 }
 
 /* The increment's friction problem: v and the new reactions in physical units. */
@@ -155,22 +117,32 @@ static rb_status record(runner *run, const double *load, double length, rb_fem_s
     rb_sparse_apply_transposed(1.0, &s->H, run->state.u, 0.0, run->du);
     for (int i = 0; i < s->contacts; i++)
         step->gap[i] = s->gap[i] + run->du[s->dimension * i];
-    classify(s, 1e-3 * length, step);
+    /* Separated: r_N below 1e-9 of the largest.  Slip: friction at its limit (1e-8) and
+     * an increment above 1e-9 of the largest one; least: what counts as no displacement
+     * at all. */
+    const double least = 1e-3 * length;
+    const int d = s->dimension;
+    double r_max = 0.0, du_max = least;
+    for (int i = 0; i < s->contacts; i++) {
+        r_max = fmax(r_max, step->r[d * i]);
+        du_max = fmax(du_max, tangential(d, step->du + d * i));
+    }
+    step->stick = step->slip = step->separated = 0;
+    for (int i = 0; i < s->contacts; i++) {
+        const double limit = s->mu[i] * step->r[d * i];
+        if (step->r[d * i] <= 1e-9 * r_max) {
+            step->contact[i] = RB_FEM_SEPARATED;
+            step->separated++;
+        } else if (limit - tangential(d, step->r + d * i) <= 1e-8 * limit &&
+                   tangential(d, step->du + d * i) > 1e-9 * du_max) {
+            step->contact[i] = RB_FEM_SLIP;
+            step->slip++;
+        } else {
+            step->contact[i] = RB_FEM_STICK;
+            step->stick++;
+        }
+    }
     return RB_OK;
-}
-
-static rb_status run_step(runner *run, int k, const char *solver, double tol,
-                          rb_fem_step *step, rb_message *why)
-{
-    const double *load = run->model->load + (size_t)k * (size_t)run->model->mesh.dofs;
-    double length = 1.0;
-    rb_status s = rb_fem_condense_load(run->condensation, load, run->load_c);
-    if (s == RB_OK)
-        s = solve_increment(run, solver, tol, step, &length, why);
-    if (s < RB_OK)
-        return s;
-    const rb_status recorded = record(run, load, length, step);
-    return recorded == RB_OK ? s : recorded;
 }
 
 rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
@@ -186,12 +158,27 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
         if (s != RB_OK)
             break;
         history->steps++;
-        s = run_step(&run, k, solver, tol, &history->step[k], why);
+        rb_fem_step *step = &history->step[k];
+        const double *load = run.model->load + (size_t)k * (size_t)run.model->mesh.dofs;
+        double length = 1.0;
+        s = rb_fem_condense_load(run.condensation, load, run.load_c);
+        if (s == RB_OK)
+            s = solve_increment(&run, solver, tol, step, &length, why);
+        if (!(s < RB_OK)) {
+            const rb_status recorded = record(&run, load, length, step);
+            s = recorded == RB_OK ? s : recorded;
+        }
         if (s > 0 && !isfinite(history->step[k].residual)) /* it has not begun */
             free_step(&history->step[--history->steps]);
     }
-    if (history->step)
-        close_runner(&run);
+    if (history->step) {
+        rb_fem_condensation_free(run.condensation);
+        rb_fem_state_free(&run.state);
+        free(run.load_c);
+        free(run.v);
+        free(run.du);
+        free(run.u);
+    }
     history->seconds = rb_seconds() - start;
     return s;
 }

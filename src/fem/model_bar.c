@@ -11,42 +11,10 @@ static int node_at(int nx, int i, int j)
     return i + (nx + 1) * j;
 }
 
-static void place_nodes(int nx, int ny, rb_fem_mesh *mesh)
-{
-    for (int j = 0; j <= ny; j++)
-        for (int i = 0; i <= nx; i++) {
-            mesh->x[2 * node_at(nx, i, j)] = length * i / nx;
-            mesh->x[2 * node_at(nx, i, j) + 1] = height * j / ny;
-        }
-    for (int j = 0; j < ny; j++)
-        for (int i = 0; i < nx; i++) {
-            int *corner = mesh->node + 4 * (i + nx * j);
-            corner[0] = node_at(nx, i, j);
-            corner[1] = node_at(nx, i + 1, j);
-            corner[2] = node_at(nx, i + 1, j + 1);
-            corner[3] = node_at(nx, i, j + 1);
-        }
-    for (int j = 0; j <= ny; j++) /* the plane of symmetry */
-        rb_fem_mesh_hold(mesh, node_at(nx, 0, j), 0);
-}
-
 /* Consistent nodal loads: half at the two ends of a face. */
 static double share(int i, int n)
 {
     return i == 0 || i == n ? 0.5 : 1.0;
-}
-
-static void apply_loads(int nx, int ny, rb_fem_model *model)
-{
-    const double top = pressure * thickness * length / nx;
-    const double right = pressure * thickness * height / ny;
-    for (int k = 0; k < INCREMENTS; k++) {
-        for (int i = 0; i <= nx; i++)
-            rb_fem_model_load(model, k, node_at(nx, i, ny), 1, -top * share(i, nx));
-        for (int j = 0; j <= ny; j++)
-            rb_fem_model_load(model, k, node_at(nx, nx, j), 0,
-                              -(k + 1) * right * share(j, ny));
-    }
 }
 
 rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
@@ -59,14 +27,36 @@ rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
     rb_status s =
         rb_fem_model_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, nx + 1, model);
     if (s == RB_OK) {
-        place_nodes(nx, ny, &model->mesh);
+        for (int j = 0; j <= ny; j++)
+            for (int i = 0; i <= nx; i++) {
+                model->mesh.x[2 * node_at(nx, i, j)] = length * i / nx;
+                model->mesh.x[2 * node_at(nx, i, j) + 1] = height * j / ny;
+            }
+        for (int j = 0; j < ny; j++)
+            for (int i = 0; i < nx; i++) {
+                int *corner = model->mesh.node + 4 * (i + nx * j);
+                corner[0] = node_at(nx, i, j);
+                corner[1] = node_at(nx, i + 1, j);
+                corner[2] = node_at(nx, i + 1, j + 1);
+                corner[3] = node_at(nx, i, j + 1);
+            }
+        for (int j = 0; j <= ny; j++) /* the plane of symmetry */
+            rb_fem_mesh_hold(&model->mesh, node_at(nx, 0, j), 0);
         for (int i = 0; i <= nx; i++)
             model->contact_node[i] = node_at(nx, i, 0);
         s = rb_fem_model_build(model, &material, 1.3, INCREMENTS, why);
     }
-    if (s == RB_OK)
-        apply_loads(nx, ny, model);
-    else
+    if (s == RB_OK) {
+        const double top = pressure * thickness * length / nx;
+        const double right = pressure * thickness * height / ny;
+        for (int k = 0; k < INCREMENTS; k++) {
+            for (int i = 0; i <= nx; i++)
+                rb_fem_model_load(model, k, node_at(nx, i, ny), 1, -top * share(i, nx));
+            for (int j = 0; j <= ny; j++)
+                rb_fem_model_load(model, k, node_at(nx, nx, j), 0,
+                                  -(k + 1) * right * share(j, ny));
+        }
+    } else
         rb_fem_model_free(model);
     return s;
 }

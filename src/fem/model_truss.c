@@ -13,11 +13,6 @@ typedef struct {
     int n, m;
 } grid;
 
-static int upper_at(grid g, int i, int j)
-{
-    return g.n * g.n + i + g.m * j;
-}
-
 static void place_layer(int n, int first, double z, rb_fem_mesh *mesh)
 {
     for (int k = 0; k < n * n; k++) {
@@ -45,19 +40,6 @@ static int *join_layer(int n, int first, int *bar)
     return bar;
 }
 
-/* Every upper node to the lower ones half a cell away. */
-static void join_layers(grid g, int *bar)
-{
-    const int shift =
-        g.m < g.n ? 0 : -1; /* lower neighbours of upper i: i + shift, + 1 */
-    for (int k = 0; k < 4 * g.m * g.m; k++) {
-        const int upper = k / 4, i = upper % g.m + shift + k % 2;
-        const int j = upper / g.m + shift + k / 2 % 2;
-        if (i >= 0 && j >= 0 && i < g.n && j < g.n)
-            bar = join(bar, g.n * g.n + upper, i + g.n * j);
-    }
-}
-
 static int bars(grid g)
 {
     const int inclined = g.m < g.n ? g.m * g.m : g.n * g.n;
@@ -67,16 +49,6 @@ static int bars(grid g)
 static double share(int i, int n)
 {
     return i == 0 || i == n - 1 ? 0.5 : 1.0;
-}
-
-static void apply_loads(grid g, rb_fem_model *model)
-{
-    for (int step = 0; step < INCREMENTS; step++)
-        for (int j = 0; j < g.m; j++)
-            for (int i = 0; i < g.m; i++)
-                rb_fem_model_load(model, step, upper_at(g, i, j), 2,
-                                  -gamma_of[step] * inner_load * share(i, g.m) *
-                                      share(j, g.m));
 }
 
 rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
@@ -92,14 +64,28 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
     if (s == RB_OK) {
         place_layer(n, 0, 0.0, &model->mesh);
         place_layer(g.m, n * n, spacing[2], &model->mesh);
-        join_layers(g, join_layer(g.m, n * n, join_layer(n, 0, model->mesh.node)));
+        /* Every upper node to the lower ones half a cell away. */
+        int *bar = join_layer(g.m, n * n, join_layer(n, 0, model->mesh.node));
+        const int shift =
+            g.m < g.n ? 0 : -1; /* lower neighbours of upper i: i + shift, + 1 */
+        for (int k = 0; k < 4 * g.m * g.m; k++) {
+            const int upper = k / 4, i = upper % g.m + shift + k % 2;
+            const int j = upper / g.m + shift + k / 2 % 2;
+            if (i >= 0 && j >= 0 && i < g.n && j < g.n)
+                bar = join(bar, g.n * g.n + upper, i + g.n * j);
+        }
         for (int k = 0; k < n * n; k++)
             model->contact_node[k] = k;
         s = rb_fem_model_build(model, &material, 0.12, INCREMENTS, why);
     }
-    if (s == RB_OK)
-        apply_loads(g, model);
-    else
+    if (s == RB_OK) {
+        for (int step = 0; step < INCREMENTS; step++)
+            for (int j = 0; j < g.m; j++)
+                for (int i = 0; i < g.m; i++)
+                    rb_fem_model_load(model, step, g.n * g.n + i + g.m * j, 2,
+                                      -gamma_of[step] * inner_load * share(i, g.m) *
+                                          share(j, g.m));
+    } else
         rb_fem_model_free(model);
     return s;
 }

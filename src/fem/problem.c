@@ -3,21 +3,6 @@
 
 #include <string.h>
 
-/* Forces by the largest load, lengths so that K has a mean diagonal of one. */
-static rb_fem_units choose_units(const rb_fem_structure *s, const double *load)
-{
-    double trace = 0.0;
-    for (int j = 0; j < s->dofs; j++)
-        for (int k = s->K.p[j]; k < s->K.p[j + 1]; k++)
-            if (s->K.i[k] == j)
-                trace += s->K.x[k];
-    const double force = rb_norm_inf((size_t)s->dofs, load);
-    rb_fem_units u = {force > 0.0 ? force : 1.0, 1.0};
-    if (trace > 0.0)
-        u.length = u.force * s->dofs / trace;
-    return u;
-}
-
 static void scale(size_t n, double factor, double *x)
 {
     for (size_t i = 0; i < n; i++)
@@ -60,7 +45,17 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
     if (status == RB_OK)
         status = rb_sparse_copy(&s->H, &problem->H);
     if (status == RB_OK) {
-        *units = choose_units(s, load);
+        /* Forces by the largest load, lengths so that K has a mean diagonal of one. */
+        double trace = 0.0;
+        for (int j = 0; j < s->dofs; j++)
+            for (int k = s->K.p[j]; k < s->K.p[j + 1]; k++)
+                if (s->K.i[k] == j)
+                    trace += s->K.x[k];
+        const double force = rb_norm_inf((size_t)s->dofs, load);
+        rb_fem_units u = {force > 0.0 ? force : 1.0, 1.0};
+        if (trace > 0.0)
+            u.length = u.force * s->dofs / trace;
+        *units = u;
         fill_vectors(s, load, state, *units, problem);
     } else {
         rb_friction_problem_free(problem);

@@ -48,46 +48,6 @@ static rb_status check_options(const rb_fem_wall_options *o, rb_message *why)
     return RB_OK;
 }
 
-/* M + dt^2 K: the two have the same pattern when elastic; K is empty when rigid. */
-static rb_status step_matrix(const wall_system *s, double dt, rb_sparse *A)
-{
-    const rb_status status = rb_sparse_copy(&s->M, A);
-    for (int k = 0; status == RB_OK && k < s->K.p[s->K.cols]; k++)
-        A->x[k] += dt * dt * s->K.x[k];
-    return status;
-}
-
-static rb_status build_system(rb_fem_wall *w, rb_message *why)
-{
-    rb_status s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact,
-                                      &w->system, why);
-    if (s != RB_OK || !w->options.rigid)
-        return s;
-    wall_system elastic = w->system;
-    s = wall_rigid_system(&w->layout, &w->mesh, &elastic, &w->R, &w->system);
-    wall_system_free(&elastic);
-    return s;
-}
-
-static rb_status alloc_state(rb_fem_wall *w)
-{
-    const size_t n = (size_t)w->system.dofs, m = 3 * (size_t)w->contacts;
-    w->u = rb_alloc(n, 1);
-    w->v = rb_alloc(n, 1);
-    w->r = rb_alloc(m, 1);
-    w->ur = rb_alloc(m, 1);
-    w->mu = rb_alloc((size_t)w->contacts, 1);
-    w->record = calloc((size_t)rb_fem_wall_steps(w), sizeof *w->record);
-    if (!w->u || !w->v || !w->r || !w->ur || !w->mu || !w->record)
-        return RB_ENOMEM;
-    for (int i = 0; i < w->contacts; i++) {
-        const int other = w->contact[i].other;
-        w->mu[i] =
-            other == LOWER_SUPPORT || other == UPPER_SUPPORT ? mu_supports : mu_blocks;
-    }
-    return RB_OK;
-}
-
 static rb_status build_wall(rb_fem_wall *w, rb_message *why)
 {
     w->layout = wall_lay_out(&w->options);
@@ -97,11 +57,34 @@ static rb_status build_wall(rb_fem_wall *w, rb_message *why)
     if (s != RB_OK)
         return s;
     wall_find_contacts(&w->layout, w->contact);
-    s = build_system(w, why);
+    s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system,
+                            why);
+    if (s == RB_OK && w->options.rigid) {
+        wall_system elastic = w->system;
+        s = wall_rigid_system(&w->layout, &w->mesh, &elastic, &w->R, &w->system);
+        wall_system_free(&elastic);
+    }
+    if (s == RB_OK) {
+        const size_t n = (size_t)w->system.dofs, m = 3 * (size_t)w->contacts;
+        w->u = rb_alloc(n, 1);
+        w->v = rb_alloc(n, 1);
+        w->r = rb_alloc(m, 1);
+        w->ur = rb_alloc(m, 1);
+        w->mu = rb_alloc((size_t)w->contacts, 1);
+        w->record = calloc((size_t)rb_fem_wall_steps(w), sizeof *w->record);
+        if (!w->u || !w->v || !w->r || !w->ur || !w->mu || !w->record)
+            s = RB_ENOMEM;
+    }
+    for (int i = 0; s == RB_OK && i < w->contacts; i++) {
+        const int other = w->contact[i].other;
+        w->mu[i] =
+            other == LOWER_SUPPORT || other == UPPER_SUPPORT ? mu_supports : mu_blocks;
+    }
+    /* M + dt^2 K: the two have the same pattern when elastic; K is empty when rigid. */
     if (s == RB_OK)
-        s = alloc_state(w);
-    if (s == RB_OK)
-        s = step_matrix(&w->system, w->options.dt, &w->A);
+        s = rb_sparse_copy(&w->system.M, &w->A);
+    for (int k = 0; s == RB_OK && k < w->system.K.p[w->system.K.cols]; k++)
+        w->A.x[k] += w->options.dt * w->options.dt * w->system.K.x[k];
     return s;
 }
 
@@ -226,83 +209,11 @@ static rb_friction_problem borrowed_problem(const rb_fem_wall *w, int step)
                                  .w = w->record[step].w};
 }
 
-static void count_contacts(const rb_fem_wall *w, rb_fem_wall_step *step)
-{
-    double largest = 0.0;
-    for (int i = 0; i < w->contacts; i++)
-        largest = fmax(largest, w->r[3 * i]);
-    step->shear = 0.0;
-    step->stick = step->slip = step->separated = 0;
-    for (int i = 0; i < w->contacts; i++) {
-        const double *r = w->r + 3 * i;
-        const double friction = hypot(r[1], r[2]), limit = w->mu[i] * r[0];
-        if (w->contact[i].other == UPPER_SUPPORT)
-            step->shear += r[1] / w->options.dt;
-        if (r[0] <= 1e-6 * largest)
-            step->separated++;
-        else if (friction >= (1.0 - 1e-6) * limit)
-            step->slip++;
-        else
-            step->stick++;
-    }
-}
-
-static void describe_step(const rb_fem_wall *w, const rb_friction_info *info,
-                          rb_fem_wall_step *step)
-{
-    const int k = w->solved;
-    step->time = (k + 1) * w->options.dt;
-    step->compression = force_at(w, k);
-    step->drift = drive * w->options.dt * fmax(0, k - w->options.press);
-    step->iterations = info->iters;
-    step->residual = info->residual;
-    step->seconds = info->seconds;
-    count_contacts(w, step);
-}
-
-/* The first step, under the weight alone, starts from contacts that all press a little:
- * at r = 0 the blocks fall together and every joint between them is undecided. */
-static void guess_first(rb_fem_wall *w)
-{
-    double weight = 0.0;
-    for (int i = 0; i < w->system.dofs; i++)
-        weight += fabs(w->system.weight[i]);
-    for (int i = 0; i < w->contacts; i++)
-        w->r[3 * i] = w->options.dt * weight / w->contacts;
-}
-
 static int is_stopped(const rb_friction_progress *at, void *context)
 {
     const rb_fem_wall *w = context;
     (void)at;
     return w->options.stopped && w->options.stopped(w->options.context);
-}
-
-/* In global form: its Newton systems stay sparse, W would not.  From the impulses of the
- * previous step: a third of the Newton steps that r = 0 takes. */
-static rb_status solve_step(rb_fem_wall *w, const char *solver, double tol,
-                            rb_friction_info *info)
-{
-    const rb_friction_problem problem = borrowed_problem(w, w->solved);
-    rb_friction_options options = rb_friction_defaults();
-    options.tol = tol;
-    options.r0 = w->r;
-    options.progress = is_stopped;
-    options.context = w;
-    const rb_friction_solution solution = {w->r, w->ur, w->v};
-    return rb_friction_solve(solver, &problem, &options, &solution, info);
-}
-
-static rb_status record_vectors(rb_fem_wall *wall, recorded_step *now)
-{
-    free(now->f);
-    free(now->w);
-    now->f = rb_alloc((size_t)wall->system.dofs, 1);
-    now->w = rb_alloc(3, (size_t)wall->contacts);
-    if (!now->f || !now->w)
-        return RB_ENOMEM;
-    step_vectors(wall, now->f, now->w);
-    return RB_OK;
 }
 
 rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
@@ -312,17 +223,64 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
         return rb_fail(why, RB_EINVAL, "wall: all %d steps are done", wall->solved);
     recorded_step *now = &wall->record[wall->solved];
     rb_friction_info info = {0};
-    rb_status s = record_vectors(wall, now);
-    if (wall->solved == 0)
-        guess_first(wall);
+    free(now->f);
+    free(now->w);
+    now->f = rb_alloc((size_t)wall->system.dofs, 1);
+    now->w = rb_alloc(3, (size_t)wall->contacts);
+    rb_status s = now->f && now->w ? RB_OK : RB_ENOMEM;
     if (s == RB_OK)
-        s = solve_step(wall, solver, tol, &info);
+        step_vectors(wall, now->f, now->w);
+    if (wall->solved == 0) {
+        /* The first step, under the weight alone, starts from contacts that all press a
+         * little: at r = 0 the blocks fall together and every joint between them is
+         * undecided. */
+        double weight = 0.0;
+        for (int i = 0; i < wall->system.dofs; i++)
+            weight += fabs(wall->system.weight[i]);
+        for (int i = 0; i < wall->contacts; i++)
+            wall->r[3 * i] = wall->options.dt * weight / wall->contacts;
+    }
+    if (s == RB_OK) {
+        /* In global form: its Newton systems stay sparse, W would not.  From the impulses
+         * of the previous step: a third of the Newton steps that r = 0 takes. */
+        const rb_friction_problem problem = borrowed_problem(wall, wall->solved);
+        rb_friction_options options = rb_friction_defaults();
+        options.tol = tol;
+        options.r0 = wall->r;
+        options.progress = is_stopped;
+        options.context = wall;
+        const rb_friction_solution solution = {wall->r, wall->ur, wall->v};
+        s = rb_friction_solve(solver, &problem, &options, &solution, &info);
+    }
     if (s < RB_OK)
         return rb_fail(why, s, "wall, step %d: %s", wall->solved + 1,
                        info.msg.text[0] ? info.msg.text : rb_status_text(s));
     if (s == RB_INTERRUPTED)
         return rb_fail(why, s, "interrupted after step %d", wall->solved);
-    describe_step(wall, &info, step);
+    const int k = wall->solved;
+    step->time = (k + 1) * wall->options.dt;
+    step->compression = force_at(wall, k);
+    step->drift = drive * wall->options.dt * fmax(0, k - wall->options.press);
+    step->iterations = info.iters;
+    step->residual = info.residual;
+    step->seconds = info.seconds;
+    double largest = 0.0;
+    for (int i = 0; i < wall->contacts; i++)
+        largest = fmax(largest, wall->r[3 * i]);
+    step->shear = 0.0;
+    step->stick = step->slip = step->separated = 0;
+    for (int i = 0; i < wall->contacts; i++) {
+        const double *r = wall->r + 3 * i;
+        const double friction = hypot(r[1], r[2]), limit = wall->mu[i] * r[0];
+        if (wall->contact[i].other == UPPER_SUPPORT)
+            step->shear += r[1] / wall->options.dt;
+        if (r[0] <= 1e-6 * largest)
+            step->separated++;
+        else if (friction >= (1.0 - 1e-6) * limit)
+            step->slip++;
+        else
+            step->stick++;
+    }
     now->iterations = info.iters;
     for (int i = 0; i < wall->system.dofs; i++)
         wall->u[i] += wall->options.dt * wall->v[i];

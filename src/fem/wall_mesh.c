@@ -100,16 +100,6 @@ static void add(contact_list *list, int node, int other, int axis, double sign)
     list->n++;
 }
 
-/* The block of a course that holds the abscissa x. */
-static int block_at(const wall_layout *layout, int course, double x)
-{
-    int b = 0;
-    while (layout->block[b].course != course ||
-           x > layout->block[b].low[0] + layout->block[b].size[0] + 1e-9)
-        b++;
-    return b;
-}
-
 /* All nodes of a finely meshed block's lower or upper face meet the neighbouring course
  * or support. */
 static void bed_joint(const wall_layout *layout, const wall_block *b, int upper,
@@ -120,19 +110,16 @@ static void bed_joint(const wall_layout *layout, const wall_block *b, int upper,
         for (int i = 0; i < b->n[0]; i++) {
             const double x = b->low[0] + b->size[0] * i / (b->n[0] - 1);
             int other = upper ? UPPER_SUPPORT : LOWER_SUPPORT;
-            if (course >= 0 && course < COURSES)
-                other = block_at(layout, course, x);
+            if (course >= 0 && course < COURSES) {
+                /* The block of a course that holds the abscissa x. */
+                other = 0;
+                while (layout->block[other].course != course ||
+                       x > layout->block[other].low[0] + layout->block[other].size[0] +
+                               1e-9)
+                    other++;
+            }
             add(list, wall_node(b, i, j, k), other, 2, upper ? -1.0 : 1.0);
         }
-}
-
-/* The left face of a block meets its left neighbour, at the heights between the bed
- * joints: an edge node with contacts in two joints would be held twice. */
-static void head_joint(const wall_block *b, int neighbour, contact_list *list)
-{
-    for (int k = 1; k + 1 < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            add(list, wall_node(b, 0, j, k), neighbour, 0, 1.0);
 }
 
 int wall_find_contacts(const wall_layout *layout, wall_contact *contacts)
@@ -144,8 +131,15 @@ int wall_find_contacts(const wall_layout *layout, wall_contact *contacts)
             bed_joint(layout, block, 0, &list);
             bed_joint(layout, block, 1, &list);
         }
-        if (b > 0 && layout->block[b - 1].course == block->course)
-            head_joint(block, b - 1, &list);
+        if (b > 0 && layout->block[b - 1].course == block->course) {
+            /* The left face of a block meets its left neighbour, at the heights between
+             * the bed joints: an edge node with contacts in two joints would be held
+             * twice. */
+            const int neighbour = b - 1;
+            for (int k = 1; k + 1 < block->n[2]; k++)
+                for (int j = 0; j < block->n[1]; j++)
+                    add(&list, wall_node(block, 0, j, k), neighbour, 0, 1.0);
+        }
     }
     return list.n;
 }
@@ -179,31 +173,28 @@ static int interpolate(const wall_block *b, const double *p, int node[8],
     return n;
 }
 
-/* The entries of one contact's three columns of H. */
-static void contact_entries(const wall_layout *layout, const rb_fem_mesh *mesh,
-                            int column, const wall_contact *c, rb_triplets *t)
-{
-    int node[9] = {c->node}, n = 1;
-    double weight[9] = {-1.0};
-    if (c->other >= 0 && c->other < BLOCKS)
-        n += interpolate(&layout->block[c->other], mesh->x + 3 * c->node, node + 1,
-                         weight + 1);
-    for (int k = 0; k < 3; k++) {
-        const double sign = k == 0 ? c->sign : 1.0;
-        for (int a = 0; a < n; a++)
-            rb_triplets_add(t, mesh->dof[3 * node[a] + wall_axis(c, k)], column + k,
-                            -sign * weight[a]);
-    }
-    if (c->other == UPPER_SUPPORT)
-        rb_triplets_add(t, mesh->dofs, column, -c->sign);
-}
-
 rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh,
                            int contacts, const wall_contact *contact, rb_sparse *H)
 {
     rb_triplets t = {.rows = mesh->dofs + 1, .cols = 3 * contacts};
-    for (int i = 0; i < contacts; i++)
-        contact_entries(layout, mesh, 3 * i, contact + i, &t);
+    for (int i = 0; i < contacts; i++) {
+        /* The entries of one contact's three columns of H. */
+        const int column = 3 * i;
+        const wall_contact *c = contact + i;
+        int node[9] = {c->node}, n = 1;
+        double weight[9] = {-1.0};
+        if (c->other >= 0 && c->other < BLOCKS)
+            n += interpolate(&layout->block[c->other], mesh->x + 3 * c->node, node + 1,
+                             weight + 1);
+        for (int k = 0; k < 3; k++) {
+            const double sign = k == 0 ? c->sign : 1.0;
+            for (int a = 0; a < n; a++)
+                rb_triplets_add(&t, mesh->dof[3 * node[a] + wall_axis(c, k)], column + k,
+                                -sign * weight[a]);
+        }
+        if (c->other == UPPER_SUPPORT)
+            rb_triplets_add(&t, mesh->dofs, column, -c->sign);
+    }
     const rb_status s = rb_sparse_from_triplets(&t, H);
     rb_triplets_free(&t);
     return s;

@@ -36,22 +36,6 @@ static rb_status append(rb_sparse *a, double diagonal)
     return RB_OK;
 }
 
-/* The support's own weight is borne by the jack. */
-static rb_status fill_loads(const rb_fem_mesh *mesh, wall_system *s)
-{
-    double *down = rb_alloc((size_t)s->dofs, 1);
-    s->weight = rb_alloc((size_t)s->dofs, 1);
-    s->press = rb_alloc((size_t)s->dofs, 1);
-    if (down && s->weight && s->press) {
-        for (int a = 0; a < mesh->nodes; a++)
-            down[mesh->dof[3 * a + 2]] = -gravity;
-        rb_sparse_apply(1.0, &s->M, down, 0.0, s->weight);
-        s->press[s->dofs - 1] = -1.0;
-    }
-    free(down);
-    return s->weight && s->press && down ? RB_OK : RB_ENOMEM;
-}
-
 rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh,
                               int contacts, const wall_contact *contact, wall_system *s,
                               rb_message *why)
@@ -65,8 +49,20 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
         status = append(&s->K, 0.0);
     if (status == RB_OK)
         status = append(&s->M, support_mass);
-    if (status == RB_OK)
-        status = fill_loads(mesh, s);
+    if (status == RB_OK) {
+        /* The support's own weight is borne by the jack. */
+        double *down = rb_alloc((size_t)s->dofs, 1);
+        s->weight = rb_alloc((size_t)s->dofs, 1);
+        s->press = rb_alloc((size_t)s->dofs, 1);
+        if (down && s->weight && s->press) {
+            for (int a = 0; a < mesh->nodes; a++)
+                down[mesh->dof[3 * a + 2]] = -gravity;
+            rb_sparse_apply(1.0, &s->M, down, 0.0, s->weight);
+            s->press[s->dofs - 1] = -1.0;
+        }
+        free(down);
+        status = s->weight && s->press && down ? RB_OK : RB_ENOMEM;
+    }
     if (status == RB_OK)
         status = wall_contact_map(layout, mesh, contacts, contact, &s->H);
     if (status != RB_OK)
@@ -75,19 +71,6 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
 }
 
 /* ---- Rigid blocks ------------------------------------------------------------------ */
-
-/* Velocities of a node at arm from the block's centre under the block's six freedoms. */
-static void add_rigid_rows(const rb_fem_mesh *mesh, int node, int block,
-                           const double *centre, rb_triplets *t)
-{
-    for (int c = 0; c < 3; c++) {
-        const int row = mesh->dof[3 * node + c], d = (c + 1) % 3, e = (c + 2) % 3;
-        rb_triplets_add(t, row, 6 * block + c, 1.0);
-        /* (omega x arm)_c = omega_d arm_e - omega_e arm_d */
-        rb_triplets_add(t, row, 6 * block + 3 + d, mesh->x[3 * node + e] - centre[e]);
-        rb_triplets_add(t, row, 6 * block + 3 + e, centre[d] - mesh->x[3 * node + d]);
-    }
-}
 
 static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh,
                                rb_sparse *R)
@@ -98,8 +81,20 @@ static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mes
         double centre[3];
         for (int c = 0; c < 3; c++)
             centre[c] = block->low[c] + 0.5 * block->size[c];
-        for (int a = 0; a < block->n[0] * block->n[1] * block->n[2]; a++)
-            add_rigid_rows(mesh, block->first + a, b, centre, &t);
+        for (int a = 0; a < block->n[0] * block->n[1] * block->n[2]; a++) {
+            /* Velocities of a node at arm from the block's centre under the block's six
+             * freedoms. */
+            const int node = block->first + a;
+            for (int c = 0; c < 3; c++) {
+                const int row = mesh->dof[3 * node + c], d = (c + 1) % 3, e = (c + 2) % 3;
+                rb_triplets_add(&t, row, 6 * b + c, 1.0);
+                /* (omega x arm)_c = omega_d arm_e - omega_e arm_d */
+                rb_triplets_add(&t, row, 6 * b + 3 + d,
+                                mesh->x[3 * node + e] - centre[e]);
+                rb_triplets_add(&t, row, 6 * b + 3 + e,
+                                centre[d] - mesh->x[3 * node + d]);
+            }
+        }
     }
     rb_triplets_add(&t, mesh->dofs, 6 * BLOCKS, 1.0);
     const rb_status s = rb_sparse_from_triplets(&t, R);

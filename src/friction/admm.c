@@ -128,6 +128,23 @@ static rb_status iterate(admm *a)
     return RB_OK;
 }
 
+/* A larger penalty holds r and z together, a smaller one lets z move. */
+static rb_status balance(admm *a)
+{
+    const double ratio = sqrt(a->primal / a->dual);
+    a->primal = a->dual = 0.0;
+    a->next = 2 * a->k;
+    if (!isfinite(ratio) || (ratio < BALANCE && ratio > 1.0 / BALANCE))
+        return RB_OK;
+    const double before = a->penalty;
+    a->penalty *= fmax(0.02, fmin(50.0, ratio));
+    for (int i = 0; i < a->task->m; i++) /* P y, the velocity, stays */
+        a->x[i] = a->z[i] + a->y[i] * before / a->penalty;
+    split(a);
+    rb_friction_anderson_forget(&a->anderson);
+    return factor(a);
+}
+
 static rb_status assess(admm *a)
 {
     rb_friction_task *t = a->task;
@@ -160,23 +177,8 @@ static rb_status go_on_alternating(void *state)
         st = iterate(a);
         a->k++;
         t->info->iters++;
-        if (st == RB_OK && a->k == a->next) {
-            /* A larger penalty holds r and z together, a smaller one lets z move. */
-            const double ratio = sqrt(a->primal / a->dual);
-            a->primal = a->dual = 0.0;
-            a->next = 2 * a->k;
-            if (!isfinite(ratio) || (ratio < BALANCE && ratio > 1.0 / BALANCE))
-                st = RB_OK;
-            else {
-                const double before = a->penalty;
-                a->penalty *= fmax(0.02, fmin(50.0, ratio));
-                for (int i = 0; i < a->task->m; i++) /* P y, the velocity, stays */
-                    a->x[i] = a->z[i] + a->y[i] * before / a->penalty;
-                split(a);
-                rb_friction_anderson_forget(&a->anderson);
-                st = factor(a);
-            }
-        }
+        if (st == RB_OK && a->k == a->next)
+            st = balance(a);
         if (st == RB_OK)
             st = a->k % LOOK_EVERY == 0 || a->k == a->limit ? assess(a) : RB_MAXITER;
     }

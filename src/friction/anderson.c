@@ -79,6 +79,25 @@ static int solve_normal_equations(const rb_friction_anderson *a, double *x)
     return 1;
 }
 
+static void extrapolate(rb_friction_anderson *a, double *r, double *u)
+{
+    const size_t m = (size_t)a->m;
+    double weight[DEPTH];
+    for (int i = 0; i < a->used; i++)
+        weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
+    if (!solve_normal_equations(a, weight)) {
+        a->used = a->next = 0;
+        return;
+    }
+    for (int i = 0; i < a->used; i++) {
+        const double *dr = a->dr + (size_t)i * m, *du = a->du + (size_t)i * m;
+        for (size_t k = 0; k < m; k++) {
+            r[k] -= weight[i] * dr[k];
+            u[k] -= weight[i] * du[k];
+        }
+    }
+}
+
 void rb_friction_anderson_forget(rb_friction_anderson *a)
 {
     a->used = a->next = a->known = 0;
@@ -103,19 +122,6 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
     memcpy(a->u, u, bytes);
     a->size = size;
     a->known = 1;
-    if (a->used) {
-        double weight[DEPTH];
-        for (int i = 0; i < a->used; i++)
-            weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
-        if (!solve_normal_equations(a, weight)) {
-            a->used = a->next = 0;
-        } else
-            for (int i = 0; i < a->used; i++) {
-                const double *dr = a->dr + (size_t)i * m, *du = a->du + (size_t)i * m;
-                for (size_t k = 0; k < m; k++) {
-                    r[k] -= weight[i] * dr[k];
-                    u[k] -= weight[i] * du[k];
-                }
-            }
-    }
+    if (a->used)
+        extrapolate(a, r, u);
 }

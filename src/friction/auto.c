@@ -335,6 +335,33 @@ static rb_status play(portfolio *p, const plan *plans, member **winner)
     return s;
 }
 
+/* The answer is the winner's; operations and iterations are those of all. */
+static void conclude(const portfolio *p, const member *winner, rb_friction_task *task)
+{
+    rb_friction_info *info = task->info;
+    const rb_friction_info *proof = &winner->info;
+    const rb_friction_task *from = &winner->task;
+    for (int k = 0; k < p->members; k++) {
+        info->iters += p->member[k].info.iters;
+        info->flops += p->member[k].info.flops;
+    }
+    task->proved = from->proved;
+    if (!task->proved) {
+        rb_friction_task_start(task);
+        return;
+    }
+    if (from->r != task->r) {
+        memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
+        memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
+        memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
+    }
+    info->solver = proof->solver;
+    info->residual = proof->residual;
+    info->scaled = proof->scaled;
+    info->floor = proof->floor;
+    info->measure = proof->measure;
+}
+
 static rb_status run_auto(rb_friction_task *task, int variant)
 {
     (void)variant;
@@ -348,29 +375,7 @@ static rb_status run_auto(rb_friction_task *task, int variant)
     p.members = 0;
     p.memory = NULL;
     s = play(&p, plans, &winner);
-    /* The answer is the winner's; operations and iterations are those of all. */
-    rb_friction_info *info = task->info;
-    const rb_friction_info *proof = &winner->info;
-    const rb_friction_task *from = &winner->task;
-    for (int k = 0; k < p.members; k++) {
-        info->iters += p.member[k].info.iters;
-        info->flops += p.member[k].info.flops;
-    }
-    task->proved = from->proved;
-    if (!task->proved) {
-        rb_friction_task_start(task);
-    } else {
-        if (from->r != task->r) {
-            memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
-            memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
-            memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
-        }
-        info->solver = proof->solver;
-        info->residual = proof->residual;
-        info->scaled = proof->scaled;
-        info->floor = proof->floor;
-        info->measure = proof->measure;
-    }
+    conclude(&p, winner, task);
     portfolio_free(&p);
     return s;
 }

@@ -63,6 +63,17 @@ static double find_pivot(const equations *e, int first, int *row, int *col)
     return most;
 }
 
+/* Row i -= what makes its entry in this column 0, exactly, as the pivot is 1. */
+static void subtract(equations *e, int i, int pivot, int col)
+{
+    double *to = row_of(e, i);
+    const double *from = row_of(e, pivot), factor = to[col];
+    for (int j = 0; factor != 0.0 && j < e->width; j++) {
+        const double change = factor * from[j], left = to[j] - change;
+        to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
+    }
+}
+
 /* Rows of size 1 first, so that units of single constraints do not matter. */
 static void solve_equations(equations *e)
 {
@@ -87,16 +98,8 @@ static void solve_equations(equations *e)
         a[col] = 1.0;
         e->at[e->rank] = col;
         for (int i = 0; i < e->rows; i++)
-            if (i != e->rank) {
-                /* Row i -= what makes its entry in this column 0, exactly, as the pivot
-                 * is 1. */
-                double *to = row_of(e, i);
-                const double *from = row_of(e, e->rank), factor = to[col];
-                for (int j = 0; factor != 0.0 && j < e->width; j++) {
-                    const double change = factor * from[j], left = to[j] - change;
-                    to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
-                }
-            }
+            if (i != e->rank)
+                subtract(e, i, e->rank, col);
     }
 }
 

@@ -24,16 +24,6 @@ typedef struct {
     double flops;
 } condenser;
 
-static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
-{
-    int rank;
-    if (rb_sparse_rank(k, &rank) != RB_OK)
-        return RB_ENOMEM;
-    return rb_fail(why, RB_SINGULAR,
-                   "K is singular to rounding (nullity %d): there is no W to condense to",
-                   k->rows - rank);
-}
-
 /* The entries of a in rows of `body` and in the listed columns, renumbered. */
 static rb_status part_of(const condenser *c, const rb_sparse *a, int body, int cols,
                          const int *list, rb_sparse *part)
@@ -217,43 +207,31 @@ static rb_status list_columns(condenser *c)
     return s;
 }
 
-static rb_status list_bodies(condenser *c)
+/* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body follow
+ * each other and touch the same columns: they become one, block-diagonal. */
+static rb_status join_bodies(condenser *c)
 {
-    rb_status s = list_columns(c);
-    if (s == RB_OK) {
-        /* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body
-         * follow each other and touch the same columns: they become one, block-diagonal.
-         */
-        int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
-        if (!joined)
-            s = RB_ENOMEM;
-        else {
-            for (int i = 0; i < c->p->dofs; i++)
-                dofs[c->body[i]]++;
-            int count = 0, size = 0; /* of the joined one that grows */
-            for (int b = 0; b < c->bodies; b++) {
-                const int *from = c->columns_of + b, n = from[1] - from[0];
-                const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
-                                 size + dofs[b] <= MOST_DOFS &&
-                                 !memcmp(c->column + from[0], c->column + from[-1],
-                                         (size_t)n * sizeof *c->column);
-                size = same ? size + dofs[b] : dofs[b];
-                count += !same;
-                joined[b] = count - 1;
-            }
-            for (int i = 0; i < c->p->dofs; i++)
-                c->body[i] = joined[c->body[i]];
-            c->bodies = count;
-            free(joined);
-            s = RB_OK;
-        }
+    int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
+    if (!joined)
+        return RB_ENOMEM;
+    for (int i = 0; i < c->p->dofs; i++)
+        dofs[c->body[i]]++;
+    int count = 0, size = 0; /* of the joined one that grows */
+    for (int b = 0; b < c->bodies; b++) {
+        const int *from = c->columns_of + b, n = from[1] - from[0];
+        const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
+                         size + dofs[b] <= MOST_DOFS &&
+                         !memcmp(c->column + from[0], c->column + from[-1],
+                                 (size_t)n * sizeof *c->column);
+        size = same ? size + dofs[b] : dofs[b];
+        count += !same;
+        joined[b] = count - 1;
     }
-    free(c->column);
-    free(c->columns_of);
-    c->column = c->columns_of = NULL;
-    if (s == RB_OK)
-        s = list_columns(c);
-    return s == RB_OK ? list_dofs(c) : s;
+    for (int i = 0; i < c->p->dofs; i++)
+        c->body[i] = joined[c->body[i]];
+    c->bodies = count;
+    free(joined);
+    return RB_OK;
 }
 
 /* ---- W column by column ------------------------------------------------------------ */
@@ -410,7 +388,15 @@ static rb_status condense(condenser *c, rb_friction_problem *local)
     if (s == RB_OK)
         s = rb_sparse_components(&c->p->K, &c->bodies, c->body);
     if (s == RB_OK) {
-        s = list_bodies(c);
+        rb_status status = list_columns(c);
+        if (status == RB_OK)
+            status = join_bodies(c);
+        free(c->column);
+        free(c->columns_of);
+        c->column = c->columns_of = NULL;
+        if (status == RB_OK)
+            status = list_columns(c);
+        s = status == RB_OK ? list_dofs(c) : status;
         const size_t bodies = c->bodies > 0 ? (size_t)c->bodies : 1;
         c->Y = calloc(bodies, sizeof *c->Y);
         c->W = calloc(bodies, sizeof *c->W);
@@ -459,7 +445,14 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
     *flops += c.flops;
     if (s != RB_OK)
         rb_friction_problem_free(local);
-    return s == RB_SINGULAR ? name_the_nullity(&global->K, why) : s;
+    if (s != RB_SINGULAR)
+        return s;
+    int rank;
+    if (rb_sparse_rank(&global->K, &rank) != RB_OK)
+        return RB_ENOMEM;
+    return rb_fail(why, RB_SINGULAR,
+                   "K is singular to rounding (nullity %d): there is no W to condense to",
+                   global->K.rows - rank);
 }
 
 rb_status rb_friction_condense(const rb_friction_problem *global,

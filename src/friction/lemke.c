@@ -98,6 +98,48 @@ static void scatter(const rb_sparse *a, double *dense)
             dense[a->i[k] + (size_t)j * (size_t)a->rows] = a->x[k];
 }
 
+static void load_local(lemke *s, const rb_friction_problem *p)
+{
+    const size_t m = (size_t)s->task->m;
+    if (p->form == RB_FRICTION_LOCAL_SPARSE)
+        scatter(&p->Ws, s->W);
+    for (size_t k = 0; p->form == RB_FRICTION_LOCAL_DENSE && k < m * m; k++)
+        s->W[k] = p->W[k];
+    for (size_t k = 0; k < m; k++)
+        s->q[k] = p->q[k];
+}
+
+/* K singular: W, q with springs, and E = 1 - k W. */
+static rb_status load_held(lemke *s)
+{
+    rb_friction_measure *measure = s->task->measure;
+    const size_t m = (size_t)s->task->m;
+    rb_sparse w = {0};
+    s->E = rb_alloc(m, m);
+    rb_status st = s->E ? rb_friction_measure_spring_load(measure, s->q) : RB_ENOMEM;
+    if (st == RB_OK)
+        st = rb_sparse_cholesky_congruence(measure->factor, &s->task->problem->H, &w);
+    if (st == RB_OK)
+        scatter(&w, s->W);
+    for (size_t k = 0; st == RB_OK && k < m * m; k++)
+        s->E[k] = (k % (m + 1) == 0) - measure->spring * s->W[k];
+    rb_sparse_free(&w);
+    return st;
+}
+
+static void scale(lemke *s)
+{
+    const size_t m = (size_t)s->task->m;
+    double trace = 0.0;
+    for (size_t k = 0; k < m; k++)
+        trace += fabs(s->W[k * (m + 1)]);
+    s->unit = trace > 0.0 ? (double)m / trace : 1.0;
+    for (size_t k = 0; k < m * m; k++)
+        s->W[k] *= s->unit;
+    for (size_t k = 0; k < m; k++)
+        s->q[k] *= s->unit;
+}
+
 /* T -> -T in every contact; twice is nothing. */
 static void mirror(lemke *s)
 {
@@ -249,52 +291,34 @@ static rb_status run_attempt(lemke *s, const attempt *a)
     return st;
 }
 
-static rb_status load(lemke *s)
-{
-    rb_status st = RB_OK;
-    if (s->task->shared->local) {
-        const size_t m = (size_t)s->task->m;
-        if (s->task->shared->local->form == RB_FRICTION_LOCAL_SPARSE)
-            scatter(&s->task->shared->local->Ws, s->W);
-        for (size_t k = 0;
-             s->task->shared->local->form == RB_FRICTION_LOCAL_DENSE && k < m * m; k++)
-            s->W[k] = s->task->shared->local->W[k];
-        for (size_t k = 0; k < m; k++)
-            s->q[k] = s->task->shared->local->q[k];
-    } else {
-        /* K singular: W, q with springs, and E = 1 - k W. */
-        rb_friction_measure *measure = s->task->measure;
-        const size_t m = (size_t)s->task->m;
-        rb_sparse w = {0};
-        s->E = rb_alloc(m, m);
-        st = s->E ? rb_friction_measure_spring_load(measure, s->q) : RB_ENOMEM;
-        if (st == RB_OK)
-            st = rb_sparse_cholesky_congruence(measure->factor, &s->task->problem->H, &w);
-        if (st == RB_OK)
-            scatter(&w, s->W);
-        for (size_t k = 0; st == RB_OK && k < m * m; k++)
-            s->E[k] = (k % (m + 1) == 0) - measure->spring * s->W[k];
-        rb_sparse_free(&w);
-    }
-    if (st == RB_OK) {
-        const size_t m = (size_t)s->task->m;
-        double trace = 0.0;
-        for (size_t k = 0; k < m; k++)
-            trace += fabs(s->W[k * (m + 1)]);
-        s->unit = trace > 0.0 ? (double)m / trace : 1.0;
-        for (size_t k = 0; k < m * m; k++)
-            s->W[k] *= s->unit;
-        for (size_t k = 0; k < m; k++)
-            s->q[k] *= s->unit;
-    }
-    return st;
-}
-
 /* W is sparse, and its tableau would not be. */
 static int is_sparse(const rb_friction_problem *w)
 {
     const double m = w->dimension * w->contacts;
     return w->form == RB_FRICTION_LOCAL_SPARSE && w->Ws.p[w->Ws.cols] < 0.25 * m * m;
+}
+
+static rb_status try(lemke *s, const attempt *a)
+{
+    rb_friction_task *t = s->task;
+    const rb_friction_problem *w = t->shared->local;
+    if (a->kind == PAIRS)
+        return w ? rb_friction_lemke_pairs(t) : RB_SINGULAR;
+    if (a == attempts && (!w || is_sparse(w)))
+        return RB_SINGULAR;
+    rb_status st = RB_OK;
+    if (!s->M) { /* no dense attempt was made yet */
+        st = lemke_alloc(t, s);
+        if (st == RB_OK) {
+            if (s->task->shared->local)
+                load_local(s, s->task->shared->local);
+            else
+                st = load_held(s);
+            if (st == RB_OK)
+                scale(s);
+        }
+    }
+    return st == RB_OK ? run_attempt(s, a) : st;
 }
 
 static rb_status run_lemke(rb_friction_task *task, int variant)
@@ -304,24 +328,7 @@ static rb_status run_lemke(rb_friction_task *task, int variant)
     lemke s = {.task = task};
     rb_status first = RB_OK, st = RB_MAXITER;
     for (int k = from; st > 0 && k < to; k++) {
-        const attempt *a = &attempts[k];
-        rb_friction_task *t = s.task;
-        const rb_friction_problem *w = t->shared->local;
-        if (a->kind == PAIRS)
-            st = w ? rb_friction_lemke_pairs(t) : RB_SINGULAR;
-        else {
-            if (a == attempts && (!w || is_sparse(w)))
-                st = RB_SINGULAR;
-            else {
-                st = RB_OK;
-                if (!s.M) { /* no dense attempt was made yet */
-                    st = lemke_alloc(t, &s);
-                    if (st == RB_OK)
-                        st = load(&s);
-                }
-                st = st == RB_OK ? run_attempt(&s, a) : st;
-            }
-        }
+        st = try(&s, &attempts[k]);
         if (first == RB_OK || first == RB_SINGULAR)
             first = st; /* what went wrong first is what is told */
         if (st > 0 && rb_friction_task_late(task))

@@ -26,27 +26,6 @@ static int moves_by_element(const rb_rolling_particles *r, double c)
 
 /* ---- Bodies that relax ------------------------------------------------------------- */
 
-/* Elements as long as a step, so that the past moves from one to the next. */
-static rb_status match_elements(rb_rolling_particles *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
-    const double middle = 0.5 * (from + to), step = r->step;
-    rb_rolling_plan plan = model->plan;
-    rb_rolling_mesh mesh;
-
-    plan.elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
-    const double half = 0.5 * plan.elements * step;
-    rb_status s =
-        rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh, why);
-    if (s != RB_OK)
-        return s;
-    rb_rolling_mesh_free(&model->mesh);
-    model->mesh = mesh;
-    rb_contact_state_free(&model->state);
-    return rb_contact_state_alloc(mesh.n, &model->state);
-}
-
 /* They come without a past.  Behind the mesh it counts for as long as its slowest term
  * remembers, or for all the way. */
 static rb_status create_past(rb_rolling_particles *r, rb_message *why)
@@ -58,8 +37,25 @@ static rb_status create_past(rb_rolling_particles *r, rb_message *why)
     rb_status s = RB_OK;
 
     r->interval = -1.0;
-    if (r->step > 0.0 && !r->keeps_elements)
-        s = match_elements(r, why);
+    if (r->step > 0.0 && !r->keeps_elements) {
+        /* Elements as long as a step, so that the past moves from one to the next. */
+        rb_rolling_model *model = r->model;
+        const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
+        const double middle = 0.5 * (from + to), step = r->step;
+        rb_rolling_plan plan = model->plan;
+        rb_rolling_mesh mesh;
+
+        plan.elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
+        const double half = 0.5 * plan.elements * step;
+        s = rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh,
+                                    why);
+        if (s == RB_OK) {
+            rb_rolling_mesh_free(&model->mesh);
+            model->mesh = mesh;
+            rb_contact_state_free(&model->state);
+            s = rb_contact_state_alloc(mesh.n, &model->state);
+        }
+    }
     for (int b = 0; b < 1 + rc->elastic_b; b++)
         for (int k = 0; k < memory[b]->n; k++)
             slowest = fmax(slowest, memory[b]->time[k]);

@@ -252,25 +252,6 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program,
 
 /* ---- The case's own program -------------------------------------------------------- */
 
-/* The tangential control that loads the contact at rest: its column and last value. A
- * transient that is driven by its creepage starts without a force. */
-static double last_loading(const rb_rolling_case *rc, double *columns, int rows,
-                           rb_rolling_program *program)
-{
-    double *column = columns + 2 * (size_t)rows;
-
-    if (!isnan(rc->force_ratio)) {
-        program->force_ratio = column;
-        return rc->force_ratio;
-    }
-    if (!isnan(rc->force) || rc->formulation == RB_TRANSIENT) {
-        program->force = isnan(rc->force) ? NULL : column;
-        return isnan(rc->force) ? 0.0 : rc->force;
-    }
-    program->shift = column;
-    return rb_rolling_wanted_shift(rc);
-}
-
 double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program *program)
 {
     const int rolls = rc->formulation == RB_TRANSIENT;
@@ -285,7 +266,23 @@ double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program
     double *distance = columns, *normal = columns + rows, *loading = normal + rows;
     *program = (rb_rolling_program){.distance = rolls ? distance : NULL};
     *(isnan(d.load) ? &program->approach : &program->load) = normal;
-    const double last = last_loading(rc, columns, rows, program);
+    double last;
+    /* The tangential control that loads the contact at rest: its column and last value. A
+     * transient that is driven by its creepage starts without a force. */
+    double *column = columns + 2 * (size_t)rows;
+
+    if (!isnan(rc->force_ratio)) {
+        program->force_ratio = column;
+        last = rc->force_ratio;
+    } else {
+        if (!isnan(rc->force) || rc->formulation == RB_TRANSIENT) {
+            program->force = isnan(rc->force) ? NULL : column;
+            last = isnan(rc->force) ? 0.0 : rc->force;
+        } else {
+            program->shift = column;
+            last = rb_rolling_wanted_shift(rc);
+        }
+    }
     const int loaded = last != 0.0 && count > 1;
     program->n = count + (loaded ? count : 0) + rolls;
     for (int r = 0; r < program->n; r++) {

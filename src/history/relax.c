@@ -27,20 +27,15 @@ static void loss_factors(double time, double step, double factor[3])
     }
 }
 
-/* Compliance of a step over the glassy one. */
-static double softening(const rb_rolling_memory *memory, double step)
-{
-    double sum = 1.0;
-
-    for (int k = 0; k < memory->n; k++)
-        sum += memory->ratio[k] *
-               (isinf(step) ? 1.0 : rb_bem_fading_over(memory->time[k], step).after);
-    return sum;
-}
-
 static void soften(rb_rolling_body *body, double step)
 {
-    body->young /= softening(&body->memory, step);
+    /* Compliance of a step over the glassy one. */
+    double sum = 1.0;
+
+    for (int k = 0; k < body->memory.n; k++)
+        sum += body->memory.ratio[k] *
+               (isinf(step) ? 1.0 : rb_bem_fading_over(body->memory.time[k], step).after);
+    body->young /= sum;
     body->memory.n = 0;
 }
 

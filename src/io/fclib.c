@@ -685,7 +685,7 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
 {
     enum { GROWTH = 1 << 20 };
     const contents *c = context;
-    rb_status s = RB_ENOMEM;
+    rb_status s = RB_OK;
     int failed = 0;
     if (H5Eset_auto2(H5E_DEFAULT, note_failure, &failed) < 0) /* its first call */
         failed = 1;
@@ -700,7 +700,6 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
             H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
         const hid_t info =
             H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-        s = RB_OK;
         write_int(root, "spacedim", p.spacedim);
         write_text(info, "title", c->title ? c->title : "");
         write_text(info, "description", c->description ? c->description : "");
@@ -719,14 +718,10 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
             H5Fflush(file, H5F_SCOPE_LOCAL);
             const ssize_t n = H5Fget_file_image(file, NULL, 0);
             void *image = n > 0 ? malloc((size_t)n) : NULL;
-            if (!image)
-                s = RB_ENOMEM;
-            else {
-                H5Fget_file_image(file, image, (size_t)n);
+            s = image ? RB_OK : RB_ENOMEM;
+            if (image && H5Fget_file_image(file, image, (size_t)n) >= 0)
                 fwrite(image, 1, (size_t)n, out);
-                free(image);
-                s = RB_OK;
-            }
+            free(image);
         }
     }
     return failed || s != RB_OK ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;

@@ -74,6 +74,45 @@ static int have(io_tokens *t, const void *memory)
     return t->status == RB_OK;
 }
 
+static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
+{
+    const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
+    if (!symmetric) {
+        m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");
+        rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
+        return;
+    }
+    if (!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") ||
+        !have(t, m->dense = rb_alloc(rows, cols)))
+        return;
+    for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
+        rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows,
+                           "column of the triangle");
+        for (size_t i = j; i < rows; i++)
+            m->dense[j + i * rows] = m->dense[i + j * rows];
+    }
+}
+
+static void read_coordinates(io_tokens *t, int symmetric, rb_io_matrix *m)
+{
+    const int most = symmetric ? INT_MAX / 2 : INT_MAX;
+    const int count = rb_io_tokens_int(t, 0, most, "number of entries");
+    const size_t room = (size_t)count << symmetric;
+    if (!rb_io_tokens_room_for(t, (size_t)count, 3, "entries"))
+        return;
+    m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
+    if (rb_triplets_reserve(&m->entries, room) != RB_OK)
+        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
+    for (int k = 0; t->status == RB_OK && k < count; k++) {
+        const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
+        const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
+        const double x = rb_io_tokens_real(t, "value");
+        rb_triplets_add(&m->entries, i, j, x);
+        if (symmetric && i != j)
+            rb_triplets_add(&m->entries, j, i, x);
+    }
+}
+
 void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
 {
     *m = (rb_io_matrix){0};
@@ -96,41 +135,10 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
         rb_io_tokens_fail(t, "a matrix of %d by %d has no entries", m->rows, m->cols);
     if (t->status == RB_OK && kind.symmetric && m->rows != m->cols)
         rb_io_tokens_fail(t, "a symmetric matrix of %d by %d", m->rows, m->cols);
-    if (kind.coordinate) {
-        const int most = kind.symmetric ? INT_MAX / 2 : INT_MAX;
-        const int count = rb_io_tokens_int(t, 0, most, "number of entries");
-        const size_t room = (size_t)count << kind.symmetric;
-        if (rb_io_tokens_room_for(t, (size_t)count, 3, "entries")) {
-            m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
-            if (rb_triplets_reserve(&m->entries, room) != RB_OK)
-                t->status =
-                    rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
-            for (int k = 0; t->status == RB_OK && k < count; k++) {
-                const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
-                const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
-                const double x = rb_io_tokens_real(t, "value");
-                rb_triplets_add(&m->entries, i, j, x);
-                if (kind.symmetric && i != j)
-                    rb_triplets_add(&m->entries, j, i, x);
-            }
-        }
-    } else {
-        const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
-        if (!kind.symmetric) {
-            m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");
-            rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
-        } else {
-            if (!(!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") ||
-                  !have(t, m->dense = rb_alloc(rows, cols)))) {
-                for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
-                    rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows,
-                                       "column of the triangle");
-                    for (size_t i = j; i < rows; i++)
-                        m->dense[j + i * rows] = m->dense[i + j * rows];
-                }
-            }
-        }
-    }
+    if (kind.coordinate)
+        read_coordinates(t, kind.symmetric, m);
+    else
+        read_array(t, kind.symmetric, m);
     if (t->status == RB_OK && rb_io_tokens_more(t))
         rb_io_tokens_fail(t, "expected the end of the file after the last number");
     if (t->status != RB_OK)

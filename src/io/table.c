@@ -190,10 +190,8 @@ static rb_status read_line(reading *r, char *text)
         const int n = count_words(words);
         if (count_words(r->comment) == n)
             s = keep_names(r, r->comment);
-        else {
+        else
             r->t->columns = n;
-            s = RB_OK;
-        }
     }
     return s == RB_OK ? read_row(r, words) : s;
 }

@@ -138,6 +138,27 @@ static rb_status refresh(mixed *p)
 
 /* ---- Where the path begins --------------------------------------------------------- */
 
+/* A basic variable that is out of its range by rounding is at its bound: the z of a
+ * solution must be recognised as one. */
+static void forgive_rounding(mixed *p)
+{
+    double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
+    for (int s = 0; s < p->n; s++) {
+        double *most = p->b.variable[s] < p->n ? &most_w : &most_z;
+        *most = fmax(*most, fabs(p->value[s]));
+    }
+    for (int s = 0; s < p->n; s++) {
+        const int v = p->b.variable[s];
+        const range r = range_of(p, v);
+        const double small = ROUNDING * (v < p->n ? most_w : most_z);
+        double *x = p->value + s;
+        if (*x < r.low && *x >= r.low - small)
+            *x = r.low;
+        else if (*x > r.high && *x <= r.high + small)
+            *x = r.high;
+    }
+}
+
 /* All z at a bound; with a start, those between their bounds basic. */
 static rb_status first_basis(mixed *p, const double *start)
 {
@@ -154,25 +175,8 @@ static rb_status first_basis(mixed *p, const double *start)
     memset(p->shift, 0, (size_t)n * sizeof *p->shift);
     memset(p->value, 0, (size_t)n * sizeof *p->value);
     const rb_status s = refresh(p);
-    if (s == RB_OK) {
-        /* A basic variable that is out of its range by rounding is at its bound: the z of
-         * a solution must be recognised as one. */
-        double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
-        for (int j = 0; j < p->n; j++) {
-            double *most = p->b.variable[j] < p->n ? &most_w : &most_z;
-            *most = fmax(*most, fabs(p->value[j]));
-        }
-        for (int j = 0; j < p->n; j++) {
-            const int v = p->b.variable[j];
-            const range r = range_of(p, v);
-            const double small = ROUNDING * (v < p->n ? most_w : most_z);
-            double *x = p->value + j;
-            if (*x < r.low && *x >= r.low - small)
-                *x = r.low;
-            else if (*x > r.high && *x <= r.high + small)
-                *x = r.high;
-        }
-    }
+    if (s == RB_OK)
+        forgive_rounding(p);
     return s;
 }
 
@@ -402,21 +406,6 @@ static rb_status move(mixed *p, int entering, double sign, double step, int slot
     return RB_OK;
 }
 
-/* t enters at the value that makes all basic variables feasible. */
-static rb_status enter_t(mixed *p, int slot, int *leaving)
-{
-    const double t = p->first_t;
-    const int v = p->b.variable[slot], grows = p->y[slot] > 0.0;
-    for (int s = 0; s < p->n; s++)
-        p->y[s] = -p->y[s];
-    const rb_status status = move(p, 2 * p->n, 1.0, t, slot, 0);
-    if (v >= p->n) /* it comes from outside its box, unlike in the ratio test */
-        p->at_upper[v - p->n] = !grows;
-    p->info->iters++;
-    *leaving = v;
-    return status;
-}
-
 /* Of a pivot, beside what the basis has counted. */
 static const double PER_OPERATION = 0.35;
 
@@ -437,7 +426,20 @@ static rb_status set_out(mixed *p, const double *start)
     if (s == RB_OK)
         s = choose_cover(p);
     const int slot = s == RB_OK ? first_slot(p, &p->first_t) : NONE;
-    return slot == NONE ? s : enter_t(p, slot, &p->leaving);
+    if (slot == NONE)
+        return s;
+    /* t enters at the value that makes all basic variables feasible. */
+    int *leaving = &p->leaving;
+    const double t = p->first_t;
+    const int v = p->b.variable[slot], grows = p->y[slot] > 0.0;
+    for (int j = 0; j < p->n; j++)
+        p->y[j] = -p->y[j];
+    const rb_status status = move(p, 2 * p->n, 1.0, t, slot, 0);
+    if (v >= p->n) /* it comes from outside its box, unlike in the ratio test */
+        p->at_upper[v - p->n] = !grows;
+    p->info->iters++;
+    *leaving = v;
+    return status;
 }
 
 /* From the first basis to t = 0: after w(i) z(i) enters, after z(i) w(i), with the sign
@@ -499,6 +501,24 @@ static void split_free(split *f)
     free(f->q);
 }
 
+/* [M, -M_:F; -M_F:, M_FF] */
+static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
+{
+    rb_triplets t = {.rows = f->n, .cols = f->n};
+    for (int j = 0; j < M->cols; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            for (int more = 0; more < 4; more++) {
+                const int i = M->i[k], row = more & 1 ? number[i] : i;
+                const int col = more & 2 ? number[j] : j;
+                if (row >= 0 && col >= 0)
+                    rb_triplets_add(&t, row, col,
+                                    more == 1 || more == 2 ? -M->x[k] : M->x[k]);
+            }
+    const rb_status s = rb_sparse_from_triplets(&t, &f->M);
+    rb_triplets_free(&t);
+    return s;
+}
+
 static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
                               const double *cover, split *f)
 {
@@ -533,22 +553,8 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
             f->cover[f->n] = cover[i];
         f->of[f->n++ - n] = i;
     }
-    if (s == RB_OK && f->n > n) {
-        /* [M, -M_:F; -M_F:, M_FF] */
-        rb_triplets t = {.rows = f->n, .cols = f->n};
-        for (int j = 0; j < p->M->cols; j++)
-            for (int k = p->M->p[j]; k < p->M->p[j + 1]; k++)
-                for (int more = 0; more < 4; more++) {
-                    const int i = p->M->i[k], row = more & 1 ? number[i] : i;
-                    const int col = more & 2 ? number[j] : j;
-                    if (row >= 0 && col >= 0)
-                        rb_triplets_add(&t, row, col,
-                                        more == 1 || more == 2 ? -p->M->x[k]
-                                                               : p->M->x[k]);
-                }
-        s = rb_sparse_from_triplets(&t, &f->M);
-        rb_triplets_free(&t);
-    }
+    if (s == RB_OK && f->n > n)
+        s = split_matrix(p->M, number, f);
     free(number);
     return s;
 }

@@ -14,25 +14,6 @@ enum {
     PRESSED = 256 /* at rest in increments */
 };
 
-static int kind_of(const rb_rolling_case *rc, const rb_rolling_solution *s)
-{
-    const int is_static = rc->formulation == RB_STATIC;
-    const int plane_a = rb_rolling_body_can(&rc->a, RB_BODY_FLAT);
-    const int plane_b = rb_rolling_body_can(&rc->b, RB_BODY_FLAT);
-    int kind = ALWAYS;
-    kind |= is_static ? STATIC : ROLLS;
-    if (!is_static)
-        kind |= rb_rolling_carter_holds(rc) ? CARTER : DISSIMILAR;
-    kind |= plane_a ? HALFPLANE : WHEEL;
-    if (rc->elastic_b)
-        kind |= plane_b ? HALFPLANE : WHEEL;
-    if (s && s->solver == RB_SOLVER_LEMKE)
-        kind |= LEMKE;
-    if (is_static && rc->increments > 1)
-        kind |= PRESSED;
-    return kind;
-}
-
 static const struct {
     int number; /* in docs/theory.md 9 */
     int when;
@@ -81,7 +62,20 @@ static const struct {
 void rb_report_citations(FILE *out, const rb_rolling_case *rc,
                          const rb_rolling_solution *s)
 {
-    const int kind = kind_of(rc, s);
+    const int is_static = rc->formulation == RB_STATIC;
+    const int plane_a = rb_rolling_body_can(&rc->a, RB_BODY_FLAT);
+    const int plane_b = rb_rolling_body_can(&rc->b, RB_BODY_FLAT);
+    int kind = ALWAYS;
+    kind |= is_static ? STATIC : ROLLS;
+    if (!is_static)
+        kind |= rb_rolling_carter_holds(rc) ? CARTER : DISSIMILAR;
+    kind |= plane_a ? HALFPLANE : WHEEL;
+    if (rc->elastic_b)
+        kind |= plane_b ? HALFPLANE : WHEEL;
+    if (s && s->solver == RB_SOLVER_LEMKE)
+        kind |= LEMKE;
+    if (is_static && rc->increments > 1)
+        kind |= PRESSED;
     fputs("This run rests on (numbers of docs/theory.md 9):\n", out);
     for (size_t k = 0; k < sizeof papers / sizeof *papers; k++)
         if (papers[k].when & kind)

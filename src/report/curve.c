@@ -110,11 +110,6 @@ static double largest(int n, const double *x)
     return most;
 }
 
-static int is_over_speed(const rb_rolling_curve *c)
-{
-    return c->n > 1 && c->speed[0] != c->speed[1];
-}
-
 /* How far apart rising and falling creepage are. */
 static void print_hysteresis(FILE *out, const rb_rolling_curve *c)
 {
@@ -165,7 +160,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
     void *before = rb_locale_begin();
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
-        const int speeds = is_over_speed(c);
+        const int speeds = c->n > 1 && c->speed[0] != c->speed[1];
         const int sliding = speeds ? -1 : full_sliding_from(c);
         fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n",
                 curves->mu[k], c->n, c->seconds, largest(c->n, c->residual));
@@ -234,29 +229,9 @@ static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
                                     : -c->force_ratio[i];
 }
 
-/* In units of y; 0 where it was not asked for. */
-static double error_of(const view *v, int k, int i)
-{
-    return v->curves->has_errors ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
-                                 : 0.0;
-}
-
 static int has_heat(const view *v)
 {
     return v->curves->curve[0].max_temperature != NULL;
-}
-
-static void write_data(FILE *out, const view *v)
-{
-    for (int k = 0; k < v->curves->n; k++) {
-        const rb_rolling_curve *c = &v->curves->curve[k];
-        fprintf(out, "$curve%d << EOD\n", k);
-        for (int i = 0; i < c->n; i++)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i),
-                    y_of(v, c, i, scale_of(v, k)), error_of(v, k, i),
-                    has_heat(v) ? c->max_temperature[i] : 0.0);
-        fputs("EOD\n", out);
-    }
 }
 
 enum { FEW = 16 }; /* points: markers show where the curve was computed */
@@ -283,25 +258,6 @@ static void write_carter(FILE *out, const view *v)
         }
         fputs("EOD\n", out);
     }
-}
-
-static void choose_axes(view *v)
-{
-    double largest = 0.0;
-    for (int k = 0; k < v->curves->n; k++) {
-        const rb_rolling_curve *c = &v->curves->curve[k];
-        for (int i = 0; i < c->n; i++)
-            largest = fmax(largest, fabs(v->over == RB_OVER_SPEED ? c->resistance_ratio[i]
-                                                                  : c->creepage[i]));
-    }
-    v->exponent = rb_report_exponent(largest);
-    v->from = INFINITY;
-    v->to = -INFINITY;
-    for (int k = 0; k < v->curves->n; k++)
-        for (int i = 0; i < v->curves->curve[k].n; i++) {
-            v->from = fmin(v->from, x_of(v, &v->curves->curve[k], i));
-            v->to = fmax(v->to, x_of(v, &v->curves->curve[k], i));
-        }
 }
 
 /* The key stands right below, left above if the curves leave it no room there. */
@@ -421,7 +377,19 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
 {
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
-    write_data(out, v);
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        fprintf(out, "$curve%d << EOD\n", k);
+        /* In units of y; 0 where it was not asked for. */
+        for (int i = 0; i < c->n; i++)
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i),
+                    y_of(v, c, i, scale_of(v, k)),
+                    v->curves->has_errors
+                        ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
+                        : 0.0,
+                    has_heat(v) ? c->max_temperature[i] : 0.0);
+        fputs("EOD\n", out);
+    }
     if (draws_carter(v))
         write_carter(out, v);
     fprintf(out,
@@ -487,7 +455,21 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
     for (int k = 0; k < curves->n; k++)
         if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
-    choose_axes(&v);
+    double largest = 0.0;
+    for (int k = 0; k < v.curves->n; k++) {
+        const rb_rolling_curve *c = &v.curves->curve[k];
+        for (int i = 0; i < c->n; i++)
+            largest = fmax(largest, fabs(v.over == RB_OVER_SPEED ? c->resistance_ratio[i]
+                                                                 : c->creepage[i]));
+    }
+    v.exponent = rb_report_exponent(largest);
+    v.from = INFINITY;
+    v.to = -INFINITY;
+    for (int k = 0; k < v.curves->n; k++)
+        for (int i = 0; i < v.curves->curve[k].n; i++) {
+            v.from = fmin(v.from, x_of(&v, &v.curves->curve[k], i));
+            v.to = fmax(v.to, x_of(&v, &v.curves->curve[k], i));
+        }
     const double line = canvas.size == RB_REPORT_85MM ? 0.05 : 0.035;
     choose_corner(&v, has_heat(&v) ? 1.6 * line : line);
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);

@@ -200,11 +200,6 @@ static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative 
     return n;
 }
 
-static int entries_of(const rb_report_derivatives *d, int k, const rb_rolling_solution *s)
-{
-    return d->is_column[k] ? s->n : 1;
-}
-
 static const char *unit_of(const rb_report_derivatives *d, const char *unit)
 {
     return unit && strcmp(unit, "-") != 0 ? rb_unit_name(d->all->units, unit) : "1";
@@ -230,7 +225,7 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
             rb_report_comment(&c, "none by %s: %s", d->all->of[i].name,
                               d->all->of[i].why.text);
     for (int k = 0; k < d->n; k++)
-        for (int e = 0; has_result(d, k) && e < entries_of(d, k, s); e++) {
+        for (int e = 0; has_result(d, k) && e < (d->is_column[k] ? s->n : 1); e++) {
             const int entry = d->is_column[k] ? e : -1;
             const int n = rows_of(d, k, entry, row);
             snprintf(name, sizeof name, entry < 0 ? "%s" : "%s[%d]", d->result[k]->name,

@@ -12,15 +12,6 @@ typedef struct {
     double length, height;
 } bar_view;
 
-static bar_view make_view(const rb_fem_model *model, const rb_fem_history *history)
-{
-    const double *x = model->mesh.x + 2 * (model->mesh.nodes - 1);
-    const int nx = model->structure.contacts - 1;
-    return (bar_view){model, &history->step[history->steps - 1],
-                      nx,    model->mesh.elements / nx,
-                      x[0],  x[1]};
-}
-
 static void write_node(FILE *out, const bar_view *v, int i, int j)
 {
     const int node = i + (v->nx + 1) * j;
@@ -51,9 +42,13 @@ static void write_mesh(FILE *out, const bar_view *v)
     fputs("EOD\n", out);
 }
 
-/* Reactions per length: a node at an end carries half an element. */
-static void write_reactions(FILE *out, const bar_view *v)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
+    const bar_view *v = view;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double *end = v->step->u + 2 * (v->model->mesh.nodes - 1);
+    write_mesh(out, v);
+    /* Reactions per length: a node at an end carries half an element. */
     const double *r = v->step->r, h = v->length / v->nx;
     fputs("$reaction << EOD\n", out);
     for (int i = 0; i <= v->nx; i++) {
@@ -63,42 +58,6 @@ static void write_reactions(FILE *out, const bar_view *v)
                 mu > 0.0 ? r[2 * i + 1] / (mu * share) : 0.0);
     }
     fputs("EOD\n", out);
-}
-
-/* Stretches of equal state, half-way between the nodes. */
-static void write_zones(FILE *out, const bar_view *v)
-{
-    static const int zone[] = {RB_ZONE_SEPARATED, RB_ZONE_STICK, RB_ZONE_SLIP_NEGATIVE};
-    static const char *const name[] = {"separated", "stick", "slip"};
-    const double h = v->length / v->nx;
-    for (int i = 0, first = 0; i <= v->nx; i++) {
-        const rb_fem_contact state = v->step->contact[first];
-        if (i < v->nx && v->step->contact[i + 1] == state)
-            continue;
-        const double from = fmax(h * (first - 0.5), 0.0),
-                     to = fmin(h * (i + 0.5), v->length);
-        fprintf(out,
-                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
-                "fillcolor rgb '%s' fillstyle solid noborder behind\n",
-                from, to, rb_report_zone_colour(zone[state], 1));
-        const int wide = to - from > 0.1 * v->length;
-        fprintf(
-            out,
-            "set label '{/*0.85 %s: %d}' at first %.9g, graph %s textcolor rgb '#555555' "
-            "front\n",
-            name[state], i - first + 1, 0.5 * (from + to),
-            wide ? "0.93 center" : "0.97 right rotate by 90");
-        first = i + 1;
-    }
-}
-
-static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
-{
-    const bar_view *v = view;
-    const rb_report_place place = rb_report_place_of(canvas);
-    const double *end = v->step->u + 2 * (v->model->mesh.nodes - 1);
-    write_mesh(out, v);
-    write_reactions(out, v);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
             "set xrange [0:%g]\nset tmargin at screen 0.86\nset bmargin at screen 0.60\n",
@@ -130,7 +89,29 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
           "set yrange [0:*]\nset ytics autofreq\nset offsets 0, 0, graph 0.2, 0\n"
           "set key at graph 0.06, graph 0.46 left Left reverse samplen 1.5\n",
           out);
-    write_zones(out, v);
+    /* Stretches of equal state, half-way between the nodes. */
+    static const int zone[] = {RB_ZONE_SEPARATED, RB_ZONE_STICK, RB_ZONE_SLIP_NEGATIVE};
+    static const char *const name[] = {"separated", "stick", "slip"};
+
+    for (int i = 0, first = 0; i <= v->nx; i++) {
+        const rb_fem_contact state = v->step->contact[first];
+        if (i < v->nx && v->step->contact[i + 1] == state)
+            continue;
+        const double from = fmax(h * (first - 0.5), 0.0),
+                     to = fmin(h * (i + 0.5), v->length);
+        fprintf(out,
+                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
+                "fillcolor rgb '%s' fillstyle solid noborder behind\n",
+                from, to, rb_report_zone_colour(zone[state], 1));
+        const int wide = to - from > 0.1 * v->length;
+        fprintf(
+            out,
+            "set label '{/*0.85 %s: %d}' at first %.9g, graph %s textcolor rgb '#555555' "
+            "front\n",
+            name[state], i - first + 1, 0.5 * (from + to),
+            wide ? "0.93 center" : "0.97 right rotate by 90");
+        first = i + 1;
+    }
     fprintf(
         out,
         "plot $reaction using 1:2 with points pointtype 5 pointsize 0.9 linecolor rgb "
@@ -145,6 +126,10 @@ rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas,
 {
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const bar_view v = make_view(model, history);
+    const double *x = model->mesh.x + 2 * (model->mesh.nodes - 1);
+    const int nx = model->structure.contacts - 1;
+    const bar_view v = {model, &history->step[history->steps - 1],
+                        nx,    model->mesh.elements / nx,
+                        x[0],  x[1]};
     return rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why);
 }

@@ -25,36 +25,6 @@ static const double *vector_of(const rb_fem_step *step, int total, int node)
     return total ? step->u + 3 * node : step->du + 3 * node + 1;
 }
 
-static double longest(const rb_fem_model *model, const rb_fem_step *step, int total)
-{
-    double most = 0.0;
-    for (int i = 0; i < model->structure.contacts; i++) {
-        const double *t = vector_of(step, total, i);
-        most = fmax(most, hypot(t[0], t[1]));
-    }
-    return most;
-}
-
-/* Two blocks of data: slipping nodes with their vectors, sticking ones. */
-static void write_vectors(FILE *out, const quarter *q, const rb_fem_step *step, int total,
-                          double scale, int panel)
-{
-    for (int slip = 1; slip >= 0; slip--) {
-        fprintf(out, "$%s%d << EOD\n", slip ? "move" : "rest", panel);
-        fputs("1e9 1e9 0 0\n", out); /* gnuplot refuses an empty block */
-        for (int i = 0; i < q->model->structure.contacts; i++) {
-            const double *x = q->model->mesh.x + 3 * i;
-            const double *t = vector_of(step, total, i);
-            const int moves =
-                total ? t[0] != 0.0 || t[1] != 0.0 : step->contact[i] == RB_FEM_SLIP;
-            if (x[0] >= 0.0 && x[1] >= 0.0 && moves == slip)
-                fprintf(out, "%.9g %.9g %.9g %.9g\n", 1e-3 * x[0], 1e-3 * x[1],
-                        1e-3 * scale * t[0], 1e-3 * scale * t[1]);
-        }
-        fputs("EOD\n", out);
-    }
-}
-
 /* Where a node is drawn: from above, or along a line of sight that looks down on it. */
 static void project(const double *x, int from_above, double at[2])
 {
@@ -90,7 +60,11 @@ static void write_bars(FILE *out, const quarter *q, const char *name, int from_a
 
 static double scale_of(const quarter *q, const rb_fem_step *step, int total)
 {
-    const double most = longest(q->model, step, total);
+    double most = 0.0;
+    for (int i = 0; i < q->model->structure.contacts; i++) {
+        const double *t = vector_of(step, total, i);
+        most = fmax(most, hypot(t[0], t[1]));
+    }
     return most > 1e-9 ? rb_report_fem_round(1.1e3 * q->spacing / most) : 1.0;
 }
 
@@ -113,7 +87,21 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
                         int column, int panel)
 {
     const double scale = scale_of(q, step, total);
-    write_vectors(out, q, step, total, scale, panel);
+    /* Two blocks of data: slipping nodes with their vectors, sticking ones. */
+    for (int slip = 1; slip >= 0; slip--) {
+        fprintf(out, "$%s%d << EOD\n", slip ? "move" : "rest", panel);
+        fputs("1e9 1e9 0 0\n", out); /* gnuplot refuses an empty block */
+        for (int i = 0; i < q->model->structure.contacts; i++) {
+            const double *x = q->model->mesh.x + 3 * i;
+            const double *t = vector_of(step, total, i);
+            const int moves =
+                total ? t[0] != 0.0 || t[1] != 0.0 : step->contact[i] == RB_FEM_SLIP;
+            if (x[0] >= 0.0 && x[1] >= 0.0 && moves == slip)
+                fprintf(out, "%.9g %.9g %.9g %.9g\n", 1e-3 * x[0], 1e-3 * x[1],
+                        1e-3 * scale * t[0], 1e-3 * scale * t[1]);
+        }
+        fputs("EOD\n", out);
+    }
     open_panel(out, column, panel);
     fprintf(out, "set title '{/:Bold %s%d}  (×%g)' offset 0,0.1\n",
             total ? "total, m = " : "m = ", total ? panel : panel + 1, scale);
@@ -130,23 +118,6 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
         "linecolor rgb '#c0392b' notitle, $move%d using 1:2:3:4 with vectors head size "
         "screen 0.007,20 filled linecolor rgb '#c0392b' linewidth 1.3 notitle\n",
         panel, panel, panel);
-}
-
-/* The quarter from the side, at rest and after the last increment. */
-static void write_side(FILE *out, const quarter *q, const rb_fem_step *last, int column,
-                       int panel)
-{
-    const double scale = scale_of(q, last, 1);
-    write_bars(out, q, "before", 0, NULL, 0.0);
-    write_bars(out, q, "after", 0, last->u, scale);
-    open_panel(out, column, panel);
-    fprintf(out,
-            "set title '{/:Bold from the side}  (×%g)' offset 0,0.1\n"
-            "set autoscale\nset size ratio -1\nunset tics\nunset border\n"
-            "plot $before using 1:2 with lines linecolor rgb '#b4bac0' linewidth 0.6 "
-            "notitle, $after using 1:2 with lines linecolor rgb '#1f4e79' linewidth 0.7 "
-            "notitle\n",
-            scale);
 }
 
 static void write_legend(FILE *out, int column)
@@ -196,7 +167,18 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
         fputs("unset label\n", out); /* drawn over and over they grow fat */
     }
     write_panel(out, q, last, 1, column, history->steps);
-    write_side(out, q, last, column, history->steps + 1);
+    /* The quarter from the side, at rest and after the last increment. */
+    const double scale = scale_of(q, last, 1);
+    write_bars(out, q, "before", 0, NULL, 0.0);
+    write_bars(out, q, "after", 0, last->u, scale);
+    open_panel(out, column, history->steps + 1);
+    fprintf(out,
+            "set title '{/:Bold from the side}  (×%g)' offset 0,0.1\n"
+            "set autoscale\nset size ratio -1\nunset tics\nunset border\n"
+            "plot $before using 1:2 with lines linecolor rgb '#b4bac0' linewidth 0.6 "
+            "notitle, $after using 1:2 with lines linecolor rgb '#1f4e79' linewidth 0.7 "
+            "notitle\n",
+            scale);
     fputs("unset multiplot\n", out);
 }
 

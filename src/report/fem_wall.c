@@ -60,37 +60,6 @@ static int is_inner(const front *f, int a, int b)
     return 0;
 }
 
-static void write_front(FILE *out, const front *f)
-{
-    int corner[4];
-    fputs("$mesh << EOD\n", out);
-    for (int e = 0; e < f->mesh->elements; e++)
-        if (front_face(f, e, corner)) {
-            for (int k = 0; k < 5; k++)
-                write_node(out, f, corner[k % 4]);
-            fputs("\n", out);
-        }
-    fputs("EOD\n$edge << EOD\n", out);
-    for (int e = 0; e < f->mesh->elements; e++)
-        for (int k = 0; k < 4 && front_face(f, e, corner); k++)
-            if (!is_inner(f, corner[k], corner[(k + 1) % 4])) {
-                write_node(out, f, corner[k]);
-                write_node(out, f, corner[(k + 1) % 4]);
-                fputs("\n", out);
-            }
-    fputs("EOD\n", out);
-}
-
-static void write_steps(FILE *out, int steps, const rb_fem_wall_step *step)
-{
-    fputs("$step << EOD\n", out);
-    for (int k = 0; k < steps; k++)
-        fprintf(out, "%g %.6g %.6g %d %d %d %d\n", step[k].time,
-                1e-3 * step[k].compression, 1e-3 * step[k].shear, step[k].stick,
-                step[k].slip, step[k].separated, step[k].iterations);
-    fputs("EOD\n", out);
-}
-
 /* Where the panels lie on the canvas: side by side, or below each other in a column. */
 typedef struct {
     double left, right, bottom, top;
@@ -189,8 +158,29 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     const wall_view *v = view;
     const rb_fem_wall_step *last = &v->step[v->steps - 1];
     const int column = !rb_report_place_of(canvas).titled;
-    write_front(out, &v->f);
-    write_steps(out, v->steps, v->step);
+    int corner[4];
+    fputs("$mesh << EOD\n", out);
+    for (int e = 0; e < v->f.mesh->elements; e++)
+        if (front_face(&v->f, e, corner)) {
+            for (int k = 0; k < 5; k++)
+                write_node(out, &v->f, corner[k % 4]);
+            fputs("\n", out);
+        }
+    fputs("EOD\n$edge << EOD\n", out);
+    for (int e = 0; e < v->f.mesh->elements; e++)
+        for (int k = 0; k < 4 && front_face(&v->f, e, corner); k++)
+            if (!is_inner(&v->f, corner[k], corner[(k + 1) % 4])) {
+                write_node(out, &v->f, corner[k]);
+                write_node(out, &v->f, corner[(k + 1) % 4]);
+                fputs("\n", out);
+            }
+    fputs("EOD\n", out);
+    fputs("$step << EOD\n", out);
+    for (int k = 0; k < v->steps; k++)
+        fprintf(out, "%g %.6g %.6g %d %d %d %d\n", v->step[k].time,
+                1e-3 * v->step[k].compression, 1e-3 * v->step[k].shear, v->step[k].stick,
+                v->step[k].slip, v->step[k].separated, v->step[k].iterations);
+    fputs("EOD\n", out);
     write_wall(out, &v->f, last, column);
     write_curves(out, last->stick + last->slip + last->separated, column);
 }

@@ -31,19 +31,6 @@ static rb_status no_temporary(rb_message *why)
                : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
 }
 
-/* Whatever else is open, by the caller of the library too, is none of gnuplot's business.
- */
-static int close_others(posix_spawn_file_actions_t *actions)
-{
-    enum { MOST = 4096 }; /* a limit of a thousand million is not unheard of */
-    const long limit = sysconf(_SC_OPEN_MAX);
-    int e = 0;
-    for (int fd = 3; !e && fd < MOST && (limit < 0 || fd < limit); fd++)
-        if (fcntl(fd, F_GETFD) >= 0)
-            e = posix_spawn_file_actions_addclose(actions, fd);
-    return e;
-}
-
 /* -d: without the start-up files of the machine and of the user.  From its standard input
  * gnuplot reads byte by byte, a system call for each; from a file of any name it reads in
  * blocks. */
@@ -59,8 +46,16 @@ static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
         e = posix_spawn_file_actions_adddup2(&actions, fileno(picture), 1);
     if (!e)
         e = posix_spawn_file_actions_adddup2(&actions, fileno(errors), 2);
-    if (!e)
-        e = close_others(&actions);
+    if (!e) {
+        /* Whatever else is open, by the caller of the library too, is none of gnuplot's
+         * business. */
+        enum { MOST = 4096 }; /* a limit of a thousand million is not unheard of */
+        const long limit = sysconf(_SC_OPEN_MAX);
+        e = 0;
+        for (int fd = 3; !e && fd < MOST && (limit < 0 || fd < limit); fd++)
+            if (fcntl(fd, F_GETFD) >= 0)
+                e = posix_spawn_file_actions_addclose(&actions, fd);
+    }
     if (!e)
         e = posix_spawnp(pid, argv[0], &actions, NULL, argv, environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -76,19 +71,6 @@ static rb_status missing(int e, rb_message *why)
     if (e == ENOMEM)
         return rb_fail(why, RB_ENOMEM, "gnuplot does not start: out of memory");
     return rb_fail(why, RB_EHELPER, "gnuplot does not start: %s", strerror(e));
-}
-
-/* The line that says what was wrong comes last, after the lines it points at. */
-static rb_status complaint(FILE *errors, rb_message *why)
-{
-    char line[200], last[200] = "no message";
-    rewind(errors);
-    while (fgets(line, sizeof line, errors)) {
-        line[strcspn(line, "\n")] = '\0';
-        if (line[strspn(line, " ^")])
-            memcpy(last, line, sizeof last);
-    }
-    return rb_fail(why, RB_EHELPER, "gnuplot failed: %s", last);
 }
 
 static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *why)
@@ -109,8 +91,17 @@ static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *w
     /* posix_spawn may report a missing program only by this exit status */
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         return missing(ENOENT, why);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        return complaint(errors, why);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        /* The line that says what was wrong comes last, after the lines it points at. */
+        char line[200], last[200] = "no message";
+        rewind(errors);
+        while (fgets(line, sizeof line, errors)) {
+            line[strcspn(line, "\n")] = '\0';
+            if (line[strspn(line, " ^")])
+                memcpy(last, line, sizeof last);
+        }
+        return rb_fail(why, RB_EHELPER, "gnuplot failed: %s", last);
+    }
     return RB_OK;
 }
 
@@ -141,19 +132,6 @@ static int is_whole(FILE *picture, rb_report_picture_kind kind)
     return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
 }
 
-static rb_status copy(FILE *picture, FILE *out, rb_message *why)
-{
-    char buffer[1 << 14];
-    size_t n;
-    rewind(picture);
-    while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 &&
-           fwrite(buffer, 1, n, out) == n)
-        ;
-    if (ferror(picture) || ferror(out))
-        return rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
-    return RB_OK;
-}
-
 static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds,
                      FILE *picture, FILE *errors, rb_message *why)
 {
@@ -175,8 +153,16 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
     FILE *picture = temporary(), *errors = picture ? temporary() : NULL;
     rb_status s =
         errors ? run(script, kind, seconds, picture, errors, why) : no_temporary(why);
-    if (s == RB_OK)
-        s = copy(picture, out, why);
+    if (s == RB_OK) {
+        char buffer[1 << 14];
+        size_t n;
+        rewind(picture);
+        while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 &&
+               fwrite(buffer, 1, n, out) == n)
+            ;
+        if (ferror(picture) || ferror(out))
+            s = rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
+    }
     if (errors)
         fclose(errors);
     if (picture)

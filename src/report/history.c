@@ -83,24 +83,6 @@ json_t *rb_report_json_states(const rb_rolling_states *s)
     return states;
 }
 
-/* The last step's values with their errors. */
-static void print_errors(FILE *out, const rb_rolling_history *h)
-{
-    const int last = h->n - 1;
-
-    fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n",
-          out);
-    for (int j = 0; j < rb_rolling_history_columns.n; j++) {
-        const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
-        if (!r->error_bar || !rb_rolling_has_column(r, h))
-            continue;
-        const double value = rb_rolling_entry(r, h, last);
-        const double error = rb_rolling_entry(r, h->errors, last);
-        if (!isnan(value) && !isnan(error))
-            fprintf(out, "    %-16s %.8g +- %.1g\n", r->name, value + 0.0, error);
-    }
-}
-
 /* The relaxation time of the stress that the steps of a static history resolve least:
  * longer than half of it, and not so long that its end is all that is seen.  NAN: none.
  */
@@ -119,20 +101,6 @@ static double unresolved(const rb_rolling_memory *m, const rb_rolling_history *h
     return time;
 }
 
-static void print_unresolved(FILE *out, const rb_rolling_case *rc,
-                             const rb_rolling_history *h)
-{
-    double time = unresolved(&rc->a.memory, h);
-    if (isnan(time) && rc->elastic_b)
-        time = unresolved(&rc->b.memory, h);
-    if (!isnan(time))
-        fprintf(
-            out,
-            "            the stress relaxes within %.2g s of such a step: --time-step "
-            "%.1g follows it\n",
-            time, 0.2 * time);
-}
-
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
                                const rb_rolling_history *h)
 {
@@ -147,9 +115,31 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);
     fputc('\n', out);
-    if (h->time && h->step == 0.0)
-        print_unresolved(out, rc, h);
-    if (h->errors)
-        print_errors(out, h);
+    if (h->time && h->step == 0.0) {
+        double time = unresolved(&rc->a.memory, h);
+        if (isnan(time) && rc->elastic_b)
+            time = unresolved(&rc->b.memory, h);
+        if (!isnan(time))
+            fprintf(out,
+                    "            the stress relaxes within %.2g s of such a step: "
+                    "--time-step "
+                    "%.1g follows it\n",
+                    time, 0.2 * time);
+    }
+    if (h->errors) {
+        /* The last step's values with their errors. */
+        fputs(
+            "  error bars at the end (estimated from coarser meshes and longer steps)\n",
+            out);
+        for (int j = 0; j < rb_rolling_history_columns.n; j++) {
+            const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
+            if (!r->error_bar || !rb_rolling_has_column(r, h))
+                continue;
+            const double value = rb_rolling_entry(r, h, last);
+            const double error = rb_rolling_entry(r, h->errors, last);
+            if (!isnan(value) && !isnan(error))
+                fprintf(out, "    %-16s %.8g +- %.1g\n", r->name, value + 0.0, error);
+        }
+    }
     rb_locale_end(before);
 }

@@ -60,44 +60,6 @@ static double place(const view *v, int i)
     return v->rolls ? v->h->distance[i] : v->in_time ? v->h->time[i] : i + 1;
 }
 
-static view make_view(const rb_rolling_history *h, rb_report_canvas canvas)
-{
-    view v = {.h = h,
-              .rolls = h->step > 0.0,
-              .in_time = h->step == 0.0 && h->time,
-              .points = h->n <= 40,
-              .power = 1.0, /* as motion() reads it below */
-              .place = rb_report_place_of(canvas)};
-    double largest = 0.0;
-    for (int i = 0; i < h->n; i++)
-        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, h, i))) : largest;
-    v.exponent = rb_report_exponent(largest);
-    v.power = pow(10.0, v.exponent);
-    v.from = v.rolls || v.in_time ? 0.0 : 1.0;
-    v.to = place(&v, h->n - 1);
-    if (!(v.to > v.from)) /* a single step */
-        v.to = v.from + 1e-6;
-    return v;
-}
-
-static void write_data(FILE *out, const view *v)
-{
-    fputs("$data << EOD\n", out);
-    for (int i = 0; i < v->h->n; i++) {
-        const int contact = v->h->stick[i] + v->h->slipping[i];
-        if (v->in_time)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), half_width(v, v->h, i),
-                    load(v, v->h, i), approach(v, v->h, i));
-        else if (is_shown(v, i))
-            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
-                    motion(v, v->h, i), force(v, v->h, i),
-                    contact ? (double)v->h->stick[i] / contact : 0,
-                    v->h->errors ? motion(v, v->h->errors, i) : 0,
-                    v->h->errors ? force(v, v->h->errors, i) : 0);
-    }
-    fputs("EOD\n", out);
-}
-
 /* One of three, k from above. */
 typedef struct {
     int k;
@@ -187,7 +149,20 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const view *v = context;
     const int last = v->h->n - 1;
     const char *unit = rb_unit_name(v->h->units, "N/mm");
-    write_data(out, v);
+    fputs("$data << EOD\n", out);
+    for (int i = 0; i < v->h->n; i++) {
+        const int contact = v->h->stick[i] + v->h->slipping[i];
+        if (v->in_time)
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), half_width(v, v->h, i),
+                    load(v, v->h, i), approach(v, v->h, i));
+        else if (is_shown(v, i))
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
+                    motion(v, v->h, i), force(v, v->h, i),
+                    contact ? (double)v->h->stick[i] / contact : 0,
+                    v->h->errors ? motion(v, v->h->errors, i) : 0,
+                    v->h->errors ? force(v, v->h->errors, i) : 0);
+    }
+    fputs("EOD\n", out);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
             "0.965\n" RB_REPORT_GRID "set format x ''\n"
@@ -216,7 +191,21 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
 {
     if (history->n < 1)
         return rb_fail(why, RB_EINVAL, "no steps to draw");
-    view v = make_view(history, canvas);
+    view v = {.h = history,
+              .rolls = history->step > 0.0,
+              .in_time = history->step == 0.0 && history->time,
+              .points = history->n <= 40,
+              .power = 1.0, /* as motion() reads it below */
+              .place = rb_report_place_of(canvas)};
+    double largest = 0.0;
+    for (int i = 0; i < history->n; i++)
+        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, history, i))) : largest;
+    v.exponent = rb_report_exponent(largest);
+    v.power = pow(10.0, v.exponent);
+    v.from = v.rolls || v.in_time ? 0.0 : 1.0;
+    v.to = place(&v, history->n - 1);
+    if (!(v.to > v.from)) /* a single step */
+        v.to = v.from + 1e-6;
     v.rc = rc;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -110,17 +110,6 @@ static double slip_of(const view *v, int i)
     return rb_report_tidy(v->s->slip[i], p0 / v->rc->a.young);
 }
 
-static void choose_slip_axis(view *v)
-{
-    double least = 0.0, most = 0.0;
-    for (int i = 0; i < v->s->n; i++)
-        if (is_shown(v, i) && has_slip(v, i)) {
-            least = fmin(least, slip_of(v, i));
-            most = fmax(most, slip_of(v, i));
-        }
-    v->slip = axis_between(least, most);
-}
-
 static void choose_temperature_axis(view *v)
 {
     double least = INFINITY, most = -INFINITY;
@@ -130,27 +119,6 @@ static void choose_temperature_axis(view *v)
             most = fmax(most, fmax(v->s->temperature[i], v->s->temperature_b[i]));
         }
     v->heat = axis_between(least, most);
-}
-
-static void choose_stress_unit(view *v)
-{
-    const rb_report_unit unit =
-        rb_report_axis_unit(v->s->units, "MPa", v->s->max_pressure);
-    v->stress_unit = unit.size;
-    v->stress_label = unit.name;
-}
-
-static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                      rb_report_canvas canvas)
-{
-    view v = {.rc = rc, .s = s, .place = rb_report_place_of(canvas)};
-    choose_x_axis(&v);
-    choose_slip_axis(&v);
-    choose_temperature_axis(&v);
-    choose_stress_unit(&v);
-    v.carter =
-        rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
-    return v;
 }
 
 /* ---- Data ------------------------------------------------------------------------- */
@@ -196,24 +164,6 @@ static void write_data(FILE *out, const view *v)
     fputs("EOD\n", out);
 }
 
-/* x, Carter's friction, Hertz's pressure. */
-static void write_carter(FILE *out, const view *v)
-{
-    enum { POINTS = 24 };
-    const rb_rolling_solution *s = v->s;
-    const double a = s->hertz_half_width;
-    const double p0 = rb_closed_hertz_max_pressure(s->normal_load, a);
-    const double mu = rb_rolling_largest_mu(v->rc);
-    fputs("$carter << EOD\n", out);
-    for (int k = 0; k <= POINTS; k++) {
-        const double x = -a * cos(3.14159265358979 * k / POINTS);
-        const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
-        fprintf(out, "%.9g %.9g %.9g\n", x / v->length.size, q / v->stress_unit,
-                p0 * sqrt(fmax(1.0 - x / a * (x / a), 0.0)) / v->stress_unit);
-    }
-    fputs("EOD\n", out);
-}
-
 /* ---- Zones ------------------------------------------------------------------------ */
 
 typedef struct {
@@ -233,18 +183,13 @@ static stretch next_stretch(const view *v, int *i)
     return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
 }
 
-static const char *zone_name(int zone)
-{
-    static const char *const names[] = {"separated", "stick",   "slip →",
-                                        "← slip",    "yield →", "← yield"};
-    return names[zone];
-}
-
 /* Upright where the zone is narrow, left out where it is a line. */
 static void write_zone_label(FILE *out, const view *v, const stretch *st)
 {
     const double share = (st->to - st->from) / (v->to - v->from);
-    const char *name = zone_name(st->zone);
+    static const char *const names[] = {"separated", "stick",   "slip →",
+                                        "← slip",    "yield →", "← yield"};
+    const char *name = names[st->zone];
     if (share < 0.025)
         return;
     const int flat = share > 0.013 * (double)strlen(name);
@@ -281,22 +226,6 @@ static int other_radius(const view *v)
     return fabs(rb_rolling_derive(v->rc).radius / v->rc->a.radius - 1.0) > 1e-6;
 }
 
-/* With the a and R of its formula where they are not those that the title shows. */
-static void write_creep_ratio(FILE *out, const view *v, rb_report_unit length)
-{
-    const rb_rolling_solution *s = v->s;
-    const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
-    fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
-    if (!other_a(v) && !other_radius(v))
-        return;
-    fputs(":", out);
-    if (other_radius(v))
-        fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
-                other_a(v) ? "," : "");
-    if (other_a(v))
-        fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size, length.name);
-}
-
 /* What the case came to, behind its name. */
 static void write_results(FILE *out, const view *v)
 {
@@ -311,35 +240,29 @@ static void write_results(FILE *out, const view *v)
             s->max_pressure / v->stress_unit, v->stress_label);
     if (!isnan(s->creepage) && moves)
         fprintf(out, ",  ξ = %.4g", s->creepage);
-    if (!isnan(s->creep_ratio) && moves)
-        write_creep_ratio(out, v, length);
+    if (!isnan(s->creep_ratio) && moves) {
+        /* With the a and R of its formula where they are not those that the title shows.
+         */
+        const double radius =
+            rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
+        fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
+        if (other_a(v) || other_radius(v)) {
+            fputs(":", out);
+            if (other_radius(v))
+                fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
+                        other_a(v) ? "," : "");
+            if (other_a(v))
+                fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size,
+                        length.name);
+        }
+    }
     if (!isnan(s->force_ratio) && s->tangential_load != 0.0)
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0));
 }
 
-static void write_title(FILE *out, const view *v)
+static void write_tractions(FILE *out, const view *v, double key_font, double marker)
 {
-    static const char *const kinds[] = {"Static contact", "Steady rolling",
-                                        "Transient rolling"};
-    const rb_rolling_solution *s = v->s;
-    const char *load = rb_unit_name(s->units, "N/mm");
-    char large[40];
-    fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %.5g %s",
-            kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
-            rb_report_large_number(s->normal_load, large), load,
-            rb_report_tidy(s->tangential_load, s->normal_load), load);
-    /* a longer line in smaller letters */
-    const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;
-    fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%g ",
-            0.95 - 0.1 * longer);
-    write_results(out, v);
-    fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
-    rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
-}
-
-/* Room for p, q and the bounds; at mu > 1 the bounds may leave it. */
-static void write_stress_range(FILE *out, const view *v)
-{
+    /* Room for p, q and the bounds; at mu > 1 the bounds may leave it. */
     const rb_rolling_solution *s = v->s;
     double p = 0.0, q = 0.0;
     for (int i = 0; i < s->n; i++) {
@@ -353,11 +276,6 @@ static void write_stress_range(FILE *out, const view *v)
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
     fprintf(out, "set yrange [%.9g:%.9g]\n", -below / v->stress_unit,
             above / v->stress_unit);
-}
-
-static void write_tractions(FILE *out, const view *v, double key_font, double marker)
-{
-    write_stress_range(out, v);
     open_panel(out, v, TRACTIONS, 0);
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
             v->stress_label, middle_of(v, TRACTIONS));
@@ -393,28 +311,6 @@ static void write_x_label(FILE *out, const view *v)
             v->s->formulation == RB_STATIC ? "" : "      (rolling towards +x →)");
 }
 
-static void write_slip(FILE *out, const view *v)
-{
-    const int lowest = !v->s->temperature;
-    fputs("unset label\nunset key\nunset object\n", out);
-    open_panel(out, v, SLIP, lowest);
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip.from, v->slip.to,
-            rb_report_round_step((v->slip.to - v->slip.from) / 5.0));
-    if (lowest)
-        write_x_label(out, v);
-    /* in a static case (12) is a velocity that the elements in stick have as well */
-    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V"
-                                         : "set label 3 'slip",
-          out);
-    write_exponent(out, v->slip.exponent, "");
-    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
-    write_zones(out, v, 0);
-    fprintf(out,
-            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
-            "$data using 1:($5) with %s linecolor rgb '#6c3483' linewidth 1.8\n",
-            v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
-}
-
 static double warmer_by(const view *v, int i)
 {
     return (v->s->temperature[i] - v->s->temperature_b[i]) / v->heat.unit;
@@ -448,40 +344,84 @@ static void write_bodies(FILE *out, const view *v)
     }
 }
 
-static void write_temperature(FILE *out, const view *v)
-{
-    fputs("unset label\nunset object\n", out);
-    open_panel(out, v, TEMPERATURE, 1);
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->heat.from, v->heat.to,
-            rb_report_round_step((v->heat.to - v->heat.from) / 3.0));
-    write_x_label(out, v);
-    fputs("set label 3 'T", out);
-    write_exponent(out, v->heat.exponent, "K");
-    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
-    write_zones(out, v, 0);
-    write_bodies(out, v);
-    fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
-          "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
-          "1.8\n",
-          out);
-}
-
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     write_data(out, v);
-    if (v->carter)
-        write_carter(out, v);
+    if (v->carter) {
+        /* x, Carter's friction, Hertz's pressure. */
+        enum { POINTS = 24 };
+        const rb_rolling_solution *s = v->s;
+        const double a = s->hertz_half_width;
+        const double p0 = rb_closed_hertz_max_pressure(s->normal_load, a);
+        const double mu = rb_rolling_largest_mu(v->rc);
+        fputs("$carter << EOD\n", out);
+        for (int k = 0; k <= POINTS; k++) {
+            const double x = -a * cos(3.14159265358979 * k / POINTS);
+            const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
+            fprintf(out, "%.9g %.9g %.9g\n", x / v->length.size, q / v->stress_unit,
+                    p0 * sqrt(fmax(1.0 - x / a * (x / a), 0.0)) / v->stress_unit);
+        }
+        fputs("EOD\n", out);
+    }
     fprintf(out, "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n",
             0.12 + v->place.right);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
-    if (v->place.titled)
-        write_title(out, v);
+    if (v->place.titled) {
+        static const char *const kinds[] = {"Static contact", "Steady rolling",
+                                            "Transient rolling"};
+        const rb_rolling_solution *s = v->s;
+        const char *load = rb_unit_name(s->units, "N/mm");
+        char large[40];
+        fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %.5g %s",
+                kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
+                rb_report_large_number(s->normal_load, large), load,
+                rb_report_tidy(s->tangential_load, s->normal_load), load);
+        /* a longer line in smaller letters */
+        const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;
+        fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%g ",
+                0.95 - 0.1 * longer);
+        write_results(out, v);
+        fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
+        rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
+    }
     write_tractions(out, v, rb_report_key_font(canvas),
                     1.7 * rb_report_marker_scale(canvas));
-    write_slip(out, v);
-    if (v->s->temperature)
-        write_temperature(out, v);
+    const int lowest = !v->s->temperature;
+    fputs("unset label\nunset key\nunset object\n", out);
+    open_panel(out, v, SLIP, lowest);
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip.from, v->slip.to,
+            rb_report_round_step((v->slip.to - v->slip.from) / 5.0));
+    if (lowest)
+        write_x_label(out, v);
+    /* in a static case (12) is a velocity that the elements in stick have as well */
+    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V"
+                                         : "set label 3 'slip",
+          out);
+    write_exponent(out, v->slip.exponent, "");
+    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
+    write_zones(out, v, 0);
+    fprintf(out,
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
+            "$data using 1:($5) with %s linecolor rgb '#6c3483' linewidth 1.8\n",
+            v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
+    if (v->s->temperature) {
+        fputs("unset label\nunset object\n", out);
+        open_panel(out, v, TEMPERATURE, 1);
+        fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->heat.from, v->heat.to,
+                rb_report_round_step((v->heat.to - v->heat.from) / 3.0));
+        write_x_label(out, v);
+        fputs("set label 3 'T", out);
+        write_exponent(out, v->heat.exponent, "K");
+        fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
+        write_zones(out, v, 0);
+        write_bodies(out, v);
+        fputs(
+            "plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
+            "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
+            "1.8\n",
+            out);
+    }
     fputs("unset multiplot\n", out);
 }
 
@@ -490,6 +430,20 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
 {
     if (s->n < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const view v = make_view(rc, s, canvas);
+    view v = {.rc = rc, .s = s, .place = rb_report_place_of(canvas)};
+    choose_x_axis(&v);
+    double least = 0.0, most = 0.0;
+    for (int i = 0; i < v.s->n; i++)
+        if (is_shown(&v, i) && has_slip(&v, i)) {
+            least = fmin(least, slip_of(&v, i));
+            most = fmax(most, slip_of(&v, i));
+        }
+    v.slip = axis_between(least, most);
+    choose_temperature_axis(&v);
+    const rb_report_unit unit = rb_report_axis_unit(v.s->units, "MPa", v.s->max_pressure);
+    v.stress_unit = unit.size;
+    v.stress_label = unit.name;
+    v.carter =
+        rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -51,9 +51,31 @@ static void write_grid(FILE *out, const view *v)
     fputs("EOD\n", out);
 }
 
-/* Where A touches: one line for each zone, drawn below the surface. */
-static void write_contact(FILE *out, const view *v)
+/* Depth over width, as it is shown: maps that are much deeper or flatter are pressed or
+ * stretched, because their tics and labels would not find room. */
+static double shown_aspect(const view *v)
 {
+    return fmin(fmax(v->depth / (v->to - v->from), 0.35), 1.6);
+}
+
+static void write_x_label(FILE *out, const view *v)
+{
+    fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length.label,
+            v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
+            (shown_aspect(v) == v->depth / (v->to - v->from)) ? ""
+                                                              : "   (y not to scale)");
+}
+
+static void write_axes(FILE *out, const view *v)
+{
+    fputs("set view map\nset tics scale 0.6\nunset key\n"
+          "set pm3d map corners2color mean\n",
+          out);
+    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
+            v->depth);
+    write_x_label(out, v);
+    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
+    /* Where A touches: one line for each zone, drawn below the surface. */
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;
@@ -69,37 +91,6 @@ static void write_contact(FILE *out, const view *v)
                 s->zone[first] == RB_ZONE_STICK ? 2 : 6,
                 rb_report_zone_colour(s->zone[first], 0));
     }
-}
-
-/* Depth over width, as it is shown: maps that are much deeper or flatter are pressed or
- * stretched, because their tics and labels would not find room. */
-static double shown_aspect(const view *v)
-{
-    return fmin(fmax(v->depth / (v->to - v->from), 0.35), 1.6);
-}
-
-static int is_to_scale(const view *v)
-{
-    return shown_aspect(v) == v->depth / (v->to - v->from);
-}
-
-static void write_x_label(FILE *out, const view *v)
-{
-    fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length.label,
-            v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
-            is_to_scale(v) ? "" : "   (y not to scale)");
-}
-
-static void write_axes(FILE *out, const view *v)
-{
-    fputs("set view map\nset tics scale 0.6\nunset key\n"
-          "set pm3d map corners2color mean\n",
-          out);
-    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
-            v->depth);
-    write_x_label(out, v);
-    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
-    write_contact(out, v);
 }
 
 /* line: from one line of the title to the next. */

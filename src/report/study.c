@@ -44,14 +44,6 @@ static int length_of_group(const rb_report_study *s, const spot *at, int first)
     return n;
 }
 
-static int count_groups(const rb_report_study *s, const spot *at)
-{
-    int groups = 0;
-    for (int i = 0; i < s->n; i += length_of_group(s, at, i))
-        groups++;
-    return groups;
-}
-
 /* ---- What can be drawn ------------------------------------------------------------- */
 
 /* A place has one case, or the picture would need a third direction. */
@@ -69,7 +61,9 @@ static rb_status check_places(const rb_report_study *s, const spot *at, rb_messa
 
 static rb_status check_curves(const rb_report_study *s, const spot *at, rb_message *why)
 {
-    const int groups = count_groups(s, at);
+    int groups = 0;
+    for (int i = 0; i < s->n; i += length_of_group(s, at, i))
+        groups++;
     if (groups > RB_REPORT_CURVES)
         return rb_fail(why, RB_EINVAL, "%d values of %s: at most %d curves are drawn",
                        groups, s->y.name, RB_REPORT_CURVES);
@@ -317,22 +311,6 @@ static int label_at(const view *v)
     return lines < 12 ? 3 : lines / 4;
 }
 
-/* Contours at the numbers of the scale, but for its ends. */
-static void write_scale(FILE *out, rb_report_canvas canvas, const view *v, double height)
-{
-    const double least = v->shown.from, most = v->shown.to;
-    const double step =
-        rb_report_round_step((most - least) / rb_report_labels_in(height));
-    const double first = step * (floor(least / step + 1e-6) + 1.0);
-    fprintf(out,
-            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
-            "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
-            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
-            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, label_at(v), 0.7 * rb_report_key_font(canvas), first, step,
-            most - 1e-6 * (most - least));
-}
-
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
@@ -361,8 +339,21 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     write_label(out, label, &s->shown, &v->shown);
     if (v->shown.flat)
         fprintf(out, "set cbrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
-    else
-        write_scale(out, canvas, v, height);
+    else {
+        /* Contours at the numbers of the scale, but for its ends. */
+        const double least = v->shown.from, most = v->shown.to;
+        const double step =
+            rb_report_round_step((most - least) / rb_report_labels_in(height));
+        const double first = step * (floor(least / step + 1e-6) + 1.0);
+        fprintf(
+            out,
+            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
+            "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
+            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
+            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+            least, most, step, label_at(v), 0.7 * rb_report_key_font(canvas), first, step,
+            most - 1e-6 * (most - least));
+    }
     fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
             v->shown.flat
                 ? ""

@@ -75,25 +75,6 @@ double rb_report_tidy(double x, double size)
     return fabs(x) <= 1e-12 * fabs(size) ? 0.0 : x;
 }
 
-static void print_forces(FILE *out, const rb_rolling_solution *s)
-{
-    const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
-               *stress = rb_unit_name(s->units, "MPa");
-    fprintf(out, "  load      P = %.6g %s, Q = %.6g %s", s->normal_load, load,
-            rb_report_tidy(s->tangential_load, s->normal_load), load);
-    if (!isnan(s->force_ratio))
-        fprintf(out, ", Q/(mu P) = %.5g", rb_report_tidy(s->force_ratio, 1.0));
-    fputc('\n', out);
-    if (s->contact > 0)
-        fprintf(out, "  contact   %.5g ... %.5g %s, p0 = %.6g %s, approach %.5g %s\n",
-                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach,
-                mm);
-    for (int k = 0; k < s->patches && s->patches > 1; k++)
-        fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
-                s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
-                s->patch[k].normal_load, load);
-}
-
 static void print_motion(FILE *out, const rb_rolling_solution *s)
 {
     const char *load = rb_unit_name(s->units, "N/mm");
@@ -134,47 +115,6 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     }
 }
 
-static void print_heat(FILE *out, const rb_rolling_solution *s)
-{
-    if (!isnan(s->max_temperature))
-        fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
-                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"),
-                s->peclet);
-}
-
-static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
-{
-    enum { LONGEST = 200 };
-    char strip[LONGEST + 1];
-    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
-    fprintf(out, "  elements  %d: %d stick, %d slip, ", s->n, s->stick, s->slipping);
-    if (s->yielding >= 0)
-        fprintf(out, "%d of them yield, ", s->yielding);
-    fprintf(out, "%d separated", s->n - s->contact);
-    if (s->stick > 0) {
-        const double between = s->stick_to - s->stick_from;
-        const char *mm = rb_unit_name(s->units, "mm");
-        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
-        fprintf(out, "; stick %.5g ... %.5g %s",
-                fabs(s->stick_from) > least ? s->stick_from : 0.0,
-                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
-        if (s->stick_length < (1.0 - 1e-9) * between)
-            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
-    }
-    rb_report_strip(s, room < 8 ? 8 : room, strip);
-    fprintf(out, "\n            %s\n", strip);
-}
-
-/* What it ran on: where it was slow, this says why. */
-static void print_machine(FILE *out, const rb_rolling_solution *s)
-{
-    fprintf(out, "  computed  in %.3g s", s->seconds_total);
-    if (s->boundary_elements > 0)
-        fprintf(out, "; %d boundary elements (%s, %s)", s->boundary_elements,
-                s->hierarchical ? "hierarchical" : "dense", rb_bem_vector_name());
-    fprintf(out, "; BLAS %s\n", rb_blas_core());
-}
-
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     void *before = rb_locale_begin();
@@ -190,10 +130,50 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "Lemke (%s form), %d pivots",
                 rb_case_word("lcp-form", (int)s->lcp_form), s->iterations);
     fprintf(out, ", residual %.2g\n", s->residual);
-    print_forces(out, s);
+    const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
+               *stress = rb_unit_name(s->units, "MPa");
+    fprintf(out, "  load      P = %.6g %s, Q = %.6g %s", s->normal_load, load,
+            rb_report_tidy(s->tangential_load, s->normal_load), load);
+    if (!isnan(s->force_ratio))
+        fprintf(out, ", Q/(mu P) = %.5g", rb_report_tidy(s->force_ratio, 1.0));
+    fputc('\n', out);
+    if (s->contact > 0)
+        fprintf(out, "  contact   %.5g ... %.5g %s, p0 = %.6g %s, approach %.5g %s\n",
+                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach,
+                mm);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
+                s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
+                s->patch[k].normal_load, load);
     print_motion(out, s);
-    print_heat(out, s);
-    print_zones(out, s, width);
-    print_machine(out, s);
+    if (!isnan(s->max_temperature))
+        fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
+                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"),
+                s->peclet);
+    enum { LONGEST = 200 };
+    char strip[LONGEST + 1];
+    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
+    fprintf(out, "  elements  %d: %d stick, %d slip, ", s->n, s->stick, s->slipping);
+    if (s->yielding >= 0)
+        fprintf(out, "%d of them yield, ", s->yielding);
+    fprintf(out, "%d separated", s->n - s->contact);
+    if (s->stick > 0) {
+        const double between = s->stick_to - s->stick_from;
+
+        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
+        fprintf(out, "; stick %.5g ... %.5g %s",
+                fabs(s->stick_from) > least ? s->stick_from : 0.0,
+                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
+        if (s->stick_length < (1.0 - 1e-9) * between)
+            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
+    }
+    rb_report_strip(s, room < 8 ? 8 : room, strip);
+    fprintf(out, "\n            %s\n", strip);
+    /* What it ran on: where it was slow, this says why. */
+    fprintf(out, "  computed  in %.3g s", s->seconds_total);
+    if (s->boundary_elements > 0)
+        fprintf(out, "; %d boundary elements (%s, %s)", s->boundary_elements,
+                s->hierarchical ? "hierarchical" : "dense", rb_bem_vector_name());
+    fprintf(out, "; BLAS %s\n", rb_blas_core());
     rb_locale_end(before);
 }

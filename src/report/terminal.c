@@ -312,23 +312,19 @@ static int seen(const char *text, size_t n)
     return count;
 }
 
-/* Where the rest of a line goes on: below the text behind "  label     ", or two further
- * than its start. */
-static int indent_of(const char *line, size_t n)
-{
-    enum { LABEL = 12 };
-    const size_t blanks = strspn(line, " ");
-    return blanks == 2 && n > LABEL && line[LABEL - 1] == ' ' && line[LABEL] != ' '
-               ? LABEL
-               : (int)blanks + 2;
-}
-
 int rb_report_wrapped(FILE *out, const char *text, int width)
 {
     int lines = 0;
     while (*text) {
         const size_t n = strcspn(text, "\n");
-        const int indent = indent_of(text, n);
+        /* Where the rest of a line goes on: below the text behind "  label     ", or two
+         * further than its start. */
+        enum { LABEL = 12 };
+        const size_t blanks = strspn(text, " ");
+        const int indent =
+            blanks == 2 && n > LABEL && text[LABEL - 1] == ' ' && text[LABEL] != ' '
+                ? LABEL
+                : (int)blanks + 2;
         const char *end = text + n;
         size_t gap = strspn(text, " ");
         int at = 0;

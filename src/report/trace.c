@@ -40,18 +40,6 @@ void rb_report_remove_tableaux(const char *folder)
     }
 }
 
-static void write_tableau(trace *t, const rb_lcp_pivot *p)
-{
-    char *path = path_of(t->folder, tableau_name, p->pivot + 1);
-    t->status = path ? rb_io_matrix_market_write(
-                           path, (rb_io_dense){p->n, p->n + 2, p->tableau, p->n},
-                           "basic = last column + columns times nonbasic; their names: "
-                           "basis_*.txt",
-                           t->why)
-                     : rb_fail(t->why, RB_ENOMEM, "out of memory");
-    free(path);
-}
-
 static void write_variables(FILE *file, const trace *t, const char *what,
                             const int *variable, int n)
 {
@@ -64,21 +52,6 @@ static void write_variables(FILE *file, const trace *t, const char *what,
     fputc('\n', file);
 }
 
-/* Which variables the rows and columns of each tableau are. */
-static void write_basis(trace *t, const rb_lcp_pivot *p)
-{
-    rb_io_writer w;
-    char *path = path_of(t->folder, basis_name, p->pivot + 1);
-    t->status = path ? rb_io_writer_open(path, &w, t->why)
-                     : rb_fail(t->why, RB_ENOMEM, "out of memory");
-    free(path);
-    if (t->status != RB_OK)
-        return;
-    write_variables(w.file, t, "rows", p->basis, p->n);
-    write_variables(w.file, t, "columns", p->nonbasis, p->n + 1);
-    t->status = rb_io_writer_commit(&w, t->why);
-}
-
 static void each_pivot(const rb_lcp_pivot *p, void *context)
 {
     trace *t = context;
@@ -88,10 +61,30 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
     fprintf(t->out,
             "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
             p->pivot + 1, p->row + 1, entering, leaving, p->ratio, p->z0);
-    if (t->folder && t->status == RB_OK)
-        write_tableau(t, p);
-    if (t->folder && t->status == RB_OK)
-        write_basis(t, p);
+    if (t->folder && t->status == RB_OK) {
+        char *path = path_of(t->folder, tableau_name, p->pivot + 1);
+        t->status =
+            path ? rb_io_matrix_market_write(
+                       path, (rb_io_dense){p->n, p->n + 2, p->tableau, p->n},
+                       "basic = last column + columns times nonbasic; their names: "
+                       "basis_*.txt",
+                       t->why)
+                 : rb_fail(t->why, RB_ENOMEM, "out of memory");
+        free(path);
+    }
+    if (t->folder && t->status == RB_OK) {
+        /* Which variables the rows and columns of each tableau are. */
+        rb_io_writer w;
+        char *path = path_of(t->folder, basis_name, p->pivot + 1);
+        t->status = path ? rb_io_writer_open(path, &w, t->why)
+                         : rb_fail(t->why, RB_ENOMEM, "out of memory");
+        free(path);
+        if (t->status == RB_OK) {
+            write_variables(w.file, t, "rows", p->basis, p->n);
+            write_variables(w.file, t, "columns", p->nonbasis, p->n + 1);
+            t->status = rb_io_writer_commit(&w, t->why);
+        }
+    }
 }
 
 static rb_status follow(trace *t, const rb_contact_lcp *lcp)

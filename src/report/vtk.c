@@ -120,17 +120,18 @@ static rb_status select_points(const rb_report_stress *s, selection *v)
 
 /* ---- Point data -------------------------------------------------------------------- */
 
-static void write_scalar(FILE *out, selection *v, const rb_rolling_result *r)
+static void write_point_data(FILE *out, selection *v)
 {
-    for (int k = 0, m = 0; k < v->s->n; k++)
-        if (v->number[k] >= 0)
-            v->room[m++] = rb_rolling_number(r, &v->s->at[k]);
-    write_array(out, "Float64", r->name, 1, sizeof(double) * (size_t)v->n, v->room);
-}
-
-/* ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
-static void write_tensor(FILE *out, selection *v)
-{
+    enum { FIRST_SCALAR = 6 }; /* behind x, y and the tensor */
+    fputs("<PointData Scalars=\"max_shear\" Tensors=\"stress\">\n", out);
+    for (int j = FIRST_SCALAR; j < rb_rolling_stress_scalars.n; j++) {
+        const rb_rolling_result *r = &rb_rolling_stress_scalars.row[j];
+        for (int k = 0, m = 0; k < v->s->n; k++)
+            if (v->number[k] >= 0)
+                v->room[m++] = rb_rolling_number(r, &v->s->at[k]);
+        write_array(out, "Float64", r->name, 1, sizeof(double) * (size_t)v->n, v->room);
+    }
+    /* ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
     double *to = v->room;
     for (int k = 0; k < v->s->n; k++) {
         const rb_rolling_stress *at = &v->s->at[k];
@@ -141,15 +142,6 @@ static void write_tensor(FILE *out, selection *v)
         to += 6;
     }
     write_array(out, "Float64", "stress", 6, sizeof(double) * 6 * (size_t)v->n, v->room);
-}
-
-static void write_point_data(FILE *out, selection *v)
-{
-    enum { FIRST_SCALAR = 6 }; /* behind x, y and the tensor */
-    fputs("<PointData Scalars=\"max_shear\" Tensors=\"stress\">\n", out);
-    for (int j = FIRST_SCALAR; j < rb_rolling_stress_scalars.n; j++)
-        write_scalar(out, v, &rb_rolling_stress_scalars.row[j]);
-    write_tensor(out, v);
     fputs("</PointData>\n", out);
 }
 
@@ -180,57 +172,6 @@ static void write_image(FILE *out, selection *v)
     fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
 }
 
-static void write_points(FILE *out, selection *v)
-{
-    double *to = v->room;
-    for (int k = 0; k < v->s->n; k++)
-        if (v->number[k] >= 0) {
-            *to++ = v->s->at[k].x;
-            *to++ = v->s->at[k].y;
-            *to++ = 0.0;
-        }
-    fputs("<Points>\n", out);
-    write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v->n, v->room);
-    fputs("</Points>\n", out);
-}
-
-static rb_status write_cells(FILE *out, const selection *v)
-{
-    enum { VERTEX = 1, QUADRILATERAL = 9 };
-    const size_t n = (size_t)v->cells;
-    int32_t *offset = calloc(n ? n : 1, sizeof *offset);
-    uint8_t *type = calloc(n ? n : 1, 1);
-    const rb_status s = offset && type ? RB_OK : RB_ENOMEM;
-    for (size_t k = 0; k < n && s == RB_OK; k++) {
-        offset[k] = (int32_t)(k + 1) * v->per_cell;
-        type[k] = v->per_cell == 4 ? QUADRILATERAL : VERTEX;
-    }
-    if (s == RB_OK) {
-        fputs("<Cells>\n", out);
-        write_array(out, "Int32", "connectivity", 1,
-                    sizeof *v->cell * n * (size_t)v->per_cell, v->cell);
-        write_array(out, "Int32", "offsets", 1, sizeof *offset * n, offset);
-        write_array(out, "UInt8", "types", 1, n, type);
-        fputs("</Cells>\n", out);
-    }
-    free(offset);
-    free(type);
-    return s;
-}
-
-static rb_status write_unstructured(FILE *out, selection *v)
-{
-    write_head(out, "UnstructuredGrid");
-    fprintf(out,
-            "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
-            v->n, v->cells);
-    write_point_data(out, v);
-    write_points(out, v);
-    const rb_status s = write_cells(out, v);
-    fputs("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
-    return s;
-}
-
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
@@ -238,8 +179,45 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
     rb_status status = select_points(s, &v);
     if (status == RB_OK && kind == RB_REPORT_VTI)
         write_image(out, &v);
-    else if (status == RB_OK)
-        status = write_unstructured(out, &v);
+    else if (status == RB_OK) {
+        write_head(out, "UnstructuredGrid");
+        fprintf(
+            out,
+            "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
+            v.n, v.cells);
+        write_point_data(out, &v);
+        double *to = v.room;
+        for (int k = 0; k < v.s->n; k++)
+            if (v.number[k] >= 0) {
+                *to++ = v.s->at[k].x;
+                *to++ = v.s->at[k].y;
+                *to++ = 0.0;
+            }
+        fputs("<Points>\n", out);
+        write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v.n,
+                    v.room);
+        fputs("</Points>\n", out);
+        enum { VERTEX = 1, QUADRILATERAL = 9 };
+        const size_t n = (size_t)v.cells;
+        int32_t *offset = calloc(n ? n : 1, sizeof *offset);
+        uint8_t *type = calloc(n ? n : 1, 1);
+        status = offset && type ? RB_OK : RB_ENOMEM;
+        for (size_t k = 0; k < n && status == RB_OK; k++) {
+            offset[k] = (int32_t)(k + 1) * v.per_cell;
+            type[k] = v.per_cell == 4 ? QUADRILATERAL : VERTEX;
+        }
+        if (status == RB_OK) {
+            fputs("<Cells>\n", out);
+            write_array(out, "Int32", "connectivity", 1,
+                        sizeof *v.cell * n * (size_t)v.per_cell, v.cell);
+            write_array(out, "Int32", "offsets", 1, sizeof *offset * n, offset);
+            write_array(out, "UInt8", "types", 1, n, type);
+            fputs("</Cells>\n", out);
+        }
+        free(offset);
+        free(type);
+        fputs("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
+    }
     selection_free(&v);
     rb_locale_end(before);
     return status == RB_OK ? rb_report_flush(out) : status;

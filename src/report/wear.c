@@ -83,9 +83,21 @@ void rb_report_wear_free(rb_report_wear *w)
     w->profiles = 0;
 }
 
-static rb_status keep_profile(const rb_rolling_solution *s, double depth, double way,
-                              rb_report_wear_profile *p)
+/* The first step, the last one, and in between those nearest to equal parts of the way.
+ */
+rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
+                              const rb_rolling_wear_history *h, int step, int steps)
 {
+    const int most = RB_REPORT_WEAR_PROFILES - 1;
+    const int part = steps > most ? (int)((long)step * most / steps) : step;
+    const int before = steps > most ? (int)((long)(step - 1) * most / steps) : step - 1;
+
+    if ((step > 0 && part == before) || w->profiles == RB_REPORT_WEAR_PROFILES)
+        return RB_OK;
+    const double way =
+        h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
+    const double depth = rb_unit_shown(s->units, "mm", h->max_depth[step]);
+    rb_report_wear_profile *p = &w->profile[w->profiles++];
     const size_t n = (size_t)s->n;
 
     *p = (rb_report_wear_profile){.n = s->n, .way = way, .x = rb_alloc(n, 3)};
@@ -100,46 +112,7 @@ static rb_status keep_profile(const rb_rolling_solution *s, double depth, double
     return RB_OK;
 }
 
-/* The first step, the last one, and in between those nearest to equal parts of the way.
- */
-rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
-                              const rb_rolling_wear_history *h, int step, int steps)
-{
-    const int most = RB_REPORT_WEAR_PROFILES - 1;
-    const int part = steps > most ? (int)((long)step * most / steps) : step;
-    const int before = steps > most ? (int)((long)(step - 1) * most / steps) : step - 1;
-
-    if ((step > 0 && part == before) || w->profiles == RB_REPORT_WEAR_PROFILES)
-        return RB_OK;
-    const double way =
-        h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
-    return keep_profile(s, rb_unit_shown(s->units, "mm", h->max_depth[step]), way,
-                        &w->profile[w->profiles++]);
-}
-
 /* ---- Picture ----------------------------------------------------------------------- */
-
-/* Depths are shown in a small unit. */
-static rb_report_unit depth_unit(rb_units units)
-{
-    static const rb_report_unit all[] = {[RB_UNITS_MM] = {1e-3, "µm"},
-                                         [RB_UNITS_SI] = {1e-6, "µm"},
-                                         [RB_UNITS_INCH] = {1e-3, "mil"}};
-    return all[units];
-}
-
-static void write_data(FILE *out, const rb_report_wear *w, double length, double stress,
-                       double depth)
-{
-    for (int k = 0; k < w->profiles; k++) {
-        const rb_report_wear_profile *p = &w->profile[k];
-        fprintf(out, "$profile%d << EOD\n", k);
-        for (int i = 0; i < p->n; i++)
-            fprintf(out, "%.9g %.9g %.9g\n", p->x[i] / length, p->p[i] / stress,
-                    -p->depth[i] / depth);
-        fputs("EOD\n", out);
-    }
-}
 
 static void write_panel(FILE *out, const rb_report_wear *w, int column)
 {
@@ -164,13 +137,24 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const rb_report_unit length = rb_report_axis_unit(h->units, "mm", half);
     const rb_report_unit stress =
         rb_report_axis_unit(h->units, "MPa", fmax(h->max_pressure[0], 0.0));
-    const rb_report_unit depth = depth_unit(h->units);
+    /* Depths are shown in a small unit. */
+    static const rb_report_unit all[] = {[RB_UNITS_MM] = {1e-3, "µm"},
+                                         [RB_UNITS_SI] = {1e-6, "µm"},
+                                         [RB_UNITS_INCH] = {1e-3, "mil"}};
+    const rb_report_unit depth = all[h->units];
     const double from = fmin(h->contact_from[0], h->contact_from[last]) / length.size;
     const double to = fmax(h->contact_to[0], h->contact_to[last]) / length.size;
     const char *mm = rb_unit_name(h->units, "mm");
     const wear_words words = words_of(h);
 
-    write_data(out, w, length.size, stress.size, depth.size);
+    for (int k = 0; k < w->profiles; k++) {
+        const rb_report_wear_profile *p = &w->profile[k];
+        fprintf(out, "$profile%d << EOD\n", k);
+        for (int i = 0; i < p->n; i++)
+            fprintf(out, "%.9g %.9g %.9g\n", p->x[i] / length.size, p->p[i] / stress.size,
+                    -p->depth[i] / depth.size);
+        fputs("EOD\n", out);
+    }
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
             "0.965\n" RB_REPORT_GRID "set format x ''\n",

@@ -94,85 +94,40 @@ static void note_thin(rb_rolling_note_list *list, const rb_rolling_case *rc,
                 280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
 }
 
-static void note_motion(rb_rolling_note_list *list, const rb_rolling_case *rc)
-{
-    const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
-    const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
-    if (rc->formulation == RB_STATIC && creeps)
-        add(list,
-            "In a static case --creep does not change the tractions; use --formulation "
-            "steady to roll.");
-    if (rc->formulation == RB_STEADY && !creeps && !forced)
-        add(list, "No --creep, --creep-ratio, --force or --force-ratio is given: the "
-                  "wheel rolls "
-                  "at creepage 0.");
-}
-
-/* Given values that look as if they were meant in other units. */
-static void note_units(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                       const rb_rolling_solution *s)
-{
-    const int arcs = rc->a.support == RB_BEM_ARC;
-    if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
-        add(list,
-            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the "
-            "creepage is meant in per cent, write --creep %g%%.",
-            s->creep_ratio, s->creepage);
-    if (arcs && rc->a.arc < 2.0)
-        add(list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
-            rc->a.arc, rc->a.arc);
-}
-
-static void note_yield(rb_rolling_note_list *list, const rb_rolling_solution *s)
-{
-    if (s->yielding > 0)
-        add(list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The "
-                  "column shift "
-                  "is slip and yielding together, plastic is the yielded part.");
-}
-
-static void note_mesh(rb_rolling_note_list *list, const rb_rolling_solution *s)
-{
-    if (s->equal_instead)
-        add(list,
-            "Fitting the mesh to the contact edges did not converge; equal elements were "
-            "used.");
-    if (s->edges_bounded && s->contact > 0)
-        add(list,
-            "The pressure ends abruptly at one edge; its position is uncertain by one "
-            "element.");
-}
-
-/* Slip between two midpoints that the mean of their tractions does not oppose. */
-static void note_power(rb_rolling_note_list *list, const rb_rolling_solution *s)
-{
-    if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
-        add(list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
-            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
-}
-
-/* Beyond full sliding the force does not change: it does not tell the creepage. */
-static void note_full_sliding(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                              const rb_rolling_solution *s)
-{
-    const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
-    if (s->formulation != RB_STATIC && force && s->stick == 0 &&
-        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
-        !rb_rolling_law_depends_on_state(rc))
-        add(list, "The whole contact slides: the creepage is not unique, every larger "
-                  "one gives "
-                  "the same force.");
-}
-
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
                                            const rb_rolling_solution *s)
 {
     rb_rolling_note_list list = {.n = 0};
     note_strain(&list, rc, s);
     note_thin(&list, rc, s);
-    note_motion(&list, rc);
-    note_units(&list, rc, s);
-    note_full_sliding(&list, rc, s);
+    const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
+    const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+    if (rc->formulation == RB_STATIC && creeps)
+        add(&list,
+            "In a static case --creep does not change the tractions; use --formulation "
+            "steady to roll.");
+    if (rc->formulation == RB_STEADY && !creeps && !forced)
+        add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the "
+                   "wheel rolls "
+                   "at creepage 0.");
+    /* Given values that look as if they were meant in other units. */
+    const int arcs = rc->a.support == RB_BEM_ARC;
+    if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
+        add(&list,
+            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the "
+            "creepage is meant in per cent, write --creep %g%%.",
+            s->creep_ratio, s->creepage);
+    if (arcs && rc->a.arc < 2.0)
+        add(&list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
+            rc->a.arc, rc->a.arc);
+    /* Beyond full sliding the force does not change: it does not tell the creepage. */
+    const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+    if (s->formulation != RB_STATIC && force && s->stick == 0 &&
+        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
+        !rb_rolling_law_depends_on_state(rc))
+        add(&list, "The whole contact slides: the creepage is not unique, every larger "
+                   "one gives "
+                   "the same force.");
     if (s->kappa > not_unique)
         add(&list,
             "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
@@ -182,9 +137,22 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
         add(&list, "On an arc support the answer depends on the angle of the wheel; "
                    "--support hub "
                    "and halfplane do not have this.");
-    note_yield(&list, s);
-    note_mesh(&list, s);
-    note_power(&list, s);
+    if (s->yielding > 0)
+        add(&list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The "
+                   "column shift "
+                   "is slip and yielding together, plastic is the yielded part.");
+    if (s->equal_instead)
+        add(&list,
+            "Fitting the mesh to the contact edges did not converge; equal elements were "
+            "used.");
+    if (s->edges_bounded && s->contact > 0)
+        add(&list,
+            "The pressure ends abruptly at one edge; its position is uncertain by one "
+            "element.");
+    /* Slip between two midpoints that the mean of their tractions does not oppose. */
+    if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
+        add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
+            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
         s->slip_violations > 0)
         add(&list,

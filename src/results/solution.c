@@ -11,13 +11,6 @@ void rb_rolling_solution_free(rb_rolling_solution *s)
     memset(s, 0, sizeof *s);
 }
 
-static rb_status solution_alloc(const rb_rolling_case *rc, int n, rb_rolling_solution *s)
-{
-    memset(s, 0, sizeof *s);
-    s->n = n;
-    return rb_rolling_columns_alloc(&rb_rolling_solution_columns, rc, n, s);
-}
-
 /* ---- Scalars of the traction distribution ------------------------------------------ */
 
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
@@ -51,39 +44,6 @@ static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s
 }
 
 /* ---- Slip -------------------------------------------------------------------------- */
-
-/* static: (12) with sgn(V) = -1, from the creepage of the case and the strain upstream;
- * otherwise the slip of the solution itself. */
-static void set_slip(const rb_rolling_model *model, const double *w_T,
-                     rb_rolling_solution *s)
-{
-    const double *x = model->bodies.f.x;
-
-    for (int i = 0; i < s->n; i++)
-        s->slip[i] = s->formulation == RB_STATIC
-                         ? s->creepage - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
-                     : s->formulation == RB_STEADY ? s->shift[i] / (x[i + 1] - x[i])
-                                                   : s->shift[i] / model->problem.e_T[i];
-}
-
-/* Coulomb's law between the printed slip and the printed tractions: in stick no slip, in
- * slip the friction against it. */
-static int count_violations(const rb_rolling_model *model, const rb_rolling_solution *s)
-{
-    const double small = 1e-9 * model->problem.slip_length / s->h[s->n / 2];
-    int violations = 0;
-
-    for (int i = 0; i < s->n; i++) {
-        const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
-        const int zone = s->zone[i];
-        violations +=
-            zone == RB_ZONE_STICK ? slip != 0.0
-            : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
-            : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
-                                                                              : 0;
-    }
-    return violations;
-}
 
 /* ---- Forces ------------------------------------------------------------------------ */
 
@@ -212,21 +172,18 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
         memcpy(s->mu, model->problem.bound, (size_t)n * sizeof(double));
     if (s->plastic)
         rb_rolling_yielded(model, s->plastic);
-    set_slip(model, w + m, s);
+    /* static: (12) with sgn(V) = -1, from the creepage of the case and the strain
+     * upstream; otherwise the slip of the solution itself. */
+    const double *w_T = w + m;
+    const double *x = model->bodies.f.x;
+
+    for (int i = 0; i < s->n; i++)
+        s->slip[i] = s->formulation == RB_STATIC
+                         ? s->creepage - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
+                     : s->formulation == RB_STEADY ? s->shift[i] / (x[i + 1] - x[i])
+                                                   : s->shift[i] / model->problem.e_T[i];
     free(w);
     return RB_OK;
-}
-
-/* Clapeyron's: half the work of the tractions, which are linear in the displacements
- * unless a body relaxes or the interface yields. */
-static double strain_energy(const rb_rolling_model *model, const rb_rolling_solution *s)
-{
-    double twice = 0.0;
-    if (!rb_rolling_can(model->rc, RB_BODY_ELASTIC) || s->yielding >= 0)
-        return NAN;
-    for (int i = 0; i < s->n; i++)
-        twice += s->h[i] * (s->p[i] * s->un[i] + s->q[i] * s->ut[i]);
-    return 0.5 * twice;
 }
 
 static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
@@ -295,7 +252,10 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                     rb_message *why)
 {
-    rb_status status = solution_alloc(model->rc, model->mesh.n, s);
+    memset(s, 0, sizeof *s);
+    s->n = model->mesh.n;
+    rb_status status = rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc,
+                                                model->mesh.n, s);
 
     if (status == RB_OK) {
         s->formulation = model->rc->formulation;
@@ -319,7 +279,16 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     }
     set_stick_limits(&model->mesh, s);
     s->nip_width = s->contact_to - s->contact_from;
-    s->strain_energy = strain_energy(model, s);
+    /* Clapeyron's: half the work of the tractions, which are linear in the displacements
+     * unless a body relaxes or the interface yields. */
+    double twice = 0.0;
+    if (!rb_rolling_can(model->rc, RB_BODY_ELASTIC) || s->yielding >= 0)
+        s->strain_energy = NAN;
+    else {
+        for (int i = 0; i < s->n; i++)
+            twice += s->h[i] * (s->p[i] * s->un[i] + s->q[i] * s->ut[i]);
+        s->strain_energy = 0.5 * twice;
+    }
     s->max_strain = rb_rolling_strain(model->rc, s->approach, s->max_pressure, NULL);
     if (isnan(s->max_strain))
         s->max_strain = 0.5 * s->half_width / rb_rolling_radius(model->rc);
@@ -328,7 +297,21 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     s->kappa = NAN;
     if (rb_rolling_law_depends_on_state(model->rc))
         status = rb_rolling_law_kappa(model, &s->kappa);
-    s->slip_violations = count_violations(model, s);
+    /* Coulomb's law between the printed slip and the printed tractions: in stick no slip,
+     * in slip the friction against it. */
+    const double small = 1e-9 * model->problem.slip_length / s->h[s->n / 2];
+    int violations = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
+        const int zone = s->zone[i];
+        violations +=
+            zone == RB_ZONE_STICK ? slip != 0.0
+            : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
+            : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
+                                                                              : 0;
+    }
+    s->slip_violations = violations;
     s->dissipation = rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h,
                                                  model->problem.e_T);
     if (s->formulation != RB_STATIC)

@@ -300,13 +300,6 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
-/* A layer or a cover. */
-static int has_part_of_its_own(const rb_rolling_case *rc)
-{
-    return rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
-           (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0));
-}
-
 /* Friction heats what rolls; steps follow it where both bodies start equally warm. */
 static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
 {
@@ -334,10 +327,12 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     if (!is_positive(rc->speed))
         return rb_fail(why, RB_EINVAL,
                        "conductivity: needs the speed of rolling, add --speed");
+    /* A layer or a cover. */
     if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
         return rb_fail(
             why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
-            has_part_of_its_own(rc)
+            (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
+             (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
                 ? "a layer or cover conducts otherwise than what it is on, which the "
                   "flash temperature does not know"
                 : "a body that relaxes heats inside, not at its surface alone");
@@ -385,26 +380,6 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
-/* Beyond full sliding there is no equilibrium; without friction no force but zero. */
-static rb_status check_force(const rb_rolling_case *rc, rb_message *why)
-{
-    if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
-        return rb_fail(why, RB_EINVAL,
-                       "force ratio Q/(mu P) = %g: friction carries at most 1",
-                       rc->force_ratio);
-    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 &&
-        rc->force_ratio != 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "force ratio %g: Q/(mu P) has no meaning at mu = 0",
-                       rc->force_ratio);
-    const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
-    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
-                       rc->force, mu * P);
-    return RB_OK;
-}
-
 static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 {
     const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force,
@@ -439,7 +414,22 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "free axle: friction alone turns it, expected mu > 0");
-    return check_force(rc, why);
+    /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
+    if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
+        return rb_fail(why, RB_EINVAL,
+                       "force ratio Q/(mu P) = %g: friction carries at most 1",
+                       rc->force_ratio);
+    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 &&
+        rc->force_ratio != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "force ratio %g: Q/(mu P) has no meaning at mu = 0",
+                       rc->force_ratio);
+    const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
+    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL,
+                       "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
+                       rc->force, mu * P);
+    return RB_OK;
 }
 
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)

@@ -24,21 +24,6 @@ static double interpolated(const rb_rolling_mesh *mesh, const double *value, dou
     return value[j] + (value[other] - value[j]) * (x - here) / (there - here);
 }
 
-/* The coarse edges are known to less than an element: the outermost zones follow them. */
-static int zone_at(const rb_contact_state *coarse, int j, double x, double from,
-                   double to)
-{
-    const int zone = coarse->zone[j];
-
-    if (x < from || x > to)
-        return RB_ZONE_SEPARATED;
-    if (zone != RB_ZONE_SEPARATED)
-        return zone;
-    const int left = j > 0 ? coarse->zone[j - 1] : RB_ZONE_SEPARATED;
-    const int right = j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
-    return left != RB_ZONE_SEPARATED ? left : right;
-}
-
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                            const rb_contact_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_contact_state *fine)
@@ -53,7 +38,22 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
             j++;
         fine->p[i] = interpolated(mesh, coarse->p, x, j);
         fine->q[i] = interpolated(mesh, coarse->q, x, j);
-        fine->zone[i] = zone_at(coarse, j, x, from, to);
+        /* The coarse edges are known to less than an element: the outermost zones follow
+         * them. */
+        const int zone = coarse->zone[j];
+
+        if (x < from || x > to)
+            fine->zone[i] = RB_ZONE_SEPARATED;
+        else {
+            if (zone != RB_ZONE_SEPARATED)
+                fine->zone[i] = zone;
+            else {
+                const int left = j > 0 ? coarse->zone[j - 1] : RB_ZONE_SEPARATED;
+                const int right =
+                    j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
+                fine->zone[i] = left != RB_ZONE_SEPARATED ? left : right;
+            }
+        }
     }
     fine->delta = coarse->delta;
     fine->xi = coarse->xi;

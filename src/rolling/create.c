@@ -40,13 +40,6 @@ rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *mo
     return s;
 }
 
-/* Similar bodies without a history roll freely at no creepage. */
-static int rolls_freely_at_rest(const rb_contact_problem *problem)
-{
-    return !rb_contact_operator_response(problem->op).coupled &&
-           rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
-}
-
 static rb_rolling_case without_force(const rb_rolling_model *model)
 {
     rb_rolling_case rc = *model->rc;
@@ -118,7 +111,11 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
                                    rb_message *why)
 {
-    *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
+    /* Similar bodies without a history roll freely at no creepage. */
+    *creepage = (!rb_contact_operator_response(model->problem.op).coupled &&
+                 rb_norm_inf((size_t)model->problem.n, model->problem.d_T) == 0.0)
+                    ? 0.0
+                    : NAN;
     if (*creepage == 0.0)
         return RB_OK;
     if (model->rc->mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(model->rc))

@@ -36,15 +36,6 @@ static double room_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run
     return 0.5 * (length_of(mesh, outer) + length_of(mesh, open));
 }
 
-/* 1: elements between the patches k - 1 and k would be of no use. */
-static int are_one(const patches *found, int k)
-{
-    const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
-    const double wider = fmax(a->to - a->from, b->to - b->from);
-
-    return b->from - a->to < NARROW * wider;
-}
-
 static void join(patches *found, int k)
 {
     const size_t behind = (size_t)(--found->count - k);
@@ -64,9 +55,14 @@ static int add_patch(const rb_rolling_span *span, patches *found)
     for (; k > 0 && found->span[k - 1].from > span->from; k--)
         found->span[k] = found->span[k - 1];
     found->span[k] = *span;
-    for (k = found->count - 1; k > 0; k--)
-        if (are_one(found, k))
+    for (k = found->count - 1; k > 0; k--) {
+        /* Elements between the patches k - 1 and k may be of no use. */
+        const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
+        const double wider = fmax(a->to - a->from, b->to - b->from);
+
+        if (b->from - a->to < NARROW * wider)
             join(found, k);
+    }
     return 1;
 }
 
@@ -151,50 +147,7 @@ static void forget(brackets *known)
         known[k] = (brackets){open, open};
 }
 
-/* The next edges to fit to; returns how far the worst one is from rest. */
-static double refine_all(const patches *found, brackets *known, patches *fitted)
-{
-    double worst = 0.0;
-
-    for (int k = 0; k < fitted->count; k++) {
-        const rb_rolling_span *now = &found->span[k];
-        rb_rolling_span *span = &fitted->span[k];
-        double left = -span->from;
-        worst = fmax(worst, refine(-now->from, now->h_left, &left, &known[k].left));
-        worst = fmax(worst, refine(now->to, now->h_right, &span->to, &known[k].right));
-        span->from = -left;
-        span->room_left = now->room_left;
-        span->room_right = now->room_right;
-    }
-    return worst;
-}
-
 /* ---- All of them ------------------------------------------------------------------- */
-
-/* On a mesh that ends somewhere a corner of a punch can be a solution as well.  Where the
- * solver finds that one, the zones of the solution that the mesh was fitted to lead to
- * the other one. */
-static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_message *why)
-{
-    rb_rolling_mesh mesh, old_mesh = model->mesh;
-    rb_contact_state old = model->state;
-    const int was_enclosed = old.status == RB_OK;
-    rb_status s = rb_rolling_mesh_spans(model->rc, model->plan.elements, now->count,
-                                        now->span, &mesh, why);
-
-    if (s != RB_OK)
-        return s;
-    memset(&model->mesh, 0, sizeof model->mesh);
-    memset(&model->state, 0, sizeof model->state);
-    s = rb_rolling_model_build(model, &mesh, why);
-    if (s == RB_ZONE && was_enclosed) {
-        rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
-        s = rb_rolling_model_resolve(model, 1, why);
-    }
-    rb_rolling_mesh_free(&old_mesh);
-    rb_contact_state_free(&old);
-    return s;
-}
 
 /* From a solution to elements fitted to its edges, until these rest.  *rest: 0 where they
  * do not, or where no solution is found on them. */
@@ -211,12 +164,46 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
     for (int round = 0;
          round < ROUNDS && !*rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
          round++) {
-        s = solve_on(model, &fitted, why);
+        /* On a mesh that ends somewhere a corner of a punch can be a solution as well.
+         * Where the solver finds that one, the zones of the solution that the mesh was
+         * fitted to lead to the other one. */
+        rb_rolling_mesh mesh, old_mesh = model->mesh;
+        rb_contact_state old = model->state;
+        const int was_enclosed = old.status == RB_OK;
+        s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count,
+                                  fitted.span, &mesh, why);
+
+        if (s == RB_OK) {
+            memset(&model->mesh, 0, sizeof model->mesh);
+            memset(&model->state, 0, sizeof model->state);
+            s = rb_rolling_model_build(model, &mesh, why);
+            if (s == RB_ZONE && was_enclosed) {
+                rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh,
+                                      &model->state);
+                s = rb_rolling_model_resolve(model, 1, why);
+            }
+            rb_rolling_mesh_free(&old_mesh);
+            rb_contact_state_free(&old);
+        }
         const rb_status t = s < 0 ? s : find_patches(model, &found);
         if (t != RB_OK)
             return t;
         if (s == RB_OK && found.count == fitted.count) {
-            moved = refine_all(&found, known, &fitted);
+            /* The next edges to fit to. */
+            moved = 0.0;
+
+            for (int k = 0; k < fitted.count; k++) {
+                const rb_rolling_span *now = &found.span[k];
+                rb_rolling_span *span = &fitted.span[k];
+                double left = -span->from;
+                moved =
+                    fmax(moved, refine(-now->from, now->h_left, &left, &known[k].left));
+                moved = fmax(moved,
+                             refine(now->to, now->h_right, &span->to, &known[k].right));
+                span->from = -left;
+                span->room_left = now->room_left;
+                span->room_right = now->room_right;
+            }
             *rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
         } else {
             forget(known);

@@ -116,23 +116,6 @@ rb_status rb_rolling_former_place_create(const rb_rolling_case *rc,
     return s;
 }
 
-/* What the interface yields `step` ahead of each midpoint, linear in between, as F has it
- * where there is one; nothing beyond the last element. */
-static void add_interface(const rb_bem_flexibility *f, double step, const double *q,
-                          double *w_T)
-{
-    const double *own = f->compliance + f->n, elements = step / f->h[f->n / 2];
-
-    for (int i = 0; i < f->n; i++) {
-        const int before = (int)(i + elements);
-        const double t = i + elements - before;
-        if (before < f->n)
-            w_T[i] += (1.0 - t) * own[before] * q[before];
-        if (before + 1 < f->n)
-            w_T[i] += t * own[before + 1] * q[before + 1];
-    }
-}
-
 void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
                                    const rb_rolling_bodies *bodies, const double *p,
                                    const double *q, double *w_T)
@@ -150,8 +133,21 @@ void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
         if (q[j] != 0.0)
             cblas_daxpy(n, q[j], of_q, 1, w_T, 1);
     }
-    if (ahead->response && bodies->f.compliance)
-        add_interface(&bodies->f, ahead->step, q, w_T);
+    if (ahead->response && bodies->f.compliance) {
+        /* What the interface yields `step` ahead of each midpoint, linear in between, as
+         * F has it where there is one; nothing beyond the last element. */
+        const double *own = bodies->f.compliance + bodies->f.n,
+                     elements = ahead->step / bodies->f.h[bodies->f.n / 2];
+
+        for (int i = 0; i < bodies->f.n; i++) {
+            const int before = (int)(i + elements);
+            const double t = i + elements - before;
+            if (before < bodies->f.n)
+                w_T[i] += (1.0 - t) * own[before] * q[before];
+            if (before + 1 < bodies->f.n)
+                w_T[i] += t * own[before + 1] * q[before + 1];
+        }
+    }
 }
 
 void rb_rolling_former_place_free(rb_rolling_former_place *ahead)

@@ -59,20 +59,6 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
 
 /* ---- Its two operators ------------------------------------------------------------- */
 
-/* S has A on all of F_TT so far. */
-static void add_local_operator(const kinematic *A, double compliance, double *S)
-{
-    const int n = A->n;
-
-    for (int i = 0; i < n && A->outside; i++)
-        for (int k = 0; k < 4; k++) {
-            const int j = i - 1 + k;
-            if (j >= 0 && j < n)
-                S[i + (size_t)(n + j) * (size_t)n] +=
-                    compliance * (A->local[k] - A->stencil[k]);
-        }
-}
-
 /* S = A [F_TN F_TT] (K2). */
 static rb_status dense_operator(const rb_rolling_case *rc,
                                 const rb_rolling_bodies *bodies, const kinematic *A,
@@ -90,7 +76,14 @@ static rb_status dense_operator(const rb_rolling_case *rc,
         for (int i = 0; i < n; i++)
             S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
     }
-    add_local_operator(A, rc->interlayer_tangential, S);
+    /* S has A on all of F_TT so far. */
+    for (int i = 0; i < n && A->outside; i++)
+        for (int k = 0; k < 4; k++) {
+            const int j = i - 1 + k;
+            if (j >= 0 && j < n)
+                S[i + (size_t)(n + j) * (size_t)n] +=
+                    rc->interlayer_tangential * (A->local[k] - A->stencil[k]);
+        }
     return rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
 }
 
@@ -233,24 +226,6 @@ void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bo
         p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
 }
 
-/* Vertical and horizontal force of unit tractions along n and t. */
-static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                        rb_contact_problem *p)
-{
-    for (int i = 0; i < p->n; i++) {
-        const double h = bodies->f.h[i];
-        const double sine =
-            rc->normals == RB_BEM_NORMALS_SURFACE ? bodies->f.x[i] / rc->a.radius : 0.0;
-        const double cosine = sqrt(1.0 - sine * sine);
-        p->load_N[i] = h * cosine;
-        p->load_T[i] = h * sine;
-        p->force_N[i] = -h * sine;
-        p->force_T[i] = h * cosine;
-        p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
-        p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
-    }
-}
-
 double rb_rolling_wanted_shift(const rb_rolling_case *rc)
 {
     if (!isnan(rc->shift))
@@ -304,38 +279,6 @@ static rb_status set_yield(const rb_rolling_case *rc, rb_contact_problem *p)
     return rb_contact_set_yield(p, rc->yield_stress, rc->hardening);
 }
 
-/* A layer that softens has one answer to a slip only where its stress falls by less than
- * the friction that the slip sets free. */
-static rb_status check_softening(const rb_rolling_case *rc, const rb_contact_problem *p,
-                                 rb_message *why)
-{
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    double most = rb_contact_operator_response(p->op).slip;
-
-    for (int i = 0; K.S && i < p->n; i++)
-        most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
-    const double least = 1.0 / (p->own * most);
-    return !p->yield || rc->hardening > -least
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "hardening: softening by %g MPa/mm has no unique solution, "
-                         "expected less than %g MPa/mm on this mesh",
-                         -rc->hardening, least);
-}
-
-/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
- * where mu is small, the slip of dissimilar bodies comes from the pressure. */
-static void set_scales(const rb_rolling_case *rc, rb_contact_problem *p)
-{
-    const rb_contact_response unit = rb_contact_operator_response(p->op);
-    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
-
-    p->stress = rb_rolling_derive(rc).stress;
-    p->gap_length = p->stress * unit.gap;
-    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
-    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
-}
-
 /* p: allocated. */
 static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_rolling_bodies *bodies,
@@ -349,10 +292,43 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     p->differences = rc->formulation == RB_STEADY;
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, p);
-    set_weights(rc, bodies, p);
+    /* Vertical and horizontal force of unit tractions along n and t. */
+    for (int i = 0; i < p->n; i++) {
+        const double h = bodies->f.h[i];
+        const double sine =
+            rc->normals == RB_BEM_NORMALS_SURFACE ? bodies->f.x[i] / rc->a.radius : 0.0;
+        const double cosine = sqrt(1.0 - sine * sine);
+        p->load_N[i] = h * cosine;
+        p->load_T[i] = h * sine;
+        p->force_N[i] = -h * sine;
+        p->force_T[i] = h * cosine;
+        p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
+        p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
+    }
     rb_rolling_set_control(rc, p);
-    set_scales(rc, p);
-    return check_softening(rc, p, why);
+    /* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about
+     * 1; where mu is small, the slip of dissimilar bodies comes from the pressure. */
+    const rb_contact_response unit = rb_contact_operator_response(p->op);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
+
+    p->stress = rb_rolling_derive(rc).stress;
+    p->gap_length = p->stress * unit.gap;
+    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
+    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
+    /* A layer that softens has one answer to a slip only where its stress falls by less
+     * than the friction that the slip sets free. */
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    double most = rb_contact_operator_response(p->op).slip;
+
+    for (int i = 0; K.S && i < p->n; i++)
+        most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
+    const double least = 1.0 / (p->own * most);
+    return !p->yield || rc->hardening > -least
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "hardening: softening by %g MPa/mm has no unique solution, "
+                         "expected less than %g MPa/mm on this mesh",
+                         -rc->hardening, least);
 }
 
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,

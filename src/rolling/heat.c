@@ -164,22 +164,6 @@ static int is_one_contact(const rb_rolling_solution *s)
     return edges == 1;
 }
 
-/* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one another the
- * matrix depends on distances alone. */
-static rb_status solve_equal(const conductor *a, const conductor *b, int m, double *rhs)
-{
-    const int n = a->n;
-    double *t = rb_alloc((size_t)m, 2);
-    rb_status status = t ? RB_OK : RB_ENOMEM;
-
-    for (int d = 1 - m; d < m && t; d++)
-        t[m + d] = a->response[n - 1 - d] + b->response[n - 1 - d];
-    if (status == RB_OK)
-        status = solve_toeplitz(m, t + m, rhs);
-    free(t);
-    return status;
-}
-
 static rb_status solve_any(const conductor *a, const conductor *b,
                            const rb_rolling_solution *s, double *rhs)
 {
@@ -220,36 +204,25 @@ static rb_status share_heat(const conductor *a, const conductor *b,
     for (int i = 0, k = 0; i < n && status == RB_OK; i++)
         if (is_contact(s, i))
             rhs[k++] = heat_a[i] - a->body->temperature;
-    if (status == RB_OK)
-        status = a->response && is_one_contact(s) ? solve_equal(a, b, s->contact, rhs)
-                                                  : solve_any(a, b, s, rhs);
+    if (status == RB_OK) {
+        if (a->response && is_one_contact(s)) {
+            /* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one
+             * another the matrix depends on distances alone. */
+            double *t = rb_alloc((size_t)s->contact, 2);
+            status = t ? RB_OK : RB_ENOMEM;
+
+            for (int d = 1 - s->contact; d < s->contact && t; d++)
+                t[s->contact + d] = a->response[a->n - 1 - d] + b->response[a->n - 1 - d];
+            if (status == RB_OK)
+                status = solve_toeplitz(s->contact, t + s->contact, rhs);
+            free(t);
+        } else
+            status = solve_any(a, b, s, rhs);
+    }
     for (int i = 0, k = 0; i < n && status == RB_OK; i++)
         heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;
     free(rhs);
     return status;
-}
-
-/* Friction heats, it never cools.  Powers of elements that begin or end the contact may
- * be negative on coarse meshes, because they hold a part of what opens beside them: then
- * the others have as much less. */
-static void heat_of_power(const rb_rolling_case *rc, int n, const double *power,
-                          double *heat)
-{
-    double all = 0.0, heats = 0.0;
-
-    for (int i = 0; i < n; i++) {
-        all += power[i];
-        heats += fmax(power[i], 0.0);
-    }
-    const double share = all > 0.0 ? all / heats : 1.0;
-    for (int i = 0; i < n; i++)
-        heat[i] = rc->speed * (all > 0.0 ? share * fmax(power[i], 0.0) : power[i]);
-}
-
-static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
-{
-    return a->conductivity == b->conductivity && a->heat_capacity == b->heat_capacity &&
-           a->temperature == b->temperature;
 }
 
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
@@ -263,9 +236,24 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
 
     if (status == RB_OK && b_conducts)
         status = conductor_create(rc, &rc->heat_b, s, &b);
-    if (status == RB_OK)
-        heat_of_power(rc, n, power, heat);
-    if (status == RB_OK && b_conducts && !is_alike(&rc->heat_a, &rc->heat_b))
+    if (status == RB_OK) {
+        /* Friction heats, it never cools.  Powers of elements that begin or end the
+         * contact may be negative on coarse meshes, because they hold a part of what
+         * opens beside them: then the others have as much less. */
+        double all = 0.0, heats = 0.0;
+
+        for (int i = 0; i < n; i++) {
+            all += power[i];
+            heats += fmax(power[i], 0.0);
+        }
+        const double share = all > 0.0 ? all / heats : 1.0;
+        for (int i = 0; i < n; i++)
+            heat[i] = rc->speed * (all > 0.0 ? share * fmax(power[i], 0.0) : power[i]);
+    }
+    if (status == RB_OK && b_conducts &&
+        !(rc->heat_a.conductivity == rc->heat_b.conductivity &&
+          rc->heat_a.heat_capacity == rc->heat_b.heat_capacity &&
+          rc->heat_a.temperature == rc->heat_b.temperature))
         status = share_heat(&a, &b, s, heat, heat_a);
     else
         for (int i = 0; i < n && status == RB_OK; i++)
@@ -354,24 +342,6 @@ void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
     t->known = t->known < t->rows ? t->known + 1 : t->rows;
 }
 
-/* temperature += weight times the heat of k steps ago, k c further: between midpoints,
- * and nothing beyond the last one. */
-static void add_heat(const rb_rolling_heat_track *t, int k, double weight,
-                     double *temperature)
-{
-    const int row = (t->newest - k + t->rows) % t->rows;
-    const double *heat = t->heat + (size_t)row * (size_t)t->n;
-    const double shift = k * t->step / t->h, whole = floor(shift);
-    const double part = shift - whole > 1e-9 ? shift - whole : 0.0;
-    const int last = t->n - 1 - (int)whole; /* its left neighbour is the last element */
-
-    for (int i = 0; i < last; i++)
-        temperature[i] += weight * ((1.0 - part) * heat[i + (int)whole] +
-                                    part * heat[i + (int)whole + 1]);
-    if (last >= 0)
-        temperature[last] += weight * (1.0 - part) * heat[t->n - 1];
-}
-
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 const double *lambda, rb_rolling_heat_track *t,
@@ -386,6 +356,21 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
             -q[i] * lambda[i] * rc->speed / t->step;
         temperature[i] = rc->heat_a.temperature;
     }
-    for (int k = 0; k < t->known && k * t->step < t->n * t->h; k++)
-        add_heat(t, k, unit * (sqrt(k + 1.0) - sqrt(k)), temperature);
+    for (int k = 0; k < t->known && k * t->step < t->n * t->h; k++) {
+        /* temperature += weight times the heat of k steps ago, k c further: between
+         * midpoints, and nothing beyond the last one. */
+        const double weight = unit * (sqrt(k + 1.0) - sqrt(k));
+        const int row = (t->newest - k + t->rows) % t->rows;
+        const double *heat = t->heat + (size_t)row * (size_t)t->n;
+        const double shift = k * t->step / t->h, whole = floor(shift);
+        const double part = shift - whole > 1e-9 ? shift - whole : 0.0;
+        const int last =
+            t->n - 1 - (int)whole; /* its left neighbour is the last element */
+
+        for (int i = 0; i < last; i++)
+            temperature[i] += weight * ((1.0 - part) * heat[i + (int)whole] +
+                                        part * heat[i + (int)whole + 1]);
+        if (last >= 0)
+            temperature[last] += weight * (1.0 - part) * heat[t->n - 1];
+    }
 }

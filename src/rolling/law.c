@@ -145,24 +145,6 @@ static rb_status check_slip(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
-static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
-{
-    const rb_rolling_friction *f = &rc->friction;
-
-    if (f->heat == 0.0)
-        return RB_OK;
-    if (!isfinite(f->heat) || !isfinite(f->heat_from) ||
-        !(isfinite(f->heat_range) && f->heat_range > 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "friction and heat: expected a change, a temperature and a range "
-                       "> 0, got %g, %g, %g",
-                       f->heat, f->heat_from, f->heat_range);
-    return rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc)
-               ? rb_fail(why, RB_EINVAL,
-                         "friction and heat: needs temperatures, add --conductivity")
-               : RB_OK;
-}
-
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_friction *f = &rc->friction;
@@ -174,8 +156,23 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         s = check_table(&f->table, why);
     if (s == RB_OK && rb_rolling_law_depends_on_slip(f))
         s = check_slip(rc, why);
-    if (s == RB_OK)
-        s = check_heat(rc, why);
+    if (s == RB_OK) {
+        if (f->heat != 0.0) {
+            if (!isfinite(f->heat) || !isfinite(f->heat_from) ||
+                !(isfinite(f->heat_range) && f->heat_range > 0.0))
+                s = rb_fail(
+                    why, RB_EINVAL,
+                    "friction and heat: expected a change, a temperature and a range "
+                    "> 0, got %g, %g, %g",
+                    f->heat, f->heat_from, f->heat_range);
+            else
+                s = rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc)
+                        ? rb_fail(
+                              why, RB_EINVAL,
+                              "friction and heat: needs temperatures, add --conductivity")
+                        : RB_OK;
+        }
+    }
     if (s == RB_OK && !(f->memory >= 0.0 && isfinite(f->memory) &&
                         (f->memory == 0.0 || f->memory_slip > 0.0)))
         s = rb_fail(why, RB_EINVAL,
@@ -191,18 +188,15 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
 
 /* ---- The coefficients of a state --------------------------------------------------- */
 
-static double heat_part(const rb_rolling_friction *f, double temperature)
-{
-    return f->heat != 0.0
-               ? f->heat *
-                     fmin(1.0, fmax(0.0, (temperature - f->heat_from) / f->heat_range))
-               : 0.0;
-}
-
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
                          double temperature)
 {
-    return laws[rc->friction.law].mu(rc, x, v) + heat_part(&rc->friction, temperature);
+    return laws[rc->friction.law].mu(rc, x, v) +
+           (rc->friction.heat != 0.0
+                ? rc->friction.heat *
+                      fmin(1.0, fmax(0.0, (temperature - rc->friction.heat_from) /
+                                              rc->friction.heat_range))
+                : 0.0);
 }
 
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x)

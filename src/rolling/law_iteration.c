@@ -124,17 +124,6 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
 
 /* ---- The iteration at a given creepage --------------------------------------------- */
 
-/* The natural residual that coefficients in the place of the problem's would leave. */
-static double change_of(const rb_contact_problem *p, const rb_contact_state *state,
-                        const double *mu)
-{
-    double most = 0.0;
-
-    for (int i = 0; i < p->n; i++)
-        most = fmax(most, fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
-    return most;
-}
-
 /* The step of a round.  Steps that grow and go on in the same direction leave one
  * solution for another (a jump), which takes some rounds.  Where they turn back and do
  * not become less, or go round for long, half as much of them is taken, and twice as much
@@ -215,7 +204,13 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
             s = rb_rolling_law_coefficients(model, mu, why);
         if (s != RB_OK)
             break;
-        change = change_of(p, state, mu);
+        /* The natural residual that coefficients in the place of the problem's would
+         * leave. */
+        change = 0.0;
+
+        for (int i = 0; i < p->n; i++)
+            change = fmax(change,
+                          fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
         if (change > enough)
             relax(&r, p, change, mu);
         rb_contact_set_friction(p, p->mu, mu);
@@ -298,29 +293,6 @@ static rb_status lack(search *s, double x, double *f)
     return status;
 }
 
-/* Between x[0] and x[2] the lack is least near x[1]: golden sections until it is none, or
- * as little as there is. */
-static rb_status find_least(search *s, double x[3], double f[3])
-{
-    static const double GOLDEN = 0.381966011250105;
-    rb_status status = RB_OK;
-
-    while (status == RB_OK && f[1] > 0.0 && x[2] - x[0] > 1e-6 * x[2]) {
-        const int right = x[2] - x[1] > x[1] - x[0];
-        const double next = x[1] + GOLDEN * (right ? x[2] - x[1] : x[0] - x[1]);
-        double g;
-        status = lack(s, next, &g);
-        const int better = g < f[1], end = right == better ? 0 : 2;
-        x[end] = better ? x[1] : next;
-        f[end] = better ? f[1] : g;
-        if (better) {
-            x[1] = next;
-            f[1] = g;
-        }
-    }
-    return status;
-}
-
 /* Goes on until the force is reached, x[0] and x[1] on either side of it, or does not
  * grow any more.  A force that still opposes the wanted direction is that before free
  * rolling: on its falling branch it grows first. */
@@ -337,8 +309,26 @@ static rb_status go_on(search *s, double x[3], double f[3])
         x[2] = x[1] + step;
         step *= 2.0;
         status = lack(s, x[2], &f[2]);
-        if (status == RB_OK && f[2] >= f[1] && !opposed)
-            return find_least(s, x, f);
+        if (status == RB_OK && f[2] >= f[1] && !opposed) {
+            /* Between x[0] and x[2] the lack is least near x[1]: golden sections until it
+             * is none, or as little as there is. */
+            static const double GOLDEN = 0.381966011250105;
+
+            while (status == RB_OK && f[1] > 0.0 && x[2] - x[0] > 1e-6 * x[2]) {
+                const int right = x[2] - x[1] > x[1] - x[0];
+                const double next = x[1] + GOLDEN * (right ? x[2] - x[1] : x[0] - x[1]);
+                double g;
+                status = lack(s, next, &g);
+                const int better = g < f[1], end = right == better ? 0 : 2;
+                x[end] = better ? x[1] : next;
+                f[end] = better ? f[1] : g;
+                if (better) {
+                    x[1] = next;
+                    f[1] = g;
+                }
+            }
+            return status;
+        }
         x[0] = x[1];
         f[0] = f[1];
         x[1] = x[2];
@@ -397,16 +387,6 @@ static rb_status solve_between(search *s, double from, double to, double small)
     return status == RB_OK && !(x >= from && x <= to) ? RB_MAXITER : status;
 }
 
-/* The force is lacking at x[0] and reached at x[1].  Where a creepage has several states
- * and the search falls on one or another of them, the force tells them apart. */
-static rb_status meet_force(search *s, double x[2], double f[2], double small)
-{
-    const double from = x[0], to = x[1];
-    const rb_status status = find_force(s, x, f, small);
-
-    return status > 0 && solve_between(s, from, to, small) == RB_OK ? RB_OK : status;
-}
-
 /* From creepage 0 along the branch on which the force grows with the creepage (F4). */
 static rb_status solve_force(rb_rolling_model *model, rb_message *why)
 {
@@ -432,8 +412,16 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
                 "force Q = %g N/mm: with this friction law the largest is %g N/mm, "
                 "at creepage %g",
                 p->force, p->force + by.side * f[1], by.side * x[1]);
-        else if (s == RB_OK)
-            s = meet_force(&by, x, f, small);
+        else if (s == RB_OK) {
+            /* The force is lacking at x[0] and reached at x[1].  Where a creepage has
+             * several states and the search falls on one or another of them, the force
+             * tells them apart. */
+            const double from = x[0], to = x[1];
+            const rb_status status = find_force(&by, x, f, small);
+
+            s = status > 0 && solve_between(&by, from, to, small) == RB_OK ? RB_OK
+                                                                           : status;
+        }
     }
     free(by.start);
     return s == RB_OK ? measure(model, why) : s;

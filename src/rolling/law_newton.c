@@ -56,18 +56,6 @@ static void set_trial(newton *w, double part, const double *change)
             (w->weight[i] > NO_PRESSURE ? part * change[i] / w->weight[i] : 0.0);
 }
 
-/* What r changes by along a direction. */
-static rb_status derivative(newton *w, const double *direction, double *image)
-{
-    const double size = DIFFERENCE / rb_norm_inf((size_t)w->n, direction);
-
-    set_trial(w, size, direction);
-    const rb_status s = residual_of(w, 0, image);
-    for (int i = 0; i < w->n && s == RB_OK; i++)
-        image[i] = (image[i] - w->r[i]) / size;
-    return s;
-}
-
 /* r + r' step = 0 by Krylov's directions, each the image of the one before, of which the
  * images are made orthogonal (Orthodir; the residuals are those of GMRES). */
 static rb_status newton_step(newton *w, double norm)
@@ -84,7 +72,13 @@ static rb_status newton_step(newton *w, double norm)
         double *d = w->direction + n * (size_t)k, *a = w->image + n * (size_t)k;
         if (k > 0)
             memcpy(d, a - n, n * sizeof *d);
-        s = derivative(w, d, a);
+        /* What r changes by along a direction. */
+        const double size = DIFFERENCE / rb_norm_inf((size_t)w->n, d);
+
+        set_trial(w, size, d);
+        s = residual_of(w, 0, a);
+        for (int i = 0; i < w->n && s == RB_OK; i++)
+            a[i] = (a[i] - w->r[i]) / size;
         rest[0] = s == RB_OK ? cblas_dnrm2(w->n, a, 1) : 0.0;
         for (int j = 0; j < k && s == RB_OK; j++) {
             const size_t at = n * (size_t)j;

@@ -1,14 +1,6 @@
 /* Memory at the peak of a solution: the formulas of docs/performance.md, "Memory". */
 #include "rolling/internal.h"
 
-/* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the tableau. In
- * Kwak's form also the inverse, and a tableau rebuilt for accuracy: 3n rows of the at
- * most 2n variables in the basis. */
-static double lemke_squares(const rb_rolling_case *rc)
-{
-    return rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
-}
-
 /* Numbers per element of the path on which Newton's method goes on where its steps go
  * round in circles. */
 enum { PATH = 12 };
@@ -40,9 +32,14 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
         return ((rb_rolling_derive(rc).dundurs == 0.0 ? 520.0 : 720.0) +
                 (double)sizeof(double) * PATH) *
                n;
-    const double lcp = rc->contact.solver == RB_SOLVER_LEMKE
-                           ? lemke_squares(rc) * square
-                           : newton_numbers(n, (double)unknowns * unknowns);
+    /* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the
+     * tableau. In Kwak's form also the inverse, and a tableau rebuilt for accuracy: 3n
+     * rows of the at most 2n variables in the basis. */
+    const double lcp =
+        rc->contact.solver == RB_SOLVER_LEMKE
+            ? (rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0) *
+                  square
+            : newton_numbers(n, (double)unknowns * unknowns);
     const double solution = sizeof(double) * (6.0 * square + lcp),
                  kept = kept_for_hysteresis(rc, square);
     if (!boundary)

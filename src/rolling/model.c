@@ -118,12 +118,6 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     return s < 0 ? s : RB_OK;
 }
 
-static int have_same_ends(const rb_rolling_mesh *x, const rb_rolling_mesh *y)
-{
-    return x->n == y->n &&
-           memcmp(x->ends, y->ends, ((size_t)x->n + 2) * sizeof *x->ends) == 0;
-}
-
 /* Bodies, where they are not kept, contact problem and a state of zeros on the model's
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
@@ -163,7 +157,9 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
 {
-    const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
+    const int kept = model->same_bodies && model->mesh.n == mesh->n &&
+                     memcmp(model->mesh.ends, mesh->ends,
+                            ((size_t)model->mesh.n + 2) * sizeof *model->mesh.ends) == 0;
     /* the edges have been followed from another line to this one */
     const int near = model->state.p && model->state.status == RB_OK &&
                      model->rc->mesh == RB_MESH_ALIGNED;

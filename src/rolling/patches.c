@@ -12,29 +12,6 @@ static double midpoint(const rb_rolling_mesh *mesh, int i)
     return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
 }
 
-/* (E1) Where A slides with q = -+mu p up to the edge on the side `side` (-1 left, +1
- * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
- * without friction, without coupling and in stick like a square root.  i, j: elements
- * near the edge, a slip zone that is shorter than they are does not count. */
-static double edge_exponent(double beta, const rb_contact_state *state, int i, int j,
-                            int side)
-{
-    const int slides =
-        state->zone[j] != RB_ZONE_STICK && state->zone[i] == state->zone[j];
-
-    return slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI : 0.5;
-}
-
-/* Where the power law through elements i and j, the outer one, reaches zero. */
-static double zero_of(const rb_rolling_mesh *mesh, const double *p, int i, int j,
-                      double exponent)
-{
-    const double fall = pow(p[j] / p[i], 1.0 / exponent);
-
-    return midpoint(mesh, j) +
-           (midpoint(mesh, j) - midpoint(mesh, i)) * fall / (1.0 - fall);
-}
-
 /* The edge of the run whose outermost element on that side is `outer`.  This element is
  * only partly in contact, so the power law goes through the next two, or where it is
  * steep through the two behind its neighbour, which then is disturbed too.  Contact is
@@ -54,14 +31,27 @@ static double edge(double beta, const rb_rolling_mesh *mesh,
         run->bounded = 1;
         return end;
     }
-    const double exponent = edge_exponent(beta, state, j - side, j, side);
+    /* (E1) Where A slides with q = -+mu p up to the edge on the side `side` (-1 left, +1
+     * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
+     * without friction, without coupling and in stick like a square root.  i, j: elements
+     * near the edge, a slip zone that is shorter than they are does not count. */
+    const int slides =
+        state->zone[j] != RB_ZONE_STICK && state->zone[(j - side)] == state->zone[j];
+
+    const double exponent =
+        slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI : 0.5;
     if (exponent < STEEP)
         j -= side;
     if (!(state->p[j] < state->p[j - side])) {
         run->bounded = 1;
         return end;
     }
-    const double x = zero_of(mesh, state->p, j - side, j, exponent);
+    /* Where the power law through elements i and j, the outer one, reaches zero. */
+    const int i = j - side;
+    const double fall = pow(state->p[j] / state->p[i], 1.0 / exponent);
+
+    const double x =
+        midpoint(mesh, j) + (midpoint(mesh, j) - midpoint(mesh, i)) * fall / (1.0 - fall);
     const double off = fmax(side * (nearest - x), side * (x - farthest));
     run->bounded |= off > fabs(farthest - nearest);
     return side > 0 ? fmin(fmax(x, nearest), farthest) : fmax(fmin(x, nearest), farthest);
@@ -83,13 +73,6 @@ static double root_beyond(double y0, double y1, double y2)
     return fmin(fmax(root > 0.0 ? root : 2.5, 2.0), 3.0);
 }
 
-/* Where a third body is softer than the half-planes under an element, the pressure
- * itself is smooth up to the edge; otherwise its square is. */
-static int is_soft(const rb_rolling_case *rc, double h)
-{
-    return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * h;
-}
-
 /* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
  * patch of RB_ROLLING_ALIGNED_LEAST equal elements or more. */
 static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -98,7 +81,9 @@ static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mes
     const int third = outer - 2 * side;
     const double *end = mesh->ends + third, h = end[1] - end[0];
     const double y[3] = {p[third], p[third - side], p[third - 2 * side]};
-    const double root = is_soft(rc, h)
+    /* Where a third body is softer than the half-planes under an element, the pressure
+     * itself is smooth up to the edge; otherwise its square is. */
+    const double root = (rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * h)
                             ? root_beyond(y[0], y[1], y[2])
                             : root_beyond(y[0] * y[0], y[1] * y[1], y[2] * y[2]) + BIAS;
 
@@ -134,18 +119,16 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
     return 1;
 }
 
-/* Where A slides, F_NN - mu F_NT of (K5) has its largest entries beside the diagonal, not
- * on it, once mu beta > 1 or so: every other element opens, however small they are. */
-static int may_alternate(const rb_rolling_case *rc)
-{
-    return rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
-}
-
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                  const rb_contact_state *state, int at,
                                  rb_rolling_run *run)
 {
-    const int one_place = rb_rolling_is_convex(rc), alternates = may_alternate(rc);
+    /* Where A slides, F_NN - mu F_NT of (K5) has its largest entries beside the diagonal,
+     * not on it, once mu beta > 1 or so: every other element opens, however small they
+     * are. */
+    const int one_place = rb_rolling_is_convex(rc),
+              alternates =
+                  rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
     rb_rolling_run next;
 
     if (!rb_rolling_next_patch(rc, mesh, state, at, run))
@@ -198,24 +181,6 @@ static void set_peak(const rb_rolling_mesh *mesh, const double *p,
     patch->peak += at;
 }
 
-static rb_rolling_patch patch_of(const rb_rolling_model *model, const rb_rolling_run *run)
-{
-    const rb_contact_problem *problem = &model->problem;
-    const rb_contact_state *state = &model->state;
-    rb_rolling_patch patch = {.from = run->from, .to = run->to};
-
-    for (int i = run->first; i <= run->last; i++) {
-        patch.normal_load +=
-            problem->load_N[i] * state->p[i] + problem->load_T[i] * state->q[i];
-        patch.tangential_load +=
-            problem->force_N[i] * state->p[i] + problem->force_T[i] * state->q[i];
-        patch.stick += state->zone[i] == RB_ZONE_STICK;
-    }
-    patch.contact = run->last - run->first + 1;
-    set_peak(&model->mesh, state->p, run, &patch);
-    return patch;
-}
-
 static int count_patches(const rb_rolling_model *model)
 {
     rb_rolling_run run = {.last = -1};
@@ -252,7 +217,19 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
         return RB_ENOMEM;
     while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
                                  &run)) {
-        const rb_rolling_patch patch = patch_of(model, &run);
+        const rb_contact_problem *problem = &model->problem;
+        const rb_contact_state *state = &model->state;
+        rb_rolling_patch patch = {.from = run.from, .to = run.to};
+
+        for (int i = run.first; i <= run.last; i++) {
+            patch.normal_load +=
+                problem->load_N[i] * state->p[i] + problem->load_T[i] * state->q[i];
+            patch.tangential_load +=
+                problem->force_N[i] * state->p[i] + problem->force_T[i] * state->q[i];
+            patch.stick += state->zone[i] == RB_ZONE_STICK;
+        }
+        patch.contact = run.last - run.first + 1;
+        set_peak(&model->mesh, state->p, &run, &patch);
         s->contact_from = s->patches ? s->contact_from : patch.from;
         s->contact_to = patch.to;
         s->max_pressure = fmax(s->max_pressure, patch.max_pressure);

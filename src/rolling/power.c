@@ -97,21 +97,6 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
                     : NAN;
 }
 
-/* -int t Dw ds of one body for the displacement w (2m) that its memory adds under p, q.
- * D w follows the material: on a wheel the frame of the surface turns with it, so that
- * D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); radius: INFINITY on a half-plane, and
- * where w is in that frame already. */
-static double work_of_memory(int n, const double *x, const double *h, double radius,
-                             const double *w, const double *p, const double *q)
-{
-    const double *w_N = w, *w_T = w + n + 1;
-    double turned = 0.0;
-
-    for (int i = 0; i < n; i++)
-        turned += (p[i] * w_T[i] - q[i] * w_N[i]) * h[i];
-    return normal_work(n, x, w_N, p, h) + normal_work(n, x, w_T, q, h) + turned / radius;
-}
-
 /* With wheels: of each body by itself what memory adds, because the elastic part, which
  * costs nothing, would leave the error of the mesh.  r, w: room for 2m each. */
 static double work_of_memories(const rb_rolling_model *model, double *r, double *w)
@@ -133,8 +118,19 @@ static double work_of_memories(const rb_rolling_model *model, double *r, double 
         }
         cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0,
                     model->bodies.memory[b], rows, r, 1, 0.0, w, 1);
-        power += work_of_memory(n, f->x, f->h, turns ? body[b]->radius : INFINITY, w, r,
-                                r + n);
+        /* -int t Dw ds of one body for the displacement w (2m) that its memory adds under
+         * p, q. D w follows the material: on a wheel the frame of the surface turns with
+         * it, so that D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); radius: INFINITY on a
+         * half-plane, and where w is in that frame already. */
+        const double radius = turns ? body[b]->radius : INFINITY;
+        const double *q = r + n;
+        const double *w_N = w, *w_T = w + n + 1;
+        double turned = 0.0;
+
+        for (int i = 0; i < n; i++)
+            turned += (r[i] * w_T[i] - q[i] * w_N[i]) * f->h[i];
+        power += normal_work(n, f->x, w_N, r, f->h) + normal_work(n, f->x, w_T, q, f->h) +
+                 turned / radius;
     }
     return power;
 }

@@ -60,15 +60,6 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
     return RB_OK;
 }
 
-static rb_status check_noise(int n, const double *x, double noise, rb_message *why)
-{
-    if (!(isfinite(noise) && noise >= 0.0))
-        return rb_fail(why, RB_EINVAL, "gap smoothing: expected >= 0, got %g", noise);
-    if (noise > 0.0 && !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
-        return rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
-    return RB_OK;
-}
-
 /* ---- Smoothing --------------------------------------------------------------------- */
 
 /* A smoothing spline (P-spline of Eilers and Marx, 1996): cubic B-splines on equal
@@ -136,22 +127,6 @@ static rb_status take_parabola(smoothing *s, const double *gap)
     return failed ? RB_ENOMEM : RB_OK;
 }
 
-static void add_points(smoothing *s)
-{
-    const double weight = (double)s->m / s->n;
-
-    for (int i = 0; i < s->n; i++) {
-        double b[BAND];
-        const int k = basis(s, s->x[i], b);
-        for (int p = 0; p < BAND; p++) {
-            s->load[k + p] += weight * b[p] * s->residual[i];
-            for (int q = p; q < BAND; q++)
-                s->normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] +=
-                    weight * b[p] * b[q];
-        }
-    }
-}
-
 /* Root mean square distance of the points from the spline of this lambda. */
 static double distance_of(smoothing *s, double lambda)
 {
@@ -172,24 +147,6 @@ static double distance_of(smoothing *s, double lambda)
     for (int i = 0; i < s->n; i++)
         sum += gsl_pow_2(value(s, s->x[i]) - s->residual[i]);
     return sqrt(sum / s->n);
-}
-
-/* The largest lambda that leaves the points within the noise (Morozov's principle).  Of n
- * points with that noise the sum of squares is n +- sqrt(2n) times its square; curves up
- * to twice that deviation are within it. */
-static void choose_lambda(smoothing *s, double noise)
-{
-    const double bound = noise * sqrt(1.0 + 2.0 * sqrt(2.0 / s->n));
-    double low = WEAKEST, high = STRONGEST;
-
-    for (int k = 0; k < HALVINGS; k++) {
-        const double lambda = sqrt(low * high);
-        if (distance_of(s, lambda) > bound)
-            high = lambda;
-        else
-            low = lambda;
-    }
-    distance_of(s, low);
 }
 
 static void smoothing_free(smoothing *s)
@@ -215,8 +172,32 @@ static rb_status smoothing_create(int n, const double *x, const double *gap, dou
     const rb_status status = take_parabola(s, gap);
     if (status != RB_OK)
         return status;
-    add_points(s);
-    choose_lambda(s, noise);
+    const double weight = (double)s->m / s->n;
+
+    for (int i = 0; i < s->n; i++) {
+        double b[BAND];
+        const int k = basis(s, s->x[i], b);
+        for (int p = 0; p < BAND; p++) {
+            s->load[k + p] += weight * b[p] * s->residual[i];
+            for (int q = p; q < BAND; q++)
+                s->normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] +=
+                    weight * b[p] * b[q];
+        }
+    }
+    /* The largest lambda that leaves the points within the noise (Morozov's principle).
+     * Of n points with that noise the sum of squares is n +- sqrt(2n) times its square;
+     * curves up to twice that deviation are within it. */
+    const double bound = noise * sqrt(1.0 + 2.0 * sqrt(2.0 / s->n));
+    double low = WEAKEST, high = STRONGEST;
+
+    for (int k = 0; k < HALVINGS; k++) {
+        const double lambda = sqrt(low * high);
+        if (distance_of(s, lambda) > bound)
+            high = lambda;
+        else
+            low = lambda;
+    }
+    distance_of(s, low);
     return RB_OK;
 }
 
@@ -261,8 +242,15 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
-    if (s == RB_OK)
-        s = check_noise(n, x, noise, why);
+    if (s == RB_OK) {
+        if (!(isfinite(noise) && noise >= 0.0))
+            s = rb_fail(why, RB_EINVAL, "gap smoothing: expected >= 0, got %g", noise);
+        else {
+            if (noise > 0.0 &&
+                !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
+                s = rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
+        }
+    }
     if (s == RB_OK)
         s = check_lowest(n, gap, why);
     if (s != RB_OK)

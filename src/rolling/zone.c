@@ -221,20 +221,17 @@ static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
                   limit);
 }
 
-/* Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R L_N). */
-static double first_half_width(const rb_rolling_case *rc)
+static interval first_zone(const rb_rolling_case *rc)
 {
+    /* Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R
+     * L_N). */
     const rb_rolling_derived d = rb_rolling_derive(rc);
     const double soft = isnan(d.load)
                             ? sqrt(2.0 * d.radius * d.approach)
                             : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
 
-    return rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
-}
-
-static interval first_zone(const rb_rolling_case *rc)
-{
-    const double a = first_half_width(rc);
+    const double a =
+        rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
     const interval limit = extent(rc);
     interval zone = {-a, a};
 
@@ -245,19 +242,16 @@ static interval first_zone(const rb_rolling_case *rc)
 
 /* ---- The automatic one ------------------------------------------------------------- */
 
-/* Three, or what few elements have beside three in contact: a potential contact that is
- * grown until all elements are separated no longer sees the contact between their
- * midpoints. */
-static int wanted_at_end(int elements)
-{
-    const int spare = (elements - IN_CONTACT) / 2;
-    return spare > SEPARATED_AT_END ? SEPARATED_AT_END : spare > 1 ? spare : 1;
-}
-
 /* The zone grown where fewer separated elements than wanted stand at its end. */
 static interval grown_at_ends(const rb_rolling_model *model, interval zone)
 {
-    const int wanted = wanted_at_end(model->state.n);
+    /* Three, or what few elements have beside three in contact: a potential contact that
+     * is grown until all elements are separated no longer sees the contact between their
+     * midpoints. */
+    const int spare = (model->state.n - IN_CONTACT) / 2;
+    const int wanted = spare > SEPARATED_AT_END ? SEPARATED_AT_END
+                       : spare > 1              ? spare
+                                                : 1;
     int left, right;
 
     separated_at_ends(&model->state, &left, &right);
@@ -288,20 +282,6 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
     }
     *wider = within(*wider, extent(model->rc));
     return s;
-}
-
-/* What would do: a quarter of the half-width beyond either edge. */
-static interval tightened(const rb_rolling_model *model)
-{
-    interval edge;
-
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from,
-                             &edge.to);
-    if (is_symmetric(model->rc)) {
-        edge.to = fmax(fabs(edge.from), fabs(edge.to));
-        edge.from = -edge.to;
-    }
-    return within(scaled(edge, 1.25), extent(model->rc));
 }
 
 /* Many elements need not be solved to learn how wide their line should be. */
@@ -394,7 +374,16 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         }
         if (is_open(model))
             break;
-        const interval wanted = tightened(model);
+        /* What would do: a quarter of the half-width beyond either edge. */
+        interval edge;
+
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from,
+                                 &edge.to);
+        if (is_symmetric(model->rc)) {
+            edge.to = fmax(fabs(edge.from), fabs(edge.to));
+            edge.from = -edge.to;
+        }
+        const interval wanted = within(scaled(edge, 1.25), extent(model->rc));
         const int more = coarse ? elements : elements_for(model, zone);
         const int keeps_zone =
             width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;

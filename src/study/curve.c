@@ -28,19 +28,6 @@ static rb_status record_heat(const rb_rolling_model *model, double *max_temperat
     return status;
 }
 
-static rb_status keep_last(const rb_rolling_model *model, rb_rolling_curve *c,
-                           rb_message *why)
-{
-    const rb_status s = rb_rolling_model_solution(model, &c->last, why);
-
-    for (int k = 0; k < c->n && s == RB_OK; k++) {
-        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[k]);
-        if (c->kappa)
-            c->last.kappa = fmax(c->last.kappa, c->kappa[k]);
-    }
-    return s;
-}
-
 /* Who looks at the points; point NULL: nobody. */
 typedef struct {
     rb_rolling_point *point;
@@ -89,9 +76,16 @@ static rb_status record(const rb_rolling_model *model, const watcher *w,
         s = record_heat(model, &c->max_temperature[k], why);
     if (s == RB_OK && w->point)
         s = w->point(model, k, w->context, why);
-    return s == RB_OK && c->n == (c->branch ? 2 * c->rising : c->rising)
-               ? keep_last(model, c, why)
-               : s;
+    if (s != RB_OK || c->n != (c->branch ? 2 * c->rising : c->rising))
+        return s;
+    const rb_status status = rb_rolling_model_solution(model, &c->last, why);
+
+    for (int i = 0; i < c->n && status == RB_OK; i++) {
+        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[i]);
+        if (c->kappa)
+            c->last.kappa = fmax(c->last.kappa, c->kappa[i]);
+    }
+    return status;
 }
 
 /* The whole search for the contact again. */

@@ -200,16 +200,6 @@ static int replace_worker(processes *p, worker *w, int *k, rb_rolling_row *row)
     return 1;
 }
 
-/* The row of a worker that has something to say, or has died. */
-static int collect_from(processes *p, worker *w, int *k, rb_rolling_row *row)
-{
-    if (!receive_all(w->socket, row, sizeof *row))
-        return replace_worker(p, w, k, row);
-    *k = w->k;
-    w->k = -1;
-    return 1;
-}
-
 static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
 {
     processes *p = processes_of(pool);
@@ -223,7 +213,12 @@ static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_r
         p->next = (p->next + 1) % p->workers;
     worker *w = &p->worker[p->next];
     p->next = (p->next + 1) % p->workers;
-    return collect_from(p, w, k, row);
+    /* The row of a worker that has something to say, or has died. */
+    if (!receive_all(w->socket, row, sizeof *row))
+        return replace_worker(p, w, k, row);
+    *k = w->k;
+    w->k = -1;
+    return 1;
 }
 
 static void stop(rb_rolling_pool *pool)

@@ -32,32 +32,6 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
 
 /* ---- Curves ------------------------------------------------------------------------ */
 
-static void curve_errors(const rb_rolling_case *rc, int runs,
-                         const rb_rolling_curve run[], const rb_rolling_curve *curve,
-                         rb_rolling_curve *errors)
-{
-    const void *found[RB_ERROR_RUNS];
-    double free_creepage[RB_ERROR_RUNS];
-
-    for (int k = 0; k < runs; k++) {
-        found[k] = &run[k];
-        free_creepage[k] = run[k].free_creepage;
-    }
-    errors->n = curve->n;
-    errors->free_creepage =
-        rb_rolling_contact_error(free_creepage, curve->free_creepage) +
-        rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
-        DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width /
-            rb_rolling_radius(rc);
-    error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
-    for (int i = 0; i < curve->n; i++) {
-        errors->stick_ratio[i] += curve->stick_step;
-        errors->dissipation[i] +=
-            rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
-                                  curve->half_width, curve->stick_step);
-    }
-}
-
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
                                        const rb_rolling_range *range,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
@@ -77,8 +51,28 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
     }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, curve->n, errors);
-    if (s == RB_OK)
-        curve_errors(rc, runs, run, curve, errors);
+    if (s == RB_OK) {
+        const void *found[RB_ERROR_RUNS];
+        double free_creepage[RB_ERROR_RUNS];
+
+        for (int k = 0; k < runs; k++) {
+            found[k] = &run[k];
+            free_creepage[k] = run[k].free_creepage;
+        }
+        errors->n = curve->n;
+        errors->free_creepage =
+            rb_rolling_contact_error(free_creepage, curve->free_creepage) +
+            rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
+            DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width /
+                rb_rolling_radius(rc);
+        error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
+        for (int i = 0; i < curve->n; i++) {
+            errors->stick_ratio[i] += curve->stick_step;
+            errors->dissipation[i] +=
+                rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
+                                      curve->half_width, curve->stick_step);
+        }
+    }
     for (int k = 0; k < runs; k++) {
         curve->seconds += run[k].seconds;
         rb_rolling_curve_free(&run[k]);
@@ -104,16 +98,6 @@ static double place(const rb_rolling_history *h, int is_mean, int k, int rest)
     return is_mean ? 0.5 * (before + h->distance[k]) : h->distance[k];
 }
 
-/* Linear between entries k and k + 1 of a column; beyond the last one that. */
-static double between(const rb_rolling_history *h, const double *column, int is_mean,
-                      int k, int rest, double x)
-{
-    if (k + 1 >= h->n)
-        return column[h->n - 1];
-    const double x0 = place(h, is_mean, k, rest), x1 = place(h, is_mean, k + 1, rest);
-    return column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
-}
-
 /* A column at the steps of another history.  Rolling starts from the last state at rest,
  * but not a mean over a rolled step. */
 static void place_column(const rb_rolling_history *from, const double *column,
@@ -130,24 +114,15 @@ static void place_column(const rb_rolling_history *from, const double *column,
         const double x = place(to, is_mean, i, rest);
         while (k + 2 < from->n && place(from, is_mean, k + 1, rest) < x)
             k++;
-        out[i] = between(from, column, is_mean, k, rest, x);
+        /* Linear between entries k and k + 1 of a column; beyond the last one that. */
+        if (k + 1 >= from->n)
+            out[i] = column[from->n - 1];
+        else {
+            const double x0 = place(from, is_mean, k, rest),
+                         x1 = place(from, is_mean, k + 1, rest);
+            out[i] = column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
+        }
     }
-}
-
-/* What of the history has error bars, at the steps of another one. */
-static rb_status place_history(const rb_rolling_case *rc, const rb_rolling_history *from,
-                               const rb_rolling_history *to, rb_rolling_history *out)
-{
-    const rb_rolling_results *columns = &rb_rolling_history_columns;
-    const rb_status s = rb_rolling_columns_alloc(columns, rc, to->n, out);
-
-    for (int k = 0; k < columns->n && s == RB_OK; k++) {
-        const rb_rolling_result *r = &columns->row[k];
-        if (r->error_bar && rb_rolling_has_column(r, from))
-            place_column(from, rb_rolling_column(r, from), r->is_mean, to,
-                         rb_rolling_column(r, out));
-    }
-    return s;
 }
 
 /* An error changes its sign wherever an edge passes an element: each rolled step takes
@@ -167,19 +142,6 @@ static rb_status widen(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
-/* Slip over less than an element of each rolled step. */
-static void add_edge_power(const rb_rolling_case *rc, const rb_rolling_history *own,
-                           rb_rolling_history *errors)
-{
-    for (int i = steps_at_rest(own); i < own->n; i++) {
-        const int contact = own->stick[i] + own->slipping[i];
-        if (contact > 0)
-            errors->dissipation[i] += rb_rolling_edge_power(
-                rc, own->normal_load[i], own->creepage[i],
-                0.5 * (own->contact_to[i] - own->contact_from[i]), 1.0 / contact);
-    }
-}
-
 static rb_status history_errors(const rb_rolling_case *rc,
                                 const rb_rolling_history placed[],
                                 const rb_rolling_history *own, rb_rolling_history *errors)
@@ -195,7 +157,14 @@ static rb_status history_errors(const rb_rolling_case *rc,
     for (int k = 0; k < runs; k++)
         run[k] = &placed[k];
     error_columns(columns, own->n, runs, run, own, errors);
-    add_edge_power(rc, own, errors);
+    /* Slip over less than an element of each rolled step. */
+    for (int i = steps_at_rest(own); i < own->n; i++) {
+        const int contact = own->stick[i] + own->slipping[i];
+        if (contact > 0)
+            errors->dissipation[i] += rb_rolling_edge_power(
+                rc, own->normal_load[i], own->creepage[i],
+                0.5 * (own->contact_to[i] - own->contact_from[i]), 1.0 / contact);
+    }
     for (int k = 0; k < columns->n && s == RB_OK; k++)
         if (columns->row[k].error_bar && rb_rolling_has_column(&columns->row[k], errors))
             s = widen(own, rb_rolling_column(&columns->row[k], errors));
@@ -229,8 +198,19 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
         rb_rolling_model model = {0};
         rb_rolling_history history = {0};
         s = rb_rolling_history_run(&coarser, program, &through, &model, &history, why);
-        if (s == RB_OK)
-            s = place_history(rc, &history, own, &placed[k]);
+        if (s == RB_OK) {
+            /* What of the history has error bars, at the steps of another one. */
+            rb_rolling_history *out = &placed[k];
+            const rb_rolling_results *columns = &rb_rolling_history_columns;
+            s = rb_rolling_columns_alloc(columns, rc, own->n, out);
+
+            for (int i = 0; i < columns->n && s == RB_OK; i++) {
+                const rb_rolling_result *r = &columns->row[i];
+                if (r->error_bar && rb_rolling_has_column(r, &history))
+                    place_column(&history, rb_rolling_column(r, &history), r->is_mean,
+                                 own, rb_rolling_column(r, out));
+            }
+        }
         rb_rolling_model_free(&model);
         rb_rolling_history_free(&history);
     }

@@ -16,19 +16,6 @@ typedef struct {
     char *came;          /* window */
 } study_state;
 
-static rb_status submit_cases(study_state *r)
-{
-    const rb_rolling_sweep *sweep = r->sweep;
-    rb_status s = RB_OK;
-
-    for (int idle = r->pool->idle(r->pool);
-         s == RB_OK && idle > 0 && r->given < sweep->count &&
-         r->given - r->seen < r->window;
-         idle--)
-        s = r->pool->submit(r->pool, sweep->first + r->given++);
-    return s;
-}
-
 static rb_status collect(study_state *r)
 {
     rb_rolling_row row;
@@ -64,7 +51,13 @@ static rb_status supervise(study_state *r, rb_message *why)
     rb_status s = RB_OK;
 
     while (s == RB_OK && r->seen < r->sweep->count) {
-        s = submit_cases(r);
+        const rb_rolling_sweep *sweep = r->sweep;
+
+        for (int idle = r->pool->idle(r->pool);
+             s == RB_OK && idle > 0 && r->given < sweep->count &&
+             r->given - r->seen < r->window;
+             idle--)
+            s = r->pool->submit(r->pool, sweep->first + r->given++);
         if (s == RB_OK)
             s = collect(r);
         if (s == RB_OK)

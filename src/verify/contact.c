@@ -67,42 +67,7 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
     rb_rolling_solution_free(&s);
 }
 
-/* A journal in its bearing, the gap of both circles, half-planes up to any arc. */
-static void journal(rb_verify *v, double part)
-{
-    rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
-    rc.gap = RB_GAP_EXACT;
-    rb_verify_on_same(&rc);
-    rc.b.radius = -1.02 * rc.a.radius;
-    const double modulus = rc.a.young / 1.5, a = part * rc.a.radius;
-    rc.half_width = NAN;
-    rc.load = rb_closed_circle_load(a, rc.a.radius, modulus) +
-              rb_closed_circle_load(a, rc.b.radius, modulus);
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.half_width, a, 2e-4,
-                       "journal in a bore 2 %% wider, a/R = %g: half-width", part);
-    rb_rolling_solution_free(&s);
-}
-
 /* ---- Similar bodies --------------------------------------------------------------- */
-
-static void carter(rb_verify *v, double ratio)
-{
-    const rb_rolling_case rc = rolling_at(ratio);
-    rb_rolling_solution s;
-    rb_verify_solve(v, &rc, &s);
-    const double a = rc.half_width, P = s.normal_load;
-    const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
-    rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
-                       "Carter, s = %g: Q/(mu P)", ratio);
-    if (fabs(ratio) < 1.0)
-        rb_verify_absolute(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
-                           "Carter, s = %g: start of stick / a", ratio);
-    rb_verify_absolute(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
-                       "Carter, s = %g: rms of q / (mu p0)", ratio);
-    rb_rolling_solution_free(&s);
-}
 
 /* A cylinder with a boundary on a half-plane of its material: a/R = 1e-3, so half-plane
  * theory holds to the order of approach/R (theory.md 4.3). */
@@ -138,20 +103,6 @@ static void two_forms(rb_verify *v)
                        "LCP of Kwak against the pivoted form: tractions / p0");
     rb_rolling_solution_free(&s);
     rb_rolling_solution_free(&t);
-}
-
-static void cattaneo(rb_verify *v, double ratio)
-{
-    rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
-    rc.force_ratio = ratio;
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.force_ratio, ratio, 1e-9,
-                       "Cattaneo-Mindlin: Q/(mu P) as asked");
-    rb_verify_absolute(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
-                       rb_closed_cattaneo_stick(ratio), 0.02,
-                       "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", ratio);
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Dissimilar bodies ------------------------------------------------------------ */
@@ -236,14 +187,53 @@ void rb_verify_contact(rb_verify *v)
                         fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
     hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
     hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
-    for (int k = 0; k < 3; k++)
-        journal(v, arcs[k]);
-    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++)
-        carter(v, ratios[k]);
+    for (int k = 0; k < 3; k++) {
+        /* A journal in its bearing, the gap of both circles, half-planes up to any arc.
+         */
+        const double part = arcs[k];
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_rolling_solution s;
+        rc.gap = RB_GAP_EXACT;
+        rb_verify_on_same(&rc);
+        rc.b.radius = -1.02 * rc.a.radius;
+        const double modulus = rc.a.young / 1.5, a = part * rc.a.radius;
+        rc.half_width = NAN;
+        rc.load = rb_closed_circle_load(a, rc.a.radius, modulus) +
+                  rb_closed_circle_load(a, rc.b.radius, modulus);
+        rb_verify_solve(v, &rc, &s);
+        rb_verify_relative(v, s.half_width, a, 2e-4,
+                           "journal in a bore 2 %% wider, a/R = %g: half-width", part);
+        rb_rolling_solution_free(&s);
+    }
+    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++) {
+        const double ratio = ratios[k];
+        const rb_rolling_case rc = rolling_at(ratio);
+        rb_rolling_solution s;
+        rb_verify_solve(v, &rc, &s);
+        const double a = rc.half_width, P = s.normal_load;
+        const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
+        rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
+                           "Carter, s = %g: Q/(mu P)", ratio);
+        if (fabs(ratio) < 1.0)
+            rb_verify_absolute(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
+                               "Carter, s = %g: start of stick / a", ratio);
+        rb_verify_absolute(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
+                           "Carter, s = %g: rms of q / (mu p0)", ratio);
+        rb_rolling_solution_free(&s);
+    }
     carter_on(v, RB_BEM_ARC, "arc");
     carter_on(v, RB_BEM_HUB, "hub");
     two_forms(v);
-    cattaneo(v, 0.64);
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    rc.force_ratio = 0.64;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_relative(v, s.force_ratio, 0.64, 1e-9,
+                       "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_absolute(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
+                       rb_closed_cattaneo_stick(0.64), 0.02,
+                       "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", 0.64);
+    rb_rolling_solution_free(&s);
     for (size_t k = 0; k < sizeof sticking / sizeof *sticking; k++)
         spence(v, sticking[k]);
     bentall_johnson(v);

@@ -116,23 +116,6 @@ static void hunter(rb_verify *v)
     }
 }
 
-/* The same on a large wheel: its memory goes round with it, and the half-plane is its
- * limit, of first order in a/R. */
-static void hunter_on_a_hub(rb_verify *v)
-{
-    rb_rolling_case rc = relaxing_cylinder(400.0, 1.0, 1.0, 100);
-    rb_rolling_solution s;
-
-    rc.a.support = RB_BEM_HUB;
-    rc.a.hub_ratio = 0.3;
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_absolute(v, s.resistance_moment / s.normal_load, 0.2621595, 1e-3,
-                       "Hunter on a cylinder held by its hub: M/(P a)");
-    rb_verify_relative(v, s.hysteresis, s.resistance_moment / rc.a.radius, 1e-3,
-                       "Hunter on a cylinder held by its hub: hysteresis = M/R");
-    rb_rolling_solution_free(&s);
-}
-
 /* Held approach: all tractions follow the relaxation modulus, [1 + f exp(-(1+f) t/tau)]
  * over 1 + f. */
 static void relaxation(rb_verify *v)
@@ -166,7 +149,19 @@ void rb_verify_rolling(rb_verify *v)
 {
     dissipation(v);
     hunter(v);
-    hunter_on_a_hub(v);
+    /* The same on a large wheel: its memory goes round with it, and the half-plane is its
+     * limit, of first order in a/R. */
+    rb_rolling_case rc = relaxing_cylinder(400.0, 1.0, 1.0, 100);
+    rb_rolling_solution s;
+
+    rc.a.support = RB_BEM_HUB;
+    rc.a.hub_ratio = 0.3;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_absolute(v, s.resistance_moment / s.normal_load, 0.2621595, 1e-3,
+                       "Hunter on a cylinder held by its hub: M/(P a)");
+    rb_verify_relative(v, s.hysteresis, s.resistance_moment / rc.a.radius, 1e-3,
+                       "Hunter on a cylinder held by its hub: hysteresis = M/R");
+    rb_rolling_solution_free(&s);
     relaxation(v);
     cattaneo_to_carter(v);
 }
