@@ -351,7 +351,8 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
 void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r);
 void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
                                        double *r);
-/* Of 1 + hardening F_TT, where friction follows by so much what the line is displaced. */
+/* Approximate inverse of 1 + hardening F_TT, for an interface whose friction grows with
+ * its plastic slip by the factor hardening. */
 void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
                                      const double *w, double *r);
 void rb_bem_circulant_free(rb_bem_circulant *circulant);

@@ -438,38 +438,39 @@ typedef struct {
     rb_units units; /* mm at first */
 } rb_case_slopes;
 
-/* The columns that words ask for: "all", or RESULT (by every number of the resolved
- * case) and RESULT:OPTION with commas between.  RB_EINVAL: no such result or number,
- * more than `most`.  Free it in any case. */
+/* Chooses the columns by words: "all", or a list, separated by commas, of RESULT (with
+ * respect to every number of the resolved case) and RESULT:OPTION.  RB_EINVAL: no such
+ * result or number, or more than `most` columns.  Free slopes in any case. */
 rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
                                 const char *words, int most, rb_case_slopes *slopes,
                                 rb_message *why);
-/* Room for so many rows, without values.  RB_ENOMEM. */
+/* Allocates the given number of rows, without values.  RB_ENOMEM. */
 rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *slopes);
-/* Those of a solved model of the case; row: 2 n, NAN before. */
+/* Computes one row of derivatives from a solved model of the case; row: 2 n values, NAN
+ * before. */
 rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
                             const rb_case_slopes *slopes, double *row, rb_message *why);
-/* For a growing input, or where it cannot grow for a falling one. */
+/* The derivative for a growing input, or for a falling one if the input cannot grow. */
 double rb_case_slope_value(const rb_case_slopes *slopes, int row, int k);
-/* "d_tangential_load_N/mm_by_radius_mm". */
+/* Writes the name of a column: "d_tangential_load_N/mm_by_radius_mm". */
 const char *rb_case_slope_heading(const rb_case_slope *of, rb_units units,
                                   char text[RB_CASE_SLOPE_HEADING]);
-/* A derivative in other units than mm, N, MPa. */
+/* Converts a derivative from mm, N, MPa to other units. */
 double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x);
 void rb_case_slopes_convert(rb_case_slopes *slopes, rb_units units);
 void rb_case_slopes_free(rb_case_slopes *slopes);
 
-/* The columns of a curve, whose case has that purpose. */
+/* Chooses the columns of a curve; the purpose of the case must be a curve. */
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
                                const char *words, rb_case_slopes *slopes,
                                rb_message *why);
-/* rb_rolling_curve_solve with those derivatives of each point. */
+/* rb_rolling_curve_solve with these derivatives at each point. */
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
                               rb_rolling_curve *curve, rb_case_slopes *slopes,
                               rb_message *why);
-/* Of the history that found these states, for growing inputs where the two sides differ.
- * RB_EINVAL: friction that depends on the state, an interface that yields, a given
- * approach. */
+/* Derivatives of the history whose states are given; if the two sides differ, those for
+ * growing inputs.  RB_EINVAL: friction that depends on the state, an interface that
+ * yields, or a given approach. */
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *slopes, rb_message *why);
 

@@ -34,7 +34,7 @@ typedef struct {
     void (*precondition)(void *context, int tangential, double *line);
     void (*free)(void *context);
     void *context;
-    /* Of 1 + hardening F_TT, hardening > 0; NULL: none. */
+    /* Approximate inverse of 1 + hardening F_TT, hardening > 0; NULL: not available. */
     void (*precondition_yielding)(void *context, double hardening, double *line);
 } rb_contact_products;
 

@@ -1,4 +1,4 @@
-/* Minimises or maximises a result over numbers of a case within bounds, under constraints
+/* Minimises or maximises a result over numbers of a case within bounds, with constraints
  * on other results, by sequential quadratic programming (NLopt's SLSQP) with the exact
  * gradients of sensitivity.h.  This is not part of the core, because it needs NLopt. */
 #ifndef ROLLBEM_DESIGN_H
@@ -16,7 +16,7 @@ int rb_design_available(void);
 typedef struct {
     char name[40];
     const char *unit;
-    double low, high; /* mm, N, MPa, as all here */
+    double low, high; /* mm, N, MPa, like all values here */
     double start, value;
 } rb_design_variable;
 
@@ -30,39 +30,41 @@ typedef struct {
 
 typedef struct {
     const rb_rolling_result *result; /* NULL: the ripple */
-    int largest;                     /* 1: largest, 0: least */
+    int largest;                     /* 1: maximise, 0: minimise */
     int n;
     rb_design_variable *variable; /* n; owned */
-    int gap_from, gap_n;          /* those that are values of the table of the gap */
-    const double *gap_x;          /* where; borrowed from the case */
+    int gap_from, gap_n;          /* variables that are values of the table of the gap */
+    const double *gap_x;          /* their places; borrowed from the case */
     int constraints;
     rb_design_constraint constraint[RB_DESIGN_CONSTRAINTS];
-    double span;         /* of the ripple: its half-width [length]; 0: all elements */
-    int most;            /* evaluations at most; 0: 200 */
+    double span; /* half-width of the interval for the ripple [length]; 0: all elements */
+    int most;    /* maximum number of evaluations; 0: 200 */
     double start, value; /* of the result */
     int evaluations;
     rb_status status;
 } rb_design;
 
 /* "radius=10:100,gap=-0.05:0.05": variables with their bounds in the units of the case;
- * gap: every value of its table by as much.  d->variable: made.  RB_EINVAL: no number of
- * the case that can be varied, or no bounds around it. */
+ * gap: bounds on the change of every value of its table.  Allocates d->variable.
+ * RB_EINVAL: a name is not a number of the case that can be varied, or its value is not
+ * within the bounds. */
 rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
                               rb_message *why);
-/* "max_pressure<=400,tangential_load>=-50". */
+/* Reads constraints, for example "max_pressure<=400,tangential_load>=-50". */
 rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d,
                                 rb_message *why);
-/* A result that has derivatives, or "pressure_ripple". */
+/* Sets the objective: a result that has derivatives, or "pressure_ripple". */
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why);
 
-/* Sees each evaluation; a value other than 0 ends the search. */
+/* Called after each evaluation; a return value other than 0 ends the search. */
 typedef struct {
     int (*step)(int evaluation, double value, const double *x, void *context);
     void *context;
 } rb_design_observer;
 
-/* From the values of the case on.  RB_EINVAL: steps, error bars, no NLopt; RB_MAXITER,
- * RB_INTERRUPTED: the best so far; RB_INACCURATE: constraints that cannot be met. */
+/* Searches the optimum, starting from the values of the case.  RB_EINVAL: a case with
+ * steps or error bars, or no NLopt; RB_MAXITER, RB_INTERRUPTED: d holds the best values
+ * so far; RB_INACCURATE: the constraints cannot be satisfied. */
 rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
                           rb_design *d, rb_message *why);
 void rb_design_free(rb_design *d);

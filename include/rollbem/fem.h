@@ -1,4 +1,4 @@
-/* Small-displacement finite elements whose nodes may touch obstacles with Coulomb
+/* Finite elements for small displacements; their nodes may touch obstacles with Coulomb
  * friction: space trusses, plane-strain quads, bricks; condensation to the contact; the
  * incremental quasi-static problem of *Kanno* (5)-(10); his two examples and the wall of
  * *Acary*. Any consistent units. */
@@ -15,15 +15,15 @@ RB_PUBLIC_BEGIN
 
 typedef struct {
     double young;   /* E > 0 [stress] */
-    double poisson; /* nu in (-1, 0.5); not read by bars */
-    double density; /* rho > 0, read by the mass only */
-    double section; /* area of bars, thickness of quads; not read by bricks */
+    double poisson; /* nu in (-1, 0.5); not used for bars */
+    double density; /* rho > 0, used for the mass only */
+    double section; /* area of bars, thickness of quads; not used for bricks */
 } rb_fem_material;
 
 /* Stiffness of one element, column-major, dofs node by node.  Solids integrate with two
  * Gauss points per direction.  x: coordinates node by node; quads counter-clockwise,
- * bricks bottom counter-clockwise, then top.  RB_EINVAL: no length, or a Jacobian that is
- * not positive at a Gauss point. */
+ * bricks bottom counter-clockwise, then top.  RB_EINVAL: zero length, or a Jacobian that
+ * is not positive at a Gauss point. */
 rb_status rb_fem_bar_stiffness(const double x[6], const rb_fem_material *m, double K[36]);
 rb_status rb_fem_quad_stiffness(const double x[8], const rb_fem_material *m,
                                 double K[64]);
@@ -43,14 +43,15 @@ typedef struct {
     int nodes, elements; /* counts */
     double *x;           /* dimension x nodes; owned */
     int *node;           /* element_nodes x elements; owned */
-    int *dof; /* dimension x nodes: number of the unknown, -1 where held; owned */
+    int *dof; /* dimension x nodes: number of the unknown, -1 if fixed; owned */
     int dofs; /* unknowns; valid after rb_fem_mesh_number */
 } rb_fem_mesh;
 
-/* All nodes at the origin, nothing held.  RB_EINVAL: nodes < 1, elements < 0. */
+/* Allocates a mesh with all nodes at the origin and no fixed displacements.  RB_EINVAL:
+ * nodes < 1, elements < 0. */
 rb_status rb_fem_mesh_alloc(rb_fem_kind kind, int nodes, int elements, rb_fem_mesh *mesh);
 void rb_fem_mesh_free(rb_fem_mesh *mesh);
-/* Holds one direction of a node; numbering follows. */
+/* Fixes one direction of a node; call rb_fem_mesh_number afterwards. */
 void rb_fem_mesh_hold(rb_fem_mesh *mesh, int node, int direction);
 void rb_fem_mesh_number(rb_fem_mesh *mesh);
 
@@ -64,11 +65,11 @@ rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material,
 /* ---- Structures that may touch obstacles ------------------------------------------- */
 
 /* K u = F + H r with r = (N, T...) per contact, as in rollbem/friction.h; the relative
- * displacement of contact i is H' u, its initial gap counts along N.  K symmetric, may be
- * singular where only the contacts hold the structure. */
+ * displacement of contact i is H' u, its initial gap counts along N.  K is symmetric; it
+ * may be singular if only the contacts hold the structure. */
 typedef struct {
     int dofs, dimension, contacts;
-    rb_sparse K; /* dofs x dofs, both triangles; owned, as all here */
+    rb_sparse K; /* dofs x dofs, both triangles; owned, like all arrays here */
     rb_sparse H; /* dofs x dimension contacts */
     double *mu;  /* contacts */
     double *gap; /* contacts */
@@ -91,9 +92,9 @@ typedef struct {
 
 /* The increment from state to the total load F (dofs), *Kanno* (9)-(10), in global form:
  * K v = H r + f with f = F - K u, v = increment of u; w = (current gap, 0, 0).  State and
- * reactions of the previous increment enter through f (equilibrium) and the gap.
- * units: chosen so that forces and K are of order one, which the friction solvers'
- * measure of error mixes; given back. */
+ * reactions of the previous increment enter through f (equilibrium) and the gap. units:
+ * written; the function chooses them such that forces and K are of order one, because the
+ * error measure of the friction solvers adds quantities of different units. */
 rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
                          const rb_fem_state *state, rb_friction_problem *problem,
                          rb_fem_units *units);
@@ -104,7 +105,7 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
  * factorisation of K_FF: K_c = K_CC - K_CF K_FF^-1 K_FC; opaque. */
 typedef struct rb_fem_condensation rb_fem_condensation;
 
-/* RB_SINGULAR: parts move even when all contact nodes are held. */
+/* RB_SINGULAR: a part can move although all contact nodes are fixed. */
 rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **c,
                           rb_message *why);
 void rb_fem_condensation_free(rb_fem_condensation *c);
@@ -129,17 +130,19 @@ typedef struct {
     double *load; /* dofs x steps, totals; owned */
 } rb_fem_model;
 
-/* Room for a mesh as rb_fem_mesh_alloc makes it, and for the nodes of the contacts; all
- * are to be filled in.  Released with rb_fem_model_free, also on failure. */
+/* Allocates a mesh as rb_fem_mesh_alloc does, and the array of contact nodes; the caller
+ * fills them in.  Free the model with rb_fem_model_free, also on failure. */
 rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int contacts,
                              rb_fem_model *model);
-/* The structure of a model whose mesh and contact nodes are filled in; all loads are
- * zero.  Frame of every contact: N along the last axis, T along the others.  A contact
- * whose tangential direction is held keeps mu = 0: its friction would be undetermined. */
+/* Builds the structure of a model whose mesh and contact nodes are filled in; all loads
+ * are zero.  In every contact N is along the last axis and T along the others.  A contact
+ * whose tangential direction is fixed gets mu = 0, because its friction would be
+ * undetermined. */
 rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material,
                              double mu, int steps, rb_message *why);
 void rb_fem_model_free(rb_fem_model *model);
-/* Adds a force on one direction of a node in increment step; held directions take it. */
+/* Adds a force on one direction of a node in increment step; forces on fixed directions
+ * are ignored. */
 void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction,
                        double force);
 
@@ -151,8 +154,8 @@ rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
 /* *Kanno* 3.1: double-layer grid of bars on n x n contact nodes, 2000 x 3000 mm apart,
  * the upper layer 2000 mm above, offset by half a cell, E = 205800 MPa, A = 10000 mm2, mu
  * = 0.12; gamma 102900 N down on inner upper nodes, half on edges, a quarter at corners,
- * gamma = 5, 4.05 ... 0.25.  The paper shows its layout in a figure only: both are
- * readings of the text. */
+ * gamma = 5, 4.05 ... 0.25.  The paper shows the layout only in a figure; both layouts
+ * here agree with its text. */
 typedef enum {
     RB_FEM_UPPER_INSIDE,     /* (n-1) x (n-1) upper nodes over the lower cells */
     RB_FEM_UPPER_OVERHANGING /* (n+1) x (n+1) upper nodes, lower ones under upper cells */
@@ -178,15 +181,15 @@ typedef struct {
 } rb_fem_step;
 
 typedef struct {
-    int steps;         /* those that ran */
+    int steps;         /* increments that were computed */
     rb_fem_step *step; /* owned */
     double seconds;
 } rb_fem_history;
 
-/* Runs all increments of the condensed model with the friction solver of that name, the
- * state of one entering the next.  Ends with the first increment that is not solved to
- * tol; what there is stays in history: without that increment where the solver has not
- * begun. */
+/* Computes all increments of the condensed model with the named friction solver; each
+ * starts from the state of the one before.  It stops at the first increment that is not
+ * solved to tol; history keeps the increments up to it (without it if the solver did not
+ * start). */
 rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
                      rb_fem_history *history, rb_message *why);
 void rb_fem_history_free(rb_fem_history *history);
@@ -204,28 +207,32 @@ void rb_fem_history_free(rb_fem_history *history);
  * the more finely meshed side of a joint; every one has its own node, so that H has full
  * rank. */
 typedef struct {
-    int fine[3];      /* nodes of a whole block in courses 1, 3, 5: along, across, up */
-    int coarse[3];    /* the same in courses 2 and 4 (half blocks: half the elements) */
-    int rigid;        /* 1: six freedoms a block, the same contact points */
-    double dt;        /* [s] */
-    int press, shear; /* steps in which the force grows, steps of driving */
-    /* NULL, or asked while a step is solved; other than 0: RB_INTERRUPTED. */
+    int fine[3];   /* nodes of a whole block in courses 1, 3, 5: along, across, up */
+    int coarse[3]; /* the same in courses 2 and 4 (half blocks have half the elements) */
+    int rigid; /* 1: rigid blocks with six degrees of freedom and the same contact points
+                */
+    double dt; /* [s] */
+    int press,
+        shear; /* numbers of steps with growing force and of steps with sideways motion */
+    /* NULL, or a function called while a step is solved; if it does not return 0, the
+     * step ends with RB_INTERRUPTED. */
     int (*stopped)(void *context);
     void *context;
 } rb_fem_wall_options;
 
-/* About 1700 contact points and 8200 unknowns; one step under its
- * weight, then 10 + 65 of 10 ms. */
+/* The defaults: about 1700 contact points and 8200 unknowns; one step under the weight,
+ * then 10 + 65 steps of 10 ms. */
 rb_fem_wall_options rb_fem_wall_defaults(void);
 
-/* One step that was solved. */
+/* Results of one solved step. */
 typedef struct {
     double time;        /* at its end [s] */
     double compression; /* [N] */
     double shear;       /* force along the wall on the upper support's contacts [N] */
     double drift;       /* displacement of the upper support along the wall [m] */
     int stick, slip, separated;
-    int iterations;  /* of the solver, from the previous r: the difficulty */
+    int iterations;  /* of the solver started from the previous r; a measure of difficulty
+                      */
     double residual; /* *Acary* (13) */
     double seconds;
 } rb_fem_wall_step;
@@ -239,23 +246,23 @@ void rb_fem_wall_free(rb_fem_wall *wall);
 int rb_fem_wall_contacts(const rb_fem_wall *wall);
 int rb_fem_wall_dofs(const rb_fem_wall *wall);
 int rb_fem_wall_steps(const rb_fem_wall *wall); /* planned */
-/* Rank of H; what it lacks of 3 x contacts is the degree of hyperstaticity. */
+/* Rank of H; 3 x contacts minus the rank is the degree of hyperstaticity. */
 rb_status rb_fem_wall_rank(const rb_fem_wall *wall, int *rank);
-/* Borrowed: all blocks, none of whose nodes are shared. */
+/* The mesh of all blocks, which share no nodes; borrowed. */
 const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall);
 /* Displacements of the nodes after the last solved step (3 x nodes). */
 rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u);
 
-/* The next step; RB_EINVAL after the last one.  RB_INTERRUPTED: the step does not count,
- * and the wall cannot go on. */
+/* Computes the next step; RB_EINVAL after the last one.  RB_INTERRUPTED: the step is
+ * discarded, and no further step can be computed. */
 rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
                               rb_fem_wall_step *step, rb_message *why);
 /* The friction problem of a solved step (from 0), in global form. */
 rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
                               rb_friction_problem *problem);
-/* count of the solved steps but the first, spread evenly over their difficulty
- * (iterations, then time), the easiest first.  RB_EINVAL: count < 1 or more than were
- * solved. */
+/* Selects `count` of the solved steps except the first, evenly distributed over their
+ * difficulty (iterations, then time), the easiest first.  RB_EINVAL: count < 1, or more
+ * than were solved. */
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
 
 RB_PUBLIC_END

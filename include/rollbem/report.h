@@ -1,6 +1,6 @@
-/* Solutions as tables, JSON, lines for people and pictures.  Formats: docs/report.md.
- * What is read back is what was computed: numbers in tables have
- * the fewest digits that read back equal, those in JSON 17. */
+/* Writes solutions as tables, JSON, summaries and pictures.  Formats: docs/report.md.
+ * Numbers that are read back are exactly those that were computed: tables have the fewest
+ * digits for this, JSON has 17. */
 #ifndef ROLLBEM_REPORT_H
 #define ROLLBEM_REPORT_H
 
@@ -14,19 +14,19 @@ RB_PUBLIC_BEGIN
 
 struct json_t; /* jansson's */
 
-/* The signs of creepage, slip and zones, one line each; ends with NULL. */
+/* Lines of text on the signs of creepage, slip and zones; NULL ends the list. */
 extern const char *const rb_report_conventions[];
 
 /* ---- Tables of any kind ------------------------------------------------------------ */
 
-/* TSV: the names of the columns, # lines, rows.  The names come first because numpy takes
- * the first line for them even where it is a comment; every other reader skips comments
- * wherever they are.  CSV: names and rows alone, for spreadsheets, which know no
- * comments; a cell without a number is empty. */
+/* TSV has the names of the columns, # lines and rows.  The names come first because numpy
+ * reads them from the first line even if it is a comment; other readers skip comments
+ * anywhere. CSV has names and rows only, for spreadsheets, which do not support comments;
+ * a cell without a number is empty. */
 typedef enum { RB_REPORT_TSV, RB_REPORT_JSON, RB_REPORT_CSV } rb_report_format;
 
 typedef struct {
-    rb_report_format format; /* of a table; JSON has functions of its own below */
+    rb_report_format format; /* of a table; for JSON there are separate functions below */
     int bare;                /* 1: no # lines */
 } rb_report_style;
 
@@ -34,77 +34,79 @@ typedef struct {
 typedef struct {
     FILE *out;
     rb_report_style style;
-    int cells; /* of the row at hand, so far */
+    int cells; /* number of cells written in the current row */
 } rb_report_cells;
 
-/* Writes the names, which stand between blanks; of no names (""), the caller writes them
- * as cells. */
+/* Writes the names of the columns, which are separated by blanks; if names is "", the
+ * caller writes them as cells. */
 rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
                                       const char *names);
-/* Text that holds a separator, a blank, a quotation mark or # stands in quotes. */
+/* Writes a text; it is quoted if it contains a separator, a blank, a quotation mark or
+ * #. */
 void rb_report_cell_text(rb_report_cells *c, const char *text);
-/* A few words, "-" in the place of blanks, at which numpy would split. */
+/* Writes words with "-" instead of blanks, because numpy splits cells at blanks. */
 void rb_report_cell_words(rb_report_cells *c, const char *words);
-/* The fewest digits that read back equal; NaN, or nothing in CSV, for what is no finite
- * number. */
+/* Writes a number with the fewest digits from which the same number is read again; if it
+ * is not finite, NaN, or nothing in CSV. */
 void rb_report_cell_number(rb_report_cells *c, double x);
 void rb_report_cell_whole(rb_report_cells *c, int n);
 void rb_report_cells_end_row(rb_report_cells *c);
-/* A # line where the style has them. */
+/* Writes a # line if the style has such lines. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 void rb_report_comment(const rb_report_cells *c, const char *format, ...);
-/* # lines with version and command. */
+/* Writes # lines with version and command. */
 void rb_report_comment_origin(const rb_report_cells *c, const char *command);
 /* RB_EWRITE: see errno. */
 rb_status rb_report_flush(FILE *out);
 
-/* What a person's terminal takes. */
+/* Properties of a terminal. */
 typedef struct {
     int rows, columns;
-    int colour;        /* 1: with ANSI colours for zones and failures */
-    const char *minor; /* names of columns, each between blanks, that go first where not
-                          all of them fit; NULL: none */
+    int colour;        /* 1: ANSI colours for zones and failures */
+    const char *minor; /* names of columns, each between blanks, that are omitted first if
+                          not all fit; NULL: none */
 } rb_report_window;
 
-/* A table with tabs for a terminal: five digits; where there are more rows than the
- * window has, one of several, or without the middle where the first column is no number;
- * units below the names; columns that say the same in every row, and the names of those
- * that do not fit, in lines below; a single row that is too wide as a line for each
- * column.  What is no such table is written as it is.  text: changed. RB_ENOMEM,
+/* Writes a table with tabs for a terminal, with five digits and the units below the
+ * names.  If there are more rows than the window has, only every k-th row is shown, or,
+ * if the first column is not a number, the rows in the middle are omitted.  Columns with
+ * the same value in every row, and the names of columns that do not fit, are shown in
+ * lines below. A single row that is too wide is shown with one line per column.  A text
+ * that is not such a table is written unchanged.  The function changes text.  RB_ENOMEM,
  * RB_EWRITE. */
 rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window);
-/* Lines of text, broken between words where they are wider; how many lines that are. */
+/* Writes lines of text, broken between words at the given width; returns the number of
+ * lines. */
 int rb_report_wrapped(FILE *out, const char *text, int width);
 
 /* ---- Table ------------------------------------------------------------------------ */
 
 /* One row per contact element; # lines with version, command, conventions, status,
- * residual, and the notes of rc (NULL: none).  RB_EWRITE: see errno. */
+ * residual, and the notes for rc (NULL: no notes).  RB_EWRITE: see errno. */
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
                           const rb_rolling_solution *s, const char *command,
                           const rb_report_style *style);
 
-/* The steps of a transient or a static history, one row each; its errors, where there
- * are any, in columns of their own, error_*. */
+/* The steps of a transient or a static history, one row each; error bars, if any, are in
+ * additional columns error_*. */
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
                             const rb_report_style *style);
 
 /* ---- JSON ------------------------------------------------------------------------- */
 
-/* Objects here are new references, NULL where memory is short.  A member that cannot be
- * stored makes the whole NULL: rb_report_json_set and _append take the value over, and
- * where it is NULL or does not fit they free *object and set it to NULL; later ones do
- * nothing. */
+/* Objects returned here are new references, or NULL if there is no memory.
+ * rb_report_json_set and _append take ownership of the value.  If the value is NULL or
+ * cannot be stored, they free *object and set it to NULL; later calls do nothing. */
 void rb_report_json_set(struct json_t **object, const char *name, struct json_t *value);
 void rb_report_json_append(struct json_t **list, struct json_t *value);
 
-/* {"schema", "version", "command", "conventions"}: how every result starts. */
+/* {"schema", "version", "command", "conventions"}: the first members of every result. */
 struct json_t *rb_report_json_start(const char *command);
 /* {"system": "si", "length": "m", ...}. */
 struct json_t *rb_report_json_units(rb_units units);
-/* Text of any bytes (rb_printable). */
+/* A text, also with bytes that are not UTF-8 (rb_printable). */
 struct json_t *rb_report_json_text(const char *text);
 /* A number; null for NaN and infinities. */
 struct json_t *rb_report_json_number(double x);
@@ -115,24 +117,26 @@ struct json_t *rb_report_json_option(const rb_option *option, const void *values
                                      rb_units units);
 /* Every value that the resolved case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
-/* A hash of these values and of the contents of the files that they name: whether two
- * results are of the same inputs.  RB_ENOENT, RB_EFORMAT of a file; RB_ENOMEM. */
+/* A hash of these values and of the contents of the files that they name; it tells if two
+ * results have the same inputs.  RB_ENOENT, RB_EFORMAT: of a file; RB_ENOMEM. */
 rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why);
-/* As 16 hexadecimal digits; null where a file cannot be read any more; NULL: no memory.
- */
+/* The hash as 16 hexadecimal digits; null if a file cannot be read any more; NULL: no
+ * memory. */
 struct json_t *rb_report_json_input_hash(const rb_case *c);
-/* The columns of rb_report_table; and with the power of friction in rolling. */
+/* The columns of rb_report_table; the second function adds the power of friction in
+ * rolling. */
 struct json_t *rb_report_json_table_columns(const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
-/* An object with summary and table for each; and a line for each, for people. */
+/* An object with summary and table for each solution; the second function prints one line
+ * for each. */
 struct json_t *rb_report_json_solutions(const rb_rolling_solutions *all);
 void rb_report_solutions(FILE *out, const rb_rolling_solutions *all);
-/* The JSON Schema of all this, rollbem/1. */
+/* The JSON Schema of all results, rollbem/1. */
 struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h);
-/* Of its steps, in mm and MPa: lists of lists, and `motion`, the rigid shift [mm] of a
- * step at rest, the creepage of a rolled one. */
+/* The states of all steps in mm and MPa as lists of lists; `motion` is the rigid shift
+ * [mm] of a static step and the creepage of a rolled step. */
 struct json_t *rb_report_json_states(const rb_rolling_states *s);
 
 /* Sets "summary", with its error bars, "table" and, of a sequence of steps, "history",
@@ -141,57 +145,57 @@ struct json_t *rb_report_json_states(const rb_rolling_states *s);
 void rb_report_json_result(struct json_t **root, const rb_case_result *result,
                            const rb_rolling_states *states, const rb_case_slopes *slopes);
 
-/* What checking a result found. */
+/* The outcome of the check of a result. */
 typedef struct {
-    int violations, numbers; /* numbers: compared with what they should be */
+    int violations, numbers; /* numbers: how many were compared with recomputed values */
     double residual;         /* of the printed state */
 } rb_report_certificate;
 
-/* Checks the JSON of a case, or of a history with its states, and of the stress below a
- * case, without solving: rebuilds its problem from its inputs in `words`, a case of
- * defaults, and computes again what it prints from its pressures, friction, approach and
- * creepage.  A line on out for each violation. RB_EFORMAT: a kind of result that cannot
- * be checked; RB_ENOMEM. */
+/* Checks the JSON of a case, of a history with its states, or of the stress below a case,
+ * without solving.  It builds the problem again from the inputs in the JSON (words: a
+ * case with default values, which receives them) and computes all printed results again
+ * from pressures, friction, approach and creepage.  Each violation is written to out in
+ * one line. RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
 rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
                             rb_case *words, rb_report_certificate *found,
                             rb_message *why);
-/* The same of a result of --all-solutions, each of its solutions by itself, and whether
- * they differ; of any other result rb_report_certify. */
+/* The same for a result of --all-solutions: checks each solution, and that the solutions
+ * differ.  For any other result it calls rb_report_certify. */
 rb_status rb_report_certify_solutions(FILE *out, const char *name,
                                       const struct json_t *root, rb_case *words,
                                       rb_report_certificate *found, rb_message *why);
-/* The same of what rb_report_table wrote of a case.  words: its inputs, resolved, as the
- * command line in its comments has them (rb_report_table_command). */
+/* The same for a table of rb_report_table.  words: the resolved inputs of the command
+ * line in the comments of the table (rb_report_table_command). */
 rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
                                   const rb_case *words, rb_report_certificate *found,
                                   rb_message *why);
-/* What stands behind `rollbem` in the command line that the comments of a table of any
- * command quote, owned by the caller; RB_EFORMAT: there is none. */
+/* The command line, without `rollbem`, in the comments of a table of any command; owned
+ * by the caller.  RB_EFORMAT: the table has none. */
 rb_status rb_report_table_command(const char *text, char **line);
-/* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
+/* Writes json with a final newline and frees it.  RB_ENOMEM: json is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 
-/* ---- For people ------------------------------------------------------------------- */
+/* ---- Summaries for readers
+ * ------------------------------------------------------------------- */
 
-/* One character per element, from just before the contact to just after it, at most
- * width: o separated, * stick, S slip, . the rest.  strip: width + 1 characters, width
- * >= 8. */
+/* Writes the zones of the elements as characters, from just before the contact to just
+ * after it, at most width characters: o separated, * stick, S slip, . elsewhere.  strip:
+ * width + 1 characters, width >= 8. */
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
-/* A few lines; width: of the terminal. */
+/* A summary of a few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 /* Values with their error bars. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
                                const rb_rolling_history *h);
-/* The lines of rb_rolling_find_notes: # lines of the table, an array of JSON, standard
- * error. */
+/* The notes of rb_rolling_find_notes as an array of JSON, or as lines of text. */
 struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
                                     const rb_rolling_solution *s);
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                      int colour);
 
-/* The papers that a run rests on; s NULL: its solver is not known. */
+/* References to the methods used; s NULL: the solver is not known. */
 void rb_report_citations(FILE *out, const rb_rolling_case *rc,
                          const rb_rolling_solution *s);
 
@@ -199,7 +203,8 @@ void rb_report_citations(FILE *out, const rb_rolling_case *rc,
 
 typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
 
-/* A column and the page of a paper, with letters of 6 and 7 points; a slide, 16:9. */
+/* Sizes for a column and a page of a paper, with letters of 6 and 7 points, and for a
+ * slide, 16:9. */
 typedef enum {
     RB_REPORT_OWN_SIZE,
     RB_REPORT_85MM,
@@ -207,15 +212,15 @@ typedef enum {
     RB_REPORT_SLIDE
 } rb_report_picture_size;
 
-/* What a picture is drawn on. */
+/* Format and size of a picture. */
 typedef struct {
     rb_report_picture_kind kind;
     rb_report_picture_size size;
-    int script; /* 1: what gnuplot would read, with the data, instead of the picture */
+    int script; /* 1: write gnuplot's input with the data instead of the picture */
 } rb_report_canvas;
 
-/* All pictures are made by gnuplot and written whole or not at all.  RB_EHELPER: it is
- * missing or refuses; RB_EWRITE; RB_ENOMEM. */
+/* gnuplot makes all pictures; they are written completely or not at all.  RB_EHELPER:
+ * gnuplot is missing or has failed; RB_EWRITE; RB_ENOMEM. */
 
 /* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
@@ -236,7 +241,7 @@ typedef struct {
     double *x, *p, *depth; /* owned: x holds them all */
 } rb_report_wear_profile;
 
-/* A run and what its picture shows of the steps on the way. */
+/* A computation of wear and the profiles that its picture shows. */
 typedef struct {
     const rb_rolling_wear_history *history; /* borrowed */
     int profiles;
@@ -247,7 +252,7 @@ rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *c
                                const rb_report_style *style);
 struct json_t *rb_report_json_wear(const rb_report_wear *w);
 void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
-/* Keeps the step for the picture where it is one of those shown.  s: in the units of the
+/* Stores the profile of the step if the picture shows this step.  s: in the units of the
  * picture; h: in mm, N, MPa.  RB_ENOMEM. */
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps);
@@ -265,9 +270,9 @@ void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *cr
                                  rb_units units);
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r);
-/* Of the last pass: K over the position with the zones of the faces below; K_II over K_I;
- * the crack at the position nearest to `at` [half-widths], its faces moved apart by what
- * they are, magnified. */
+/* Pictures of the last pass: K over the position with the zones of the faces below; K_II
+ * over K_I; the crack at the position nearest to `at` [half-widths] with magnified
+ * displacements of its faces. */
 rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas,
                                   const rb_case_crack_result *r, rb_message *why);
 rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
@@ -286,21 +291,25 @@ typedef struct {
     rb_rolling_curve curve[RB_REPORT_CURVES];
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
-    const rb_rolling_case *rc; /* of `last` of the last curve, for notes; NULL: none */
-    rb_case_slopes slopes[RB_REPORT_CURVES]; /* of each point; n = 0: not asked for */
+    const rb_rolling_case
+        *rc; /* case of `last` of the last curve, for notes; NULL: none */
+    rb_case_slopes
+        slopes[RB_REPORT_CURVES]; /* derivatives of each point; n = 0: not computed */
 } rb_report_curves;
 
-/* The model's problem at its approach and creepage and its tractions as an FCLib file.
- * RB_EINVAL: too large for a dense W; RB_EWRITE. */
+/* Writes the model's problem, at its approach and creepage, and its tractions as an FCLib
+ * file. RB_EINVAL: too large for a dense W; RB_EWRITE. */
 rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
                           rb_message *why);
 
-/* One row per mu and creepage, errors in columns of their own.  RB_EWRITE: see errno. */
+/* One row per mu and creepage; errors are in additional columns.  RB_EWRITE: see
+ * errno. */
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
                                 const char *command, const rb_report_style *style);
-/* Sets "curve", of the first mu, and "curves", of all, where there are several. */
+/* Sets "curve" to the curve of the first mu and, if there are several, "curves" to
+ * all. */
 void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves);
-/* A few lines for people. */
+/* A summary of a few lines. */
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
 /* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
  * law dashed; errors as bands. */
@@ -319,14 +328,14 @@ typedef struct {
     const rb_rolling_stress *at; /* n; borrowed, as all here */
     const int *inside;           /* n; NULL: all */
     const rb_rolling_stress_maxima *maxima;
-    const rb_rolling_stress_maxima *errors; /* NULL: not asked for */
+    const rb_rolling_stress_maxima *errors; /* NULL: not computed */
     const rb_rolling_shakedown *shakedown;  /* NULL: not asked for */
     double yield_shear;                     /* k of A [stress]; NAN: not given */
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
 } rb_report_stress;
 
-/* One row per point; the maxima stand in the header.  RB_EWRITE: see errno. */
+/* One row per point; the maxima are in the header.  RB_EWRITE: see errno. */
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
                                  const char *command, const rb_report_style *style);
 /* Sets "depth", "maxima", and "grid" or "points". */
@@ -336,7 +345,7 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);
 /* Contours of maximum shear and of von Mises over a grid. */
 rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
                                    const rb_report_stress *stress, rb_message *why);
-/* Shakedown map: p0/k over Q/P, Johnson's curves and the case's own point. */
+/* Shakedown map: p0/k over Q/P with Johnson's curves and the point of the case. */
 rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas,
                                   const rb_report_stress *stress, rb_message *why);
 /* Photoelastic fringes: dark where sigma_1 - sigma_2 is a multiple of fringe [stress]; 0:
@@ -373,21 +382,24 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
 
 /* A column of a study's table. */
 typedef struct {
-    const char *name, *unit; /* unit: as it is shown; "": none */
-    const double *value;     /* of every case; NAN: not solved; NULL: there is none */
+    const char *name, *unit; /* unit in which it is shown; "": none */
+    const double
+        *value; /* value for every case; NAN: not solved; NULL: no such quantity */
 } rb_report_quantity;
 
 typedef struct {
-    int n;                     /* cases, at least one */
-    rb_report_quantity x, y;   /* what varies; y: a curve for each, y of a map */
-    rb_report_quantity shown;  /* the result */
-    const rb_rolling_case *rc; /* whose bodies all cases have; NULL: they differ */
+    int n; /* cases, at least one */
+    rb_report_quantity x,
+        y; /* the varied quantities; one curve for each y, or the y axis of a map */
+    rb_report_quantity shown; /* the result */
+    const rb_rolling_case
+        *rc; /* a case with the bodies of all cases; NULL: the bodies differ */
     rb_units units;
 } rb_report_study;
 
-/* Before the work, without the values of the result.  RB_EINVAL: two cases at one place,
- * more than RB_REPORT_CURVES curves or one of a single point; map: not every x has every
- * y. */
+/* Checks a picture before the cases are solved.  RB_EINVAL: two cases at the same x and
+ * y, more than RB_REPORT_CURVES curves, or a curve with a single point; for a map also if
+ * a combination of x and y is missing. */
 rb_status rb_report_study_check(const rb_report_study *study, int map, rb_message *why);
 /* Curves of the result over x, one for each y; or a map of it over x and y. */
 rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
@@ -395,8 +407,8 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
 
 /* ---- Performance profiles ---------------------------------------------------------- */
 
-/* rho_s(tau): share of the problems that solver s solves at a cost of at most tau times
- * the least one. */
+/* rho_s(tau): fraction of the problems that solver s solves at a cost of at most tau
+ * times the smallest cost of all solvers. */
 typedef struct {
     int problems, solvers, n; /* n: values of tau */
     const char *const *solver;
@@ -408,48 +420,51 @@ typedef struct {
 rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why);
 
-/* ---- Behind the solution ----------------------------------------------------------- */
+/* ---- Data behind the solution
+ * ----------------------------------------------------------- */
 
-/* Everything a solution was computed from, as Matrix Market files in a folder, which is
- * made if need be and loses what an older dump left; all of them or none: contact, mesh,
- * H, G (of body A; _b of body B; none of half-planes), F, M, b and the scales of the LCP;
- * of a large contact, which forms no F and M, four columns of F.  docs/report.md says
- * what is in each.  RB_EWRITE, RB_ENOMEM. */
+/* Writes all data from which a solution was computed as Matrix Market files into a
+ * folder: contact, mesh, H, G (of body A; with _b of body B; none for half-planes), F, M,
+ * b and the scales of the LCP.  For a large contact, which has no matrices F and M, four
+ * columns of F are written.  The folder is made if necessary, files of an older dump are
+ * removed, and either all files are written or none.  docs/report.md describes each file.
+ * RB_EWRITE, RB_ENOMEM. */
 rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
                          rb_message *why);
 
-/* Lemke's pivots once more, one line each; with a folder also the tableau after each of
- * them as tableau_1.mtx, ...  Where another method gave the solution, of the LCP that
- * Lemke's would have tried first. */
+/* Repeats Lemke's method and writes one line per pivot; with a folder also the tableau
+ * after each pivot as tableau_1.mtx, ...  If another method found the solution, the LCP
+ * is the one that Lemke's method would try first. */
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why);
 
 /* ---- Derivatives (case.h) ---------------------------------------------------------- */
 
 enum { RB_REPORT_RESULTS_MAX = 64 };
-/* What is shown of the derivatives of a case. */
+/* The derivatives of a case that are shown. */
 typedef struct {
     int n; /* results by name; 0: all numbers */
     const rb_rolling_result *result[RB_REPORT_RESULTS_MAX];
     int is_column[RB_REPORT_RESULTS_MAX];
-    const rb_case_derivatives *all; /* borrowed; in the units that are shown */
-    rb_rolling_solution deviation;  /* of a tolerance */
+    const rb_case_derivatives *all; /* borrowed; in the units of the output */
+    rb_rolling_solution deviation;  /* standard deviations for given tolerances */
 } rb_report_derivatives;
 
-/* The results of a list of names, or "all".  RB_EINVAL: no result, or one without
- * derivatives. */
+/* Reads a list of names of results, or "all".  RB_EINVAL: there is no such result, or it
+ * has no derivatives. */
 rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
                                    rb_message *why);
-/* derivatives: {result: {input: number, or [left, right]}}; of columns a list of numbers
- * stands in the place of a number. */
+/* Sets derivatives: {result: {input: number, or [left, right]}}; columns have a list of
+ * numbers instead of a number. */
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
 /* tolerances: {result: standard deviation}. */
 void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives *d);
-/* A row per result and input, for each result by what one per cent of the input does. */
+/* One row per result and input; the inputs of each result are ordered by the effect of
+ * one per cent of the input. */
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
                                      const rb_report_derivatives *d, const char *command,
                                      const rb_report_style *style);
-/* The same for people: the first rows of each result. */
+/* A short version on a terminal: the first rows of each result. */
 rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
                                       const rb_report_derivatives *d);
 void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,

@@ -7,7 +7,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ---------- */
+/* ---- Pictures: statuses as in rollbem/report.h ---------- */
 
 /* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6).
  */
@@ -21,12 +21,12 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
                                   const rb_fem_model *model,
                                   const rb_fem_history *history, rb_message *why);
 
-/* The deformed wall, and the shear force and the solver's iterations over the drift. */
+/* The deformed wall; the shear force and the iterations of the solver over the drift. */
 rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
                                  const rb_fem_wall *wall, int steps,
                                  const rb_fem_wall_step *step, rb_message *why);
 
-/* ---- JSON: arrays of one object a step; new references, NULL without memory -------- */
+/* ---- JSON: arrays with one object per step; new references, NULL: no memory -------- */
 
 struct json_t *rb_report_json_bar(const rb_fem_model *model,
                                   const rb_fem_history *history);

@@ -764,8 +764,8 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
-/* Another case on elements that are moved to scale x, with a flexibility of its own
- * where that or the bodies differ. */
+/* A variant with another case on elements whose ends x are moved to scale x.  The
+ * flexibility is computed again if scale is not 1 or the bodies differ. */
 rb_status rb_rolling_variant_stretch(const rb_rolling_model *of,
                                      const rb_rolling_case *rc, double scale,
                                      rb_rolling_model *variant, rb_message *why);
@@ -1191,12 +1191,12 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
  * overwritten; free it in any case. */
 rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
                                    rb_rolling_solution *solution, rb_message *why);
-/* The same as one step from the tractions, coefficients of friction and yielded interface
- * of the solution `before` on the same elements, in mm, N, MPa (NULL: nothing touched):
- * rolled by `step` [length] (RB_TRANSIENT), or shifted or loaded at rest (RB_STATIC, step
- * 0).  The coefficients of a friction law are looked for from those before, or from
- * friction.start.  RB_EINVAL: steady rolling, other elements, bodies that relax,
- * temperatures. */
+/* The same for one step that starts from the tractions, friction coefficients and plastic
+ * slip of the solution `before` on the same elements, in mm, N, MPa (NULL: no contact
+ * before): rolling by `step` [length] (RB_TRANSIENT), or a shift or load at rest
+ * (RB_STATIC, step 0). The iteration of a friction law starts from the coefficients
+ * before, or from friction.start.  RB_EINVAL: steady rolling, other elements,
+ * viscoelastic bodies, or temperatures. */
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
                                   const rb_rolling_solution *before, double step,
                                   rb_rolling_solution *solution, rb_message *why);
@@ -1285,7 +1285,7 @@ typedef struct {
     rb_rolling_solution solution;    /* with the status of the case */
     rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
     rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
-    double own[RB_ROW_OWN];          /* what the caller measures of a case; NAN else */
+    double own[RB_ROW_OWN]; /* values computed by `measure` of the sweep; otherwise NAN */
 } rb_rolling_row;
 
 enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
@@ -1294,16 +1294,18 @@ enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also 
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
 
 /* A study of the cases first ... first + count - 1, solved by processes of this machine
- * (0: as many as it has processors), one thread each.  make and measure run in them, see
- * and tick in the caller: see gets the rows in order, tick comes every few milliseconds
- * with the number seen; a value other than 0 ends the run.  A process that dies is
- * replaced and its case tried once more; where it dies of it again, the case is left with
- * RB_ENOMEM. */
+ * (0: as many as it has processors), one thread each.  `make` makes case k and `measure`
+ * computes row->own; both run in these processes.  `see` and `tick` run in the calling
+ * process: `see` receives the rows in order, `tick` is called every few milliseconds with
+ * the number of rows passed to `see`; a return value other than 0 ends the study.  A
+ * process that crashes is replaced and its case is tried once more; if it crashes again,
+ * the case gets RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
     unsigned also; /* what to compute besides the solution: bits RB_ROW_... */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
-    /* row->own of the case that make has made last, solved; or NULL */
+    /* own: row->own of the case that `make` made last; model: its solved model; may be
+     * NULL */
     rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,
                          rb_message *why);
     /* NULL, or in the place of all that: solves case k, of which row has no numbers yet,
