@@ -790,7 +790,7 @@ static void matrices_are_at_hand_or_refused(void **state)
     rb_api *a = solved(large);
     assert_int_equal(rb_api_pivots(a), RB_EINVAL);
     assert_string_equal(rb_api_message(a),
-                        "nothing is solved whose matrices are at hand");
+                        "there is no solved case whose matrices are available");
     assert_null(rb_api_array(a, "G", &r, &c));
     assert_int_equal(rb_api_stress_at(a, 0, NULL), RB_EINVAL);
     assert_string_equal(rb_api_message(a), "stress: expected at least one point, got 0");

@@ -132,7 +132,7 @@ static void every_element_is_of_the_same_arc(void **state)
         char text[80] = "";
         if (k)
             snprintf(text, sizeof text,
-                     "disc: contact element %d is not of the others' arc", k);
+                     "disc: contact element %d has another length than the others", k);
         assert_string_equal(why.text, text);
         for (int i = 0; i < n && !k; i++) /* arcs, not chords */
             CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])),

@@ -638,19 +638,19 @@ static void contradictions_are_refused(void **state)
         {"formulation=transient", "needs --distance or --history"},
         {"steps=4", "of transient rolling only"},
         {"mu=0.1,0.2", "a curve takes several"},
-        {"accuracy=1e-3 formulation=transient distance=1", "without steps only"},
+        {"accuracy=1e-3 formulation=transient distance=1", "cases without steps"},
         {"force-ratio=1.5", "at most 1"},
         {"gap-smoothing=0.1", "of a gap from a file only"},
-        {"memory=1", "--memory: of friction that changes"},
+        {"memory=1", "--memory: only for friction that changes"},
         {"friction-law=linear mu-fall=0.1 slip-scale=9 speed=3 memory=1,2,3",
          "--memory: expected 1 or 2 numbers, got 3"},
         {"friction-law=linear mu-fall=0.1,0.1,0.1 slip-scale=9,9,9 speed=3",
          "--mu-fall: expected 1 or 2 numbers, got 3"},
         {"friction-law=linear mu-fall=0.1 slip-scale=9,9 speed=3",
-         "as many of one as of the other, got 1 and 2"},
+         "equally many numbers, got 1 and 2"},
         {"friction-law=linear speed=3", "needs --mu-fall and --slip-scale"},
-        {"mu-fall=0.1", "--mu-fall: of friction laws that fall"},
-        {"slip-scale=1", "--slip-scale: of friction laws that fall"},
+        {"mu-fall=0.1", "--mu-fall: only for velocity-dependent friction"},
+        {"slip-scale=1", "--slip-scale: only for velocity-dependent friction"},
         {"mu-heat=0.1,20", "--mu-heat: expected 3 numbers, got 2"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -671,13 +671,13 @@ static void a_purpose_refuses_what_means_nothing_to_it(void **state)
         rb_case_purpose purpose;
         const char *words, *part;
     } bad[] = {
-        {RB_CASE_CURVE, "load=500 creep=0.1", "--creep: the curve runs over"},
-        {RB_CASE_CURVE, "load=500 formulation=static", "one of steady rolling"},
+        {RB_CASE_CURVE, "load=500 creep=0.1", "--creep: the curve varies it"},
+        {RB_CASE_CURVE, "load=500 formulation=static", "needs steady rolling"},
         {RB_CASE_CURVE, "load=500 accuracy=0.1", "a curve has --error"},
-        {RB_CASE_STRESS, "load=500 accuracy=0.1", "does not refine"},
-        {RB_CASE_STUDY, "load=500 accuracy=0.01", "a study has --error"},
+        {RB_CASE_STRESS, "load=500 accuracy=0.1", "but no refinement"},
+        {RB_CASE_STUDY, "load=500 accuracy=0.01", "a study has error bars"},
         {RB_CASE_STUDY, "load=500 formulation=transient distance=1",
-         "--formulation: a study is one of static or steady cases"},
+         "--formulation: a study needs static or steady cases"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};

@@ -636,7 +636,7 @@ static void all_solutions_are_judged(void **state)
          "solution 2: cannot be checked: expected a summary and"},
         {"solutions/1/more", "1",
          "solution 2: cannot be checked: expected a summary and"},
-        {"summary/status", "\"x\"", "r: cannot be checked: it says itself"},
+        {"summary/status", "\"x\"", "r: cannot be checked: its status is"},
     };
     for (size_t k = 0; k < sizeof edits / sizeof *edits; k++)
         if (!strstr(said_of(root, edits[k].path, edits[k].value), edits[k].part))
@@ -802,9 +802,9 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
         {"| sed '/^# static/d'", "expected a table of a single case, with its comments"},
         {"| sed '/^# static/s/residual .*/residual x/'",
          "expected a table of a single case, with its comments"},
-        {"| sed '1s/^/# ; residual 1\\n/'", "says itself that it is not solved"},
+        {"| sed '1s/^/# ; residual 1\\n/'", "its status is not solved"},
         {"--formulation steady --creep 1e-3 --accuracy 0.5", "error bars"},
-        {"| sed '/^# static/s/solved/not solved/'", "says itself that it is not solved"},
+        {"| sed '/^# static/s/solved/not solved/'", "its status is not solved"},
         {"| sed '/^[-0-9]/d'", "no numbers"},
         {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
         {"| sed '/^-/s/\t/\tx/'", "expected a number"},
@@ -1127,7 +1127,7 @@ static void every_edit_is_named(void **state)
              {"summary/errors", "{}", "error bars take solutions"},
              {"inputs/units", "\"si\"", "units other than mm"},
              {"units/system", "\"si\"", "units other than mm"},
-             {"summary/status", "\"iteration limit\"", "says itself that it is not"},
+             {"summary/status", "\"iteration limit\"", "its status is not"},
              {"table/x_mm", "[0, 1]", "its table has no elements"},
              {"inputs/length", "1", "inputs: unknown option 'length'"},
              {"inputs/mu", "\"much\"", "inputs: --mu: expected a number"},

@@ -651,7 +651,8 @@ static void irregularities_are_of_transients(void **state)
 {
     (void)state;
     write_file("open.txt", "1 0\n2 .3\n4 1\n");
-    check_refused("--irregularity open.txt", 64, "--irregularity: it rides through");
+    check_refused("--irregularity open.txt", 64,
+                  "--irregularity: only for transient rolling");
     check_refused("--formulation steady --irregularity open.txt", 64, "--irregularity:");
     check_refused("curve --irregularity open.txt", 64, "--irregularity:");
     check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
@@ -786,7 +787,7 @@ static void error_bars_hold_the_truth(void **state)
     assert_non_null(strstr(err, "max_pressure"));
     check_refused("--accuracy 2", 64, "--accuracy: expected a number in (0, 1) or off");
     check_refused("--formulation transient --distance 1 --creep 0 --accuracy 1e-3", 64,
-                  "--accuracy: of static and steady cases");
+                  "--accuracy: only for static and steady cases");
 }
 
 /* ---- Behind the solution ----------------------------------------------------------- */

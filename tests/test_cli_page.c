@@ -81,7 +81,7 @@ static void what_no_page_can_be_made_of_is_refused(void **state)
                   "--contact-elements: the page goes up to 400, use the program for 401");
     assert_int_equal(
         rollbem("page --page page.html --contact-elements 400 --output at.html"), 0);
-    check_refused("page --page page.html --output page.html", 64, "written over");
+    check_refused("page --page page.html --output page.html", 64, "overwritten");
     check_refused("page --page page.html --output no/folder.html", 73, "no/folder.html");
 }
 

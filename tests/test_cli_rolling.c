@@ -18,9 +18,9 @@ static const struct {
     {"curve --points 1", 64, "--points: expected a whole number in [2, 1e+06]"},
     {"curve --over slip", 64, "--over: expected creep-ratio, creep or speed, got 'slip'"},
     {"curve --from 1 --to 1", 64, "--from and --to: expected two different values"},
-    {"curve --creep 0.1", 64, "--creep: the curve runs over --from ... --to by itself"},
-    {"curve --force 0", 64, "--force: the curve runs over"},
-    {"curve --formulation static", 64, "--formulation: a curve is one of steady rolling"},
+    {"curve --creep 0.1", 64, "--creep: the curve varies it from --from to --to"},
+    {"curve --force 0", 64, "--force: the curve varies it"},
+    {"curve --formulation static", 64, "--formulation: a curve needs steady rolling"},
     {"curve --mu 0.1,,0.3", 64, "--mu: expected a number >= 0, got '0.1,,0.3'"},
     {"curve --mu 0.1,x", 64, "--mu: expected a number >= 0, got '0.1,x'"},
     {"curve --mu 0", 64, "xi R/(mu a) has no meaning at mu = 0"},
@@ -417,7 +417,7 @@ static void bad_rows_are_named_by_their_line(void **state)
     (void)state;
     static const char *const histories[][2] = {
         {"distance load creep\n0 50 0\n\n2 50 1e-3\n1 50 1e-3\n",
-         "h.txt:5: distance 1 is behind the row before"},
+         "h.txt:5: distance 1 is less than in the row before"},
         {"# all\ndistance load creep\n0 50 0\n2 -50 0\n", "h.txt:4: load"},
         {"distance load approach\n0 50 1\n", "h.txt:2: approach, load"},
         {"distance load creep\n0 50\n",
@@ -865,13 +865,14 @@ static void bad_friction_laws_are_refused(void **state)
     write_file("back.txt", "0 0.3\n0 0.2\n");
     write_file("less.txt", "0 0.3\n1 -0.2\n");
     write_file("mu.txt", "-1 0.3\n1 0.2\n");
-    check_refused(RAIL "--mu-fall 0.1", 64, "--mu-fall: of friction laws that fall");
+    check_refused(RAIL "--mu-fall 0.1", 64,
+                  "--mu-fall: only for velocity-dependent friction");
     check_refused(RAIL "--friction-law linear", 64, "needs --mu-fall and --slip-scale");
-    check_refused(RAIL FALLS "--slip-scale 1,2", 64, "as many of one as of the other");
+    check_refused(RAIL FALLS "--slip-scale 1,2", 64, "equally many numbers");
     check_refused(RAIL FALLS "--mu-fall -0.2", 64, "expected mu >= 0 everywhere");
     check_refused(RAIL "--friction-law linear --mu-fall 0.1 --slip-scale 9", 64,
                   "add --speed");
-    check_refused(RAIL "--memory 1", 64, "--memory: of friction that changes");
+    check_refused(RAIL "--memory 1", 64, "--memory: only for friction that changes");
     check_refused(RAIL "--mu-heat 0.1,20", 64, "--mu-heat: expected 3 numbers, got 2");
     check_refused(RAIL "--mu-heat 0.1,20,300", 64, "add --conductivity");
     check_refused(RAIL FALLS "--slip-scale 5mm/s,6", 64, "a unit for each number");
@@ -885,7 +886,7 @@ static void bad_friction_laws_are_refused(void **state)
     check_refused("--formulation static --history way.txt", 65,
                   "way.txt:3: mu: expected >= 0, got -0.1");
     check_refused("--formulation static --history way.txt --friction-law mu.txt", 65,
-                  "a column mu means nothing to a table");
+                  "a column mu cannot be combined with a table");
     /* the command line wins over a case file */
     assert_int_equal(shell("printf '[friction]\\nmu = 0.25\\n' > own.ini; printf "
                            "'[friction]\\nmu = 0.25\\nfriction-law = mu.txt\\n' > "

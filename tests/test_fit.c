@@ -208,13 +208,13 @@ static void refusals(void **state)
     rb_message why = {""};
     (void)state;
     CHECK_STATUS(solve(&data, 0.0, &fit, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "'zone' is no number"));
+    assert_non_null(strstr(why.text, "'zone' is not a number"));
     rb_case_fit_free(&fit);
     fit = fit_of(5, all);
     rb_case_data few = data;
     few.n = 5;
     CHECK_STATUS(solve(&few, 200.0, &fit, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "5 points do not tell 5"));
+    assert_non_null(strstr(why.text, "5 points are not enough for 5"));
     rb_case_fit_free(&fit);
 }
 
@@ -369,7 +369,7 @@ static void derivatives_stand_in_columns(void **state)
     CHECK_REL(atof(last), in_json, 1e-9, "last step");
     static const char *const bad[][2] = {
         {"curve --derivatives nonsense", "expected a result that has derivatives, got"},
-        {"curve --derivatives force_ratio:zone", "'zone' is no number of this case"},
+        {"curve --derivatives force_ratio:zone", "'zone' is not a number of this case"},
         {"curve --derivatives force_ratio --error", "not together with error bars"},
         {"curve --derivatives max_temperature", "this case has no max_temperature"},
         {"sweep --vary-1 'mu 0.1 0.2' --derivatives all", "more than 128 columns"},

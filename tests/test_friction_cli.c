@@ -187,7 +187,7 @@ static void cones_and_forced_formats(void **state)
     assert_int_equal(
         rollbem("friction --format siconos-soclcp --solver soclcp-smoothing cone"), 0);
     check_refused("friction --output x --format siconos-soclcp --solver lemke cone", 65,
-                  "soclcp-smoothing alone");
+                  "only soclcp-smoothing");
     check_refused("friction --output x --kind fclib slides", 65, "not an HDF5 file");
     check_refused("friction --output x --format fclib slides", 65, "not an HDF5 file");
 }

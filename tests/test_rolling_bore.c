@@ -122,9 +122,9 @@ static void what_does_not_fit_is_refused(void **state)
     (void)state;
     ACCEPTED(PLANE, rc.elastic_b = 1, rc.b.radius = -50.001);
     ACCEPTED(HUB, rc.elastic_b = 1, rc.b.radius = -51.0);
-    REFUSED("a bore takes in what is smaller than it", PLANE, rc.elastic_b = 1,
+    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1,
             rc.b.radius = -50.0);
-    REFUSED("a bore takes in what is smaller than it", PLANE, rc.elastic_b = 1,
+    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1,
             rc.b.radius = -1.0);
     REFUSED("a bore has no wheel's boundary", PLANE, rc.elastic_b = 1,
             rc.b.radius = -60.0, rc.b.support = RB_BEM_HUB);

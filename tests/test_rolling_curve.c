@@ -248,7 +248,7 @@ static void ranges_that_make_no_sense_are_refused(void **state)
     refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 1.0, -1.0, 3},
             "expected from and to > 0");
     refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3},
-            "no body relaxes");
+            "no body is viscoelastic");
     rb_rolling_curve c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
     assert_true(isnan(c.free_creepage));
     assert_true(isnan(c.creep_ratio[1]));

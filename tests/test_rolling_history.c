@@ -584,12 +584,12 @@ static void states_are_followed_to_the_same_history(void **state)
     yields.yield_stress = 10.0;
     check_refused(
         rb_rolling_history_follow(&yields, &states, NULL, &again, &followed, &why), &why,
-        "its states do not tell");
+        "whose state variables are not stored");
     falls.friction.law = RB_FRICTION_linear;
     falls.friction.fall[0] = 0.1;
     check_refused(
         rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &why), &why,
-        "its states do not tell");
+        "whose state variables are not stored");
     rb_rolling_states_free(&states);
     release(&model, &h);
 }

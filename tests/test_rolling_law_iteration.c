@@ -408,7 +408,7 @@ static void all_solutions_of_one_are_one(void **state)
         case_of(&model)->formulation = k ? RB_STEADY : RB_TRANSIENT;
         case_of(&model)->friction.fall[0] = k ? 0.0 : 0.1;
         CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, "all solutions: of steady rolling with"));
+        assert_non_null(strstr(why.text, "all solutions: only for steady rolling with"));
     }
     rb_rolling_model_free(&model);
 }

@@ -146,13 +146,13 @@ static void programs_that_make_no_sense_are_refused(void **state)
     REFUSED("expected 1 row", rest, .n = 0, .load = load);
     REFUSED("steady rolling has none", steady, .n = 3, .load = load);
     REFUSED("needs a column distance", rolling(), .n = 3, .load = load);
-    REFUSED("is one of transient", rest, .n = 3, .distance = d, .load = load);
-    REFUSED("column time is one of static", rolling(), .n = 3, .distance = d, .time = d);
-    REFUSED("is of bodies that relax", rest, .n = 3, .time = d);
-    REFUSED("column mu means nothing to a table", table, .n = 3, .mu = load);
+    REFUSED("is for transient", rest, .n = 3, .distance = d, .load = load);
+    REFUSED("column time is for static", rolling(), .n = 3, .distance = d, .time = d);
+    REFUSED("is for viscoelastic bodies", rest, .n = 3, .time = d);
+    REFUSED("column mu cannot be combined with a table", table, .n = 3, .mu = load);
     REFUSED("row 2: load is not a number", rest, .n = 3, .load = none);
     REFUSED("row 1: expected distance 0", rolling(), .n = 3, .distance = late);
-    REFUSED("row 3: distance 1 is behind", rolling(), .n = 3, .distance = back);
+    REFUSED("row 3: distance 1 is less", rolling(), .n = 3, .distance = back);
     REFUSED("row 3: distance 1 twice", rolling(), .n = 3, .distance = twice);
     REFUSED("needs a column time", relaxing(), .n = 3, .load = load);
     REFUSED("row 1: expected time 0", relaxing(), .n = 3, .time = late);

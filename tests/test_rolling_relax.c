@@ -518,8 +518,8 @@ static void bad_programs_are_refused(void **state)
     } bad[] = {{RB_STATIC, NULL, NULL, 0, 0, 0, 0, "needs a column time"},
                {RB_STATIC, late, NULL, 0, 0, 0, 0, "row 1: expected time 0"},
                {RB_STATIC, back, NULL, 0, 0, 0, 0, "row 3: time 1 is before"},
-               {RB_STATIC, time, NULL, 1, 0, 0, 0, "of bodies that relax"},
-               {RB_TRANSIENT, time, way, 0, 0, 0, 0, "one of static contact"},
+               {RB_STATIC, time, NULL, 1, 0, 0, 0, "for viscoelastic bodies"},
+               {RB_TRANSIENT, time, way, 0, 0, 0, 0, "for static contact"},
                {RB_TRANSIENT, NULL, way, 0, 9, 0, 0, "by one element in each step"},
                {RB_STATIC, time, NULL, 0, 0, 1, 0, "base or core"},
                {RB_TRANSIENT, NULL, way, 0, 0, 0, 1, "halfplane only"}};

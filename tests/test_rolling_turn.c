@@ -532,7 +532,7 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
 static void what_does_not_turn_is_refused(void **state)
 {
     (void)state;
-    static const char *const word[2] = {"clamped arc does not turn", "halfplane only"};
+    static const char *const word[2] = {"clamped arc cannot turn", "halfplane only"};
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(40);
         rb_message why = {""};

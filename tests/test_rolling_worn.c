@@ -255,7 +255,7 @@ static void a_scar_that_outgrows_its_zone(void **state)
     rc.outer_elements = 30;
     start(&r, &rc, &wear);
     CHECK_STATUS(r.status, RB_ZONE);
-    assert_non_null(strstr(r.why.text, "on wheels the elements would move"));
+    assert_non_null(strstr(r.why.text, "which cannot grow on wheels"));
     finish(&r);
 }
 
@@ -293,12 +293,12 @@ static void wear_that_makes_no_sense_is_refused(void **state)
         finish(&r);                                                                      \
     } while (0)
 #define STEADY rc.formulation = RB_STEADY, wear.slides = 0
-    REFUSED("not of a transient", rc.formulation = RB_TRANSIENT);
+    REFUSED("not in a transient", rc.formulation = RB_TRANSIENT);
     REFUSED("wear coefficient: expected > 0, got 0", wear.coefficient = 0.0);
     REFUSED("wear coefficient: expected > 0", wear.coefficient = INFINITY);
     REFUSED("wear coefficient: expected > 0", wear.coefficient = NAN);
-    REFUSED("a way or cycles > 0, got -1", wear.way = -1.0);
-    REFUSED("a way or cycles > 0", wear.way = INFINITY);
+    REFUSED("a distance or cycles > 0, got -1", wear.way = -1.0);
+    REFUSED("a distance or cycles > 0", wear.way = INFINITY);
     REFUSED("wear steps: expected 1 ... 1000000, got 0", wear.steps = 0);
     REFUSED("wear steps: expected 1 ... 1000000", wear.steps = 1000001);
     REFUSED("wear increments: expected >= 1, got 0", wear.slides = 0,

@@ -124,12 +124,13 @@ static const struct {
     {"--vary-1 'mu 0.1 x'", 64, "got 'mu 0.1 x'"},
     {"--vary-1 'mu 0:1:1'", 64, "got 'mu 0:1:1'"},
     {"--vary-1 'mu 0:1:5:log'", 64, "got 'mu 0:1:5:log'"},
-    {"--vary-1 'solver 1'", 64, "'solver' is no option of a case that takes a number"},
-    {"--vary-1 'friction 1'", 64, "'friction' is no option of a case"},
+    {"--vary-1 'solver 1'", 64,
+     "'solver' is not an option of a case with a number as value"},
+    {"--vary-1 'friction 1'", 64, "'friction' is not an option of a case"},
     {"--vary-1 'mu 0.1 -1'", 64, "case 2: mu: expected a number >= 0"},
     {"--vary-1 'mu 0.1' --vary-2 'mu 0.2'", 64, "'mu' varies already"},
     {"--vary-1 'half-width 1'", 64, "exclude each other"},
-    {"--vary-1 'mu 0.1' --accuracy 1e-3", 64, "--accuracy: a study has --error"},
+    {"--vary-1 'mu 0.1' --accuracy 1e-3", 64, "--accuracy: a study has error bars"},
     {"--vary-1 'mu 0.1' --results error_approach", 64, "'error_approach' needs --error"},
     {"--vary-1 'mu 0.1' --error --results error_peclet", 64, "peclet has no error bar"},
     {"--vary-1 'mu 0.1' --error --results error_approch", 64,
@@ -219,10 +220,10 @@ static void an_interrupted_study_goes_on(void **state)
     slurp("study.tsv", again, sizeof again);
     assert_string_equal(again, whole);
     check_refused(STUDY "--vary-1 'creep-ratio 0:1:3' --output study.tsv", 73,
-                  "study.tsv: holds something else");
+                  "study.tsv: has other contents");
     assert_int_equal(shell("printf '\\000\\n' >binary"), 0);
     check_refused(STUDY "--vary-1 'creep-ratio 0:1:3' --output binary", 73,
-                  "binary: holds something else");
+                  "binary: has other contents");
     assert_int_equal(rollbem(STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1:3' "
                                    "--output study.tsv --restart"),
                      0);
@@ -317,10 +318,10 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
                       "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i '7s/\\t0\\t/ 0\\t/' s.tsv",
                       "s.tsv:7: not the row of case 2");
-    check_not_resumed("sed -i '1s/force_ratio/x/' s.tsv", "holds something else");
-    check_not_resumed("sed -i '2s/$/x/' s.tsv", "holds something else");
-    check_not_resumed("head -2 s.tsv >t; mv t s.tsv", "holds something else");
-    check_not_resumed("printf x >s.tsv", "holds something else");
+    check_not_resumed("sed -i '1s/force_ratio/x/' s.tsv", "has other contents");
+    check_not_resumed("sed -i '2s/$/x/' s.tsv", "has other contents");
+    check_not_resumed("head -2 s.tsv >t; mv t s.tsv", "has other contents");
+    check_not_resumed("printf x >s.tsv", "has other contents");
     check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
 }
 
@@ -711,7 +712,7 @@ static void files_of_the_case_belong_to_the_study(void **state)
     assert_int_equal(rollbem(study), 0);
     assert_int_equal(rollbem(study), 0);
     assert_int_equal(shell("seq -2 0.1 2 | awk '{print $1, $1*$1/120}' >gap.tsv"), 0);
-    check_refused(study, 73, "g.tsv: holds something else");
+    check_refused(study, 73, "g.tsv: has other contents");
 }
 
 static void two_programs_on_one_file_are_refused(void **state)

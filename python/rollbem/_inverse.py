@@ -256,7 +256,7 @@ class Design(_Named):
 def design(case: _CaseLike = None, *, minimise: Optional[str] = None, maximise: Optional[str] = None,
            over: Mapping[str, "tuple[float, float]"], subject: Union[str, Sequence[str]] = (),
            span: Optional[float] = None, evaluations: int = 200, **options: Any) -> Design:
-    """The least or largest of a result over numbers of a case, by ``rollbem design``.
+    """The minimum or maximum of a result over numbers of a case, by ``rollbem design``.
 
     ``design(load=500, minimise="max_pressure", over={"radius": (20, 200)}, subject=["half_width<=1.2"])``; ``over={"gap":
     (a, b)}`` varies every value of the table of the gap. Numbers are in the units of the case.

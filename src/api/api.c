@@ -741,8 +741,8 @@ static int has_model(rb_api *a)
         return 0;
     if (model->state.p && model->bodies.F)
         return 1;
-    rb_api_ended(
-        a, rb_fail(&a->why, RB_EINVAL, "nothing is solved whose matrices are at hand"));
+    rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
+                            "there is no solved case whose matrices are available"));
     return 0;
 }
 
@@ -932,8 +932,8 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
             a, rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
     if (model->problem.yield)
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "zones do not say what an interface has yielded "
-                                       "(--yield-stress)"));
+                                       "zones do not determine the plastic slip of an "
+                                       "interface (--yield-stress)"));
     rb_contact_state state = {0};
     double *gap = rb_alloc((size_t)n, 1);
     rb_status s = gap ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;

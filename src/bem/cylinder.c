@@ -298,7 +298,7 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
                        reach, c->arc);
     if (angle > 0.95 * M_PI)
         return rb_fail(why, RB_EINVAL,
-                       "zone up to |x| = %g: no room for elements beside it", reach);
+                       "zone up to |x| = %g: no space for elements beside it", reach);
     return RB_OK;
 }
 
@@ -386,8 +386,8 @@ static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
         if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]),
                   0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
             return rb_fail(why, RB_EINVAL,
-                           "outer elements = %d: so few are chords that cut the hub of "
-                           "radius %g; take more, or 0",
+                           "outer elements = %d: so few elements are chords that cut the "
+                           "hub of radius %g; use more, or 0",
                            cylinder->outer_elements, core);
     return RB_OK;
 }

@@ -126,11 +126,10 @@ static rb_status make_waves(rb_bem_layer_field *f, double reach, rb_message *why
     const double d = f->body.thickness;
     const double panels = ceil(LAST * fmax(1.0, 0.1 * reach / d)), width = LAST / panels;
     if (!(GAUSS * (panels + HALVINGS) < MOST_WAVES))
-        return rb_fail(
-            why, RB_EINVAL,
-            "stress: the layer, %.3g mm, is too thin for places that are %.3g mm "
-            "apart; look at fewer of them, or leave it out",
-            d, reach);
+        return rb_fail(why, RB_EINVAL,
+                       "stress: the layer, %.3g mm, is too thin for points that are %.3g "
+                       "mm apart; choose points closer together, or leave out the layer",
+                       d, reach);
     const int n = GAUSS * ((int)panels - 1 + HALVINGS);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
     wave *w = malloc((size_t)n * sizeof *w);
@@ -166,7 +165,8 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
         return RB_EINVAL;
     if (!(body->thickness > 0.0) ||
         !rb_bem_edge_load_is_valid(load, load->n, (rb_bem_points){0, NULL}))
-        return rb_fail(why, RB_EINVAL, "stress: a layer under nodes was expected");
+        return rb_fail(why, RB_EINVAL,
+                       "stress: expected a layer with tractions at nodes");
     rb_bem_layer_field *f = calloc(1, sizeof *f);
     if (!f)
         return RB_ENOMEM;

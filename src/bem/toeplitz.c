@@ -427,7 +427,8 @@ static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc
     for (int i = 1; i <= n_c; i++)
         if (!(fabs(asin(ends[i] / radius) - (first + i * h)) <= 1e-6 * h))
             return rb_fail(why, RB_EINVAL,
-                           "disc: contact element %d is not of the others' arc", i);
+                           "disc: contact element %d has another length than the others",
+                           i);
     return RB_OK;
 }
 

@@ -397,11 +397,10 @@ static rb_status resolve_memory(const rb_case_memory *typed, const char *which,
                                 rb_rolling_memory *memory, rb_message *why)
 {
     if (typed->times.n != typed->ratios.n)
-        return rb_fail(
-            why, RB_EINVAL,
-            "--relaxation-time%s and --relaxation-ratio%s: expected as many of "
-            "one as of the other, got %d and %d",
-            which, which, typed->times.n, typed->ratios.n);
+        return rb_fail(why, RB_EINVAL,
+                       "--relaxation-time%s and --relaxation-ratio%s: expected equally "
+                       "many numbers, got %d and %d",
+                       which, which, typed->times.n, typed->ratios.n);
     memory->n = typed->times.n;
     for (int k = 0; k < memory->n; k++) {
         memory->time[k] = typed->times.value[k];
@@ -515,22 +514,23 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
     if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
         s = rb_fail(
             why, RB_EINVAL,
-            "--mu-fall and --slip-scale: expected as many of one as of the other, "
-            "got %d and %d",
+            "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
             typed->falls.n, typed->slip_scales.n);
     if (s == RB_OK && falls && typed->falls.n == 0)
         s = rb_case_refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale",
                                  why);
     for (int k = 0; k < 2 && s == RB_OK && !falls; k++)
-        s = rb_case_refuse_given(c, k ? "slip-scale" : "mu-fall",
-                                 "of friction laws that fall, see --friction-law", why);
+        s = rb_case_refuse_given(
+            c, k ? "slip-scale" : "mu-fall",
+            "only for velocity-dependent friction, see --friction-law", why);
     if (s == RB_OK)
         s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
     if (s == RB_OK)
         s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
     if (s == RB_OK && !falls && typed->heats.n == 0)
         s = rb_case_refuse_given(
-            c, "memory", "of friction that changes, see --mu-fall and --mu-heat", why);
+            c, "memory", "only for friction that changes, see --mu-fall and --mu-heat",
+            why);
     for (int k = 0; k < 2 && s == RB_OK; k++) {
         f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
         f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
@@ -594,23 +594,23 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
         /* of a crack: positions of the contact */
         {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
         {!transient, "irregularity",
-         "it rides through the contact; of transient rolling only"},
+         "only for transient rolling, in which it moves through the contact"},
         {steady, "history", "steady rolling has no history"},
         {steady && rc->increments > 1, "increments",
-         "steady rolling forgets how it was pressed"},
-        {!relaxes_at_rest, "time-step", "of static contact of bodies that relax only"},
+         "steady rolling does not depend on how the bodies were pressed"},
+        {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
         {relaxes_at_rest && history, "speed", "static contact does not roll"},
         {history, "increments", "the history says them row by row"},
         {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
-         "step by step the elements are equal"}};
+         "a computation with steps needs equal elements"}};
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof rules / sizeof *rules && s == RB_OK; k++)
         if (rules[k].has_no_meaning)
             s = rb_case_refuse_given(c, rules[k].option, rules[k].reason, why);
     if (s == RB_OK && relaxes_at_rest && !history)
         s = rb_fail(why, RB_EINVAL,
-                    "static contact of bodies that relax needs --history, a table with a "
-                    "column time");
+                    "static contact of viscoelastic bodies needs --history, a table with "
+                    "a column time");
     if (s == RB_OK && transient && !history && !(rc->distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
     return s;
@@ -621,25 +621,25 @@ static const struct {
     rb_case_purpose purpose;
     const char *option, *reason;
 } meaningless[] = {
-    {RB_CASE_CURVE, "shift", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "creep", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "creep-ratio", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "force", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "force-ratio", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "free-axle", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "history", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_CURVE, "accuracy", "of single cases; a curve has --error"},
-    {RB_CASE_SPEEDS, "speed", "the curve runs over --from ... --to by itself"},
-    {RB_CASE_SPEEDS, "accuracy", "of single cases; a curve has --error"},
+    {RB_CASE_CURVE, "shift", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "creep", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "creep-ratio", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "force", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "force-ratio", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "free-axle", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "history", "the curve varies it from --from to --to"},
+    {RB_CASE_CURVE, "accuracy", "only for single cases; a curve has --error"},
+    {RB_CASE_SPEEDS, "speed", "the curve varies it from --from to --to"},
+    {RB_CASE_SPEEDS, "accuracy", "only for single cases; a curve has --error"},
     {RB_CASE_STRESS, "conductivity", "stress has no temperatures"},
-    {RB_CASE_STRESS, "accuracy", "stress has error bars, but does not refine"},
+    {RB_CASE_STRESS, "accuracy", "stress has error bars (--error), but no refinement"},
     {RB_CASE_WEAR, "error", "wear has no error bars"},
     {RB_CASE_WEAR, "accuracy", "wear does not refine"},
     {RB_CASE_WEAR, "history", "the cycles have their own"},
     {RB_CASE_WEAR, "increments", "the cycles have their own, --quarter"},
     {RB_CASE_WEAR, "conductivity", "wear has no temperatures"},
-    {RB_CASE_CRACK, "accuracy", "a crack has error bars, but does not refine"},
-    {RB_CASE_STUDY, "accuracy", "a study has --error, but does not refine"},
+    {RB_CASE_CRACK, "accuracy", "a crack has error bars (--error), but no refinement"},
+    {RB_CASE_STUDY, "accuracy", "a study has error bars (--error), but no refinement"},
     {RB_CASE_STUDY, "history", "a study has none"},
 };
 
@@ -660,11 +660,10 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
             s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason,
                                      why);
     if (s == RB_OK && curve && formulation != RB_STEADY)
-        s = rb_case_refuse_given(c, "formulation", "a curve is one of steady rolling",
-                                 why);
+        s = rb_case_refuse_given(c, "formulation", "a curve needs steady rolling", why);
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
-        s = rb_case_refuse_given(c, "formulation",
-                                 "a study is one of static or steady cases", why);
+        s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases",
+                                 why);
     if (s == RB_OK && !curve && c->resolved.mus.n > 1)
         s = rb_case_refuse_given(
             c, "mu",
@@ -674,7 +673,7 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
             why);
     if (s == RB_OK && rb_case_has_steps(&c->resolved))
         s = rb_case_refuse_given(c, "accuracy",
-                                 "of static and steady cases without steps only", why);
+                                 "only for static and steady cases without steps", why);
     return s;
 }
 

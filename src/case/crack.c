@@ -57,8 +57,9 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
                    "uniform stress in B along the surface, tension > 0"),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
-    RB_FLAG_LINE("coupled", PLACE(coupled),
-                 "the contact, without friction, feels the crack: one problem for both"),
+    RB_FLAG_LINE(
+        "coupled", PLACE(coupled),
+        "frictionless contact that depends on the crack: both are solved together"),
     RB_NUMBER_LINE(
         "paris", PLACE(paris), "-", RB_ABOVE(0),
         "C,m: the crack grows by da/dN = C dK^m a pass, in the units of length "
@@ -69,8 +70,8 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("threshold", PLACE(threshold), "MPa.mm^0.5", RB_FROM(0),
                    "dK below which it rests"),
     RB_CHOICE_LINE("growth", PLACE(tension), directions,
-                   "straight on, or across the largest tension ahead of the tip over a "
-                   "pass (Erdogan and Sih)"),
+                   "straight ahead, or perpendicular to the largest tension ahead of the "
+                   "tip over a pass (Erdogan and Sih)"),
     RB_NUMBER_LINE("grow-to", PLACE(grow_to), "a", RB_ABOVE(0), "length where it ends",
                    .unset = "twice the length"),
     RB_INTEGER_LINE("grow-steps", PLACE(grow_steps), RB_FROM_TO(1, 60),
@@ -130,8 +131,8 @@ static const rb_rolling_result scalars[] = {
     NUMBER(pass_change, IS_K,
            .meaning = "largest change of K_I or K_II since the pass before: shakedown"),
     NUMBER(max_pressure, .unit = "MPa",
-           .meaning = "of the contact where it feels the crack; it has a corner at the "
-                      "mouth, where it grows with the number of elements"),
+           .meaning = "of the contact if it depends on the crack; at the mouth it is "
+                      "singular and grows with the number of elements"),
     NUMBER(residual, .meaning = "natural residual of the scaled problem of a step"),
 };
 
@@ -144,7 +145,8 @@ static const rb_rolling_result columns[] = {
     COLUMN(open_length, .unit = "mm", .meaning = "of the faces that are apart"),
     COLUMN(stick_length, .unit = "mm", .meaning = "of the faces that do not slide"),
     COLUMN(fluid_pressure, .unit = "MPa", .meaning = "in the crack"),
-    COLUMN(max_pressure, .unit = "MPa", .meaning = "of a contact that feels the crack"),
+    COLUMN(max_pressure, .unit = "MPa",
+           .meaning = "of a contact that depends on the crack"),
 };
 
 #define GROWTH(name, ...) OF(rb_case_crack_growth, #name, name, __VA_ARGS__)
@@ -287,15 +289,16 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
                        k->depth > 0.0 ? " (0 below the surface)" : "", k->angle);
     if (k->fluid != RB_CRACK_DRY && k->depth > 0.0)
         return rb_fail(why, RB_EINVAL,
-                       "--fluid: comes in by the mouth, which a crack with --crack-depth "
+                       "--fluid: enters at the mouth, which a crack with --crack-depth "
                        "does not have");
     if (k->unloaded && k->coupled)
         return rb_fail(why, RB_EINVAL, "--unloaded and --coupled exclude each other");
     if (k->unloaded && k->remote_stress == 0.0)
         return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
-        return rb_fail(why, RB_EINVAL,
-                       "--fluid pressure: is that of the contact, --unloaded has none");
+        return rb_fail(
+            why, RB_EINVAL,
+            "--fluid pressure: is the contact pressure, and --unloaded has none");
     if (!k->unloaded && rc->elastic_b &&
         !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_fail(why, RB_EINVAL,
@@ -312,10 +315,9 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
             "--coupled: for a contact without friction and without steps of its "
             "own, --mu 0");
     if (k->coupled && !rc->elastic_b)
-        return rb_fail(
-            why, RB_EINVAL,
-            "--coupled: a rigid body B does not feel its crack; make it elastic "
-            "(--similar, --young-b)");
+        return rb_fail(why, RB_EINVAL,
+                       "--coupled: a rigid body B is not changed by its crack; make it "
+                       "elastic (--similar, --young-b)");
     if (k->coupled && k->fluid != RB_CRACK_DRY)
         return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
     const rb_status s = rb_case_check_growth(k, why);
@@ -446,8 +448,8 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
         return;
     if (first < FAR * (1.0 - 1e-12) && t->x[t->n - 1] > t->x[0])
         note(r,
-             "The first position is %.3g half-widths from the mouth, where the load is "
-             "felt already; begin at least 6 away (--from).",
+             "The first position is %.3g half-widths from the mouth, where the load "
+             "already acts on the crack; begin at least 6 away (--from).",
              first);
     if (step > NARROW * (1.0 + 1e-9))
         note(r,
@@ -462,9 +464,8 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
     else if (isfinite(c->rc.b.radius))
         note(r,
              c->rc.b.radius < 0.0
-                 ? "Body B has a bore, below whose surface the crack lies as in a "
-                   "half-plane."
-                 : "Body B is a cylinder, in which the crack lies as in a half-plane.",
+                 ? "Body B has a bore; the crack is computed as in a half-plane."
+                 : "Body B is a cylinder; the crack is computed as in a half-plane.",
              0.0);
 }
 
@@ -476,7 +477,7 @@ static void note_end_of_growth(rb_units units, rb_case_crack_result *r)
     snprintf(r->note[r->notes++], sizeof r->note[0],
              g->surfaced ? "The crack came back to the surface beyond a length of %.4g "
                            "%s: a piece breaks out."
-                         : "The crack rests: dK is below the threshold at a length of "
+                         : "The crack stops: dK is below the threshold at a length of "
                            "%.4g %s.",
              rb_unit_shown(units, "mm", g->length[g->n - 1]), rb_unit_name(units, "mm"));
 }

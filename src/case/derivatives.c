@@ -325,7 +325,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
         while (k < numbers && strcmp(number[k].name, word) != 0)
             k++;
         if (k == numbers || t->n == RB_CASE_TOLERANCES_MAX)
-            s = rb_fail(why, RB_EINVAL, "'%s' is no number of this case", word);
+            s = rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", word);
         else if (is_among(word, t))
             s = rb_fail(why, RB_EINVAL, "%s: given twice", word);
         else if (!value)

@@ -330,7 +330,7 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(x);
     return s == RB_OK && !done
-               ? rb_fail(why, RB_MAXITER, "fit: not at rest after %d steps", STEPS)
+               ? rb_fail(why, RB_MAXITER, "fit: not converged after %d steps", STEPS)
                : s;
 }
 
@@ -415,7 +415,8 @@ static void not_identified(const problem *p, int j)
         say(p->fit, "%sno point in the falling part: %s is not identified\n", "",
             of->name);
     else
-        say(p->fit, "%sthe data do not tell %s: it is not identified\n", "", of->name);
+        say(p->fit, "%sthe data do not determine %s: it is not identified\n", "",
+            of->name);
 }
 
 static void set_intervals(problem *p, const double *theta)
@@ -551,7 +552,8 @@ static rb_status set_parameter(problem *p, int j, rb_message *why)
     if (!o || o->kind != RB_OPTION_NUMBER || o->frozen ||
         (o == p->creep && strcmp(of->name, "creep") == 0))
         return rb_fail(why, RB_EINVAL,
-                       "--fit: '%s' is no number that can be fitted to forces", of->name);
+                       "--fit: '%s' is not a number that can be fitted to forces",
+                       of->name);
     p->option[j] = o;
     of->unit = o->unit;
     const int offset = o == p->creep;
@@ -662,8 +664,9 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
-        return rb_fail(why, RB_EINVAL, "--fit: %d points do not tell %d parameters",
-                       data->n, fit->n);
+        return rb_fail(why, RB_EINVAL,
+                       "--fit: %d points are not enough for %d parameters", data->n,
+                       fit->n);
     p.base = calloc(points, sizeof *p.base);
     p.f = rb_alloc(points, 1);
     p.J = rb_alloc(points, (size_t)fit->n);

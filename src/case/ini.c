@@ -75,7 +75,7 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
     snprintf(what, sizeof what, "%s:%d: %s", st->path, st->line, o->name);
     if (strstr(value, " #"))
         return rb_fail(st->why, RB_EFORMAT,
-                       "%s: behind a value a comment begins with ';', got '%.60s'", what,
+                       "%s: a comment after a value begins with ';', got '%.60s'", what,
                        value);
     return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK
                                                                             : RB_EFORMAT;

@@ -113,7 +113,8 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     RB_FLAG_LINE("similar", PLACE(similar),
-                 "elastic, of the same material as A, with its layer, cover and memory",
+                 "elastic, of the same material as A, with the same layer, cover and "
+                 "viscoelasticity",
                  .excludes = ONE_YOUNG_B | ONE_POISSON_B, .common = 1),
     RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
                    "Young's modulus; makes B elastic", .unset = "rigid",
@@ -155,28 +156,28 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("gap", "Initial gap"),
     RB_CHOICE_LINE("gap", RC(gap), gaps,
-                   "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
+                   "x^2/(2R), the exact circle, or a file of rows x, gap [mm]",
                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
                    .path_name = "FILE", .file = RB_FILE_READ),
-    RB_NUMBER_LINE("gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
-                   "standard deviation of the noise in the gap file: the smoothest curve "
-                   "that stays so close to its points; 0: a cubic spline through them",
-                   .frozen = 1),
-    RB_TEXT_LINE(
-        "irregularity", PLACE(irregularity_file), "FILE",
-        "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0) that adds to "
-        "the gap, begins and ends with 0, lies at these x before rolling and "
-        "rides with the surface, towards -x",
-        .unset = "none", .file = RB_FILE_READ),
+    RB_NUMBER_LINE(
+        "gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
+        "standard deviation of the noise in the gap file; the gap is then the smoothest "
+        "curve with this deviation from the points; 0: a cubic spline through the points",
+        .frozen = 1),
+    RB_TEXT_LINE("irregularity", PLACE(irregularity_file), "FILE",
+                 "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0), which is "
+                 "added to the gap and moves with the surface towards -x; x: its place "
+                 "before rolling; the first and last gap are 0",
+                 .unset = "none", .file = RB_FILE_READ),
 
     RB_TEXT_LINE("worn", PLACE(worn_file), "FILE",
-                 "rows x, depth [mm] of what is worn off in the contact frame, added to "
-                 "the gap (rollbem wear --profile writes it)",
+                 "rows x, depth [mm]: worn depth in the contact frame, added to the gap "
+                 "(rollbem wear --profile writes it)",
                  .unset = "none", .file = RB_FILE_READ),
 
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
-                   "Coulomb's coefficient; curve: several with commas between",
+                   "Coulomb's coefficient; curve: several, separated by commas",
                    .list = PLACE(mus), .excludes = ONE_FRICTION, .common = 1),
     RB_CHOICE_LINE(
         "friction-law", RC(friction.law), laws,
@@ -184,16 +185,15 @@ const rb_option rb_case_table[] = {
                                               "between them, constant beyond",
         .path = PLACE(friction_file), .path_value = RB_FRICTION_table,
         .path_name = "FILE", .file = RB_FILE_READ),
-    RB_NUMBER_LINE(
-        "mu-fall", PLACE(law.fall), "-", RB_ANY,
-        "m1[,m2]: the part of the coefficient that is lost at high slip velocity",
-        .unset = "none", .list = PLACE(law.falls)),
+    RB_NUMBER_LINE("mu-fall", PLACE(law.fall), "-", RB_ANY,
+                   "m1[,m2]: decrease of the coefficient from rest to high slip velocity",
+                   .unset = "none", .list = PLACE(law.falls)),
     RB_NUMBER_LINE("slip-scale", PLACE(law.slip_scale), "mm/s", RB_ABOVE(0),
-                   "s1[,s2]: the slip velocities that scale this fall", .unset = "none",
-                   .list = PLACE(law.slip_scales)),
+                   "s1[,s2]: slip velocities of this decrease, s in --friction-law",
+                   .unset = "none", .list = PLACE(law.slip_scales)),
     RB_NUMBER_LINE("memory", PLACE(law.memory), "mm", RB_ABOVE(0),
-                   "d[,s0]: friction follows the law over a slid distance d; at rest as "
-                   "if sliding by s0 (1 mm/s)",
+                   "d[,s0]: the coefficient approaches the law over a sliding distance "
+                   "d; at rest it changes as if sliding at s0 (1 mm/s)",
                    .unset = "none", .list = PLACE(law.memories)),
     RB_NUMBER_LINE(
         "mu-heat", PLACE(law.heat), "-", RB_ANY,
@@ -206,10 +206,10 @@ const rb_option rb_case_table[] = {
                    "its normal compliance: displacement per pressure"),
     RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa",
                    RB_FROM(0), "its tangential compliance: thickness over shear modulus"),
-    RB_NUMBER_LINE(
-        "yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
-        "shear stress at which the third body yields, a second bound beside mu p",
-        .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE("yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
+                   "shear stress at which the third body yields, a second bound on "
+                   "friction besides mu p",
+                   .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("hardening", RC(hardening), "MPa/mm", RB_ANY,
                    "hardening modulus: increase of the yield stress per plastic slip "
                    "(negative: softening)"),
@@ -223,7 +223,7 @@ const rb_option rb_case_table[] = {
                    "of A: density times specific heat", .word = "none",
                    .word_value = 0.0),
     RB_NUMBER_LINE("temperature", RC(heat_a.temperature), "K", RB_ANY,
-                   "of A far from the contact; 0: results are rises"),
+                   "of A far from the contact; 0: results are temperature rises"),
     RB_NUMBER_LINE("conductivity-b", PLACE(conductivity_b), "W/(m K)", RB_FROM(0),
                    "of B, rigid or elastic; 0: no heat enters B", .unset = "A's"),
     RB_NUMBER_LINE("heat-capacity-b", PLACE(heat_capacity_b), "MJ/(m3 K)", RB_ABOVE(0),
@@ -266,24 +266,23 @@ const rb_option rb_case_table[] = {
                    "transient: rolling from rest, step by step",
                    .common = 1),
     RB_INTEGER_LINE("increments", RC(increments), RB_FROM_TO(1, 1000000),
-                    "static, start of a transient: press from load or approach 0 in so "
-                    "many increments, then shift or load tangentially in as many"),
+                    "static, start of a transient: number of increments in which the "
+                    "load or approach is applied, and then as many for shift or force"),
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
                    "transient: rolled distance, in Hertz half-widths of the load",
                    .unset = "as --history says", .frozen = 1),
-    RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
-                    "transient: steps of equal length; 0: so many that none is longer "
-                    "than an element"),
-    RB_TEXT_LINE(
-        "history", PLACE(history_file), "FILE",
-        "table of controls with named columns: distance (transient, in Hertz half-widths "
-        "of the largest load), time [s] (static, bodies that relax), mu, load or "
-        "approach, shift, creep, creep_ratio, force or force_ratio; a column replaces "
-        "the case's own value",
-        .unset = "none", .file = RB_FILE_READ),
+    RB_INTEGER_LINE(
+        "steps", RC(steps), RB_FROM(0),
+        "transient: number of steps of equal length; 0: steps of at most one element"),
+    RB_TEXT_LINE("history", PLACE(history_file), "FILE",
+                 "table with named columns: distance (transient, in Hertz half-widths of "
+                 "the largest load), time [s] (static, viscoelastic bodies), mu, load or "
+                 "approach, shift, creep, creep_ratio, force or force_ratio; a column "
+                 "replaces the value of the case",
+                 .unset = "none", .file = RB_FILE_READ),
 
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),
-                   "static, bodies that relax: longest step between two rows of the "
+                   "static, viscoelastic bodies: longest step between two rows of the "
                    "history; rows: one step for each row",
                    .word = "rows", .word_value = 0.0, .frozen = 1),
 
@@ -303,38 +302,38 @@ const rb_option rb_case_table[] = {
                    "steady, equal elements: difference to the element upstream, or of "
                    "second order",
                    .unset = "second on aligned elements, else upstream"),
+    RB_INTEGER_LINE("contact-elements", RC(contact_elements), RB_FROM(3),
+                    "number of elements: in the potential contact (uniform) or across "
+                    "the contact (fitted, aligned)",
+                    .unset = "60, fitted 100", .common = 1),
+    RB_NUMBER_LINE("zone", RC(zone), "mm", RB_ABOVE(0),
+                   "half-width of the potential contact; auto: enlarged until each end "
+                   "has three separated elements",
+                   .word = "auto", .word_value = 0.0, .frozen = 1),
     RB_INTEGER_LINE(
-        "contact-elements", RC(contact_elements), RB_FROM(3),
-        "uniform: in the potential contact; fitted, aligned: across the contact",
-        .unset = "60, fitted 100", .common = 1),
-    RB_NUMBER_LINE(
-        "zone", RC(zone), "mm", RB_ABOVE(0),
-        "half-width of the potential contact; auto: grown until three separated "
-        "elements stand at each end",
-        .word = "auto", .word_value = 0.0, .frozen = 1),
-    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
-                    "on the circle outside the contact, one more if that makes the mesh "
-                    "symmetric; 0: graded, neighbours differ by a fifth at most"),
+        "outer-elements", RC(outer_elements), RB_FROM(0),
+        "number on the circle outside the contact, one more if that makes the mesh "
+        "symmetric; 0: graded, neighbours differ by at most a fifth"),
     RB_CHOICE_LINE(
         "normals",
         RC(normals), normals,
         "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
     RB_CHOICE_LINE(
         "near-field", RC(near_field), near_fields,
-        "of a load on a wheel: plain boundary elements, or the exact strip and "
-        "elements for the rest; auto: exact on fitted meshes, and of covers waves "
-        "around the circumference without elements"),
+        "displacements close to a load on a wheel: by plain boundary elements, or by the "
+        "exact solution of a strip and elements for the remainder; auto: exact on fitted "
+        "meshes, and on covers waves around the circumference without elements"),
 
-    RB_GROUP_LINE("units", "Units: 210GPa, 100kN/m, 18in, 0.1% always say their own"),
+    RB_GROUP_LINE("units", "Units: values may have one, as 210GPa, 100kN/m, 18in, 0.1%"),
     RB_CHOICE_LINE("units", PLACE(units), systems,
-                   "of numbers without a unit, in files too, and of the results: mm, N, "
+                   "of numbers without a unit, also in files, and of the results: mm, N, "
                    "MPa; m, N, Pa; inch, lbf, psi",
                    .common = 1),
 
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE("solver", RC(contact.solver), solvers,
-                   "of the complementarity problem; or a cone solver by its name, see "
-                   "rollbem help friction",
+                   "method for the complementarity problem; or the name of a cone "
+                   "solver, see rollbem help friction",
                    .path = RC(contact.cone_solver), .path_value = RB_SOLVER_CONE,
                    .path_name = "NAME"),
     RB_CHOICE_LINE("lcp-form", RC(contact.lcp_form), lcp_forms,

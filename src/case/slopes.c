@@ -76,7 +76,7 @@ static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *wo
             }
     }
     return status == RB_OK && !found
-               ? rb_fail(why, RB_EINVAL, "'%s' is no number of this case", input)
+               ? rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", input)
                : status;
 }
 
@@ -338,7 +338,7 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states,
         s = rb_contact_state_alloc(states->n, &v->tangent);
     const rb_sensitivity_stencil *stencil = rb_sensitivity_stencil_of(input, v->step);
     if (s == RB_OK && !stencil)
-        s = rb_fail(why, RB_EINVAL, "derivatives: %s has no room to vary",
+        s = rb_fail(why, RB_EINVAL, "derivatives: %s cannot vary within its range",
                     v->number->name);
     if (s == RB_OK)
         v->of = *stencil;
@@ -466,16 +466,15 @@ static rb_status check_steps(const rb_rolling_case *rc, const rb_rolling_states 
                              rb_message *why)
 {
     return rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0
-               ? rb_fail(
-                     why, RB_EINVAL,
-                     "derivatives of a history: not of friction that depends on the "
-                     "state, or of an interface that yields, which remember more than "
-                     "the states tell")
+               ? rb_fail(why, RB_EINVAL,
+                         "derivatives of a history: not for friction that depends on the "
+                         "state or an interface that yields, whose state variables are "
+                         "not stored")
            : isnan(rb_rolling_derive(rc).load) &&
                    !(states->program && states->program->load)
                ? rb_fail(why, RB_EINVAL,
                          "derivatives of a history: under a given approach the unit of "
-                         "its distances is found by a solution; give a load")
+                         "its distances depends on the solution; give a load")
            : states->n >= RB_ROLLING_LARGE
                ? rb_fail(
                      why, RB_EINVAL,

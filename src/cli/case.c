@@ -27,11 +27,10 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     double number;
     int plain;
     if (rb_unit_read(path, "-", &number, &plain, &why) == RB_OK)
-        return cli_fail(
-            CLI_USAGE,
-            "%s: a number stands where a case file is expected; several values "
-            "of an option have commas between, as --mu 0.1,0.2",
-            path);
+        return cli_fail(CLI_USAGE,
+                        "%s: expected a case file, got a number; separate several values "
+                        "of an option by commas, as --mu 0.1,0.2",
+                        path);
     if (strcmp(path, "solve") == 0 || strcmp(path, "run") == 0)
         return cli_fail(CLI_USAGE,
                         "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves",

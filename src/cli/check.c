@@ -83,7 +83,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc,
     if (files > 0 || no_memory)
         ; /* a case file may have changed since, or be elsewhere */
     else if (code != CLI_CONTINUE)
-        *fault = "it is no command line of rollbem";
+        *fault = "it is not a command line of rollbem";
     else if (!json_equal(inputs, json_object_get(root, "inputs")))
         *fault = "it has other inputs than `inputs`";
     else if (printed &&
@@ -100,7 +100,7 @@ static rb_status compare_command(const char *path, const json_t *root, const cha
                                  rb_message *why)
 {
     const char *text = json_string_value(json_object_get(root, "command"));
-    const char *fault = "it is no command line of rollbem";
+    const char *fault = "it is not a command line of rollbem";
     rb_status s = RB_OK;
     if (text && strncmp(text, "rollbem", 7) == 0 && strchr(" ", text[7])) {
         char *line = strdup(text + 7);
@@ -211,7 +211,7 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_FLAG_LINE("any-folder", offsetof(check_options, any_folder),
-                 "files that a result names may lie outside its own folder"),
+                 "also read files that a result names outside its folder"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

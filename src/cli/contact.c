@@ -23,7 +23,7 @@ static const rb_option options[] = {
                  "a row per element of every case instead of one per case"),
     CLI_STYLE_LINES(PLACE(style)),
     CLI_OUTPUT_LINE(PLACE(output)),
-    RB_FLAG_LINE("quiet", PLACE(quiet), "no lines on what is left out"),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "do not list the features that are left out"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

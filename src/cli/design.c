@@ -23,10 +23,10 @@ static const rb_option options[] = {
     RB_GROUP_LINE("design", "What is designed"),
     RB_TEXT_LINE(
         "minimise", PLACE(least), "RESULT",
-        "a result of the summary, or pressure_ripple: the root mean square of what "
-        "the pressure has more or less than its mean over all elements, of that mean",
+        "a result of the summary, or pressure_ripple: root mean square deviation of the "
+        "pressure from its mean over all elements, divided by the mean",
         .unset = "none"),
-    RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, as large as it can be",
+    RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, maximised",
                  .unset = "none"),
     RB_TEXT_LINE(
         "over", PLACE(over), "NAME=A:B,...",

@@ -59,8 +59,7 @@ static const rb_option options[] = {
                  "(FCLib)",
                  .unset = "none"),
     CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
-    RB_FLAG_LINE("quiet", PLACE(quiet),
-                 "nothing on how long it takes; wall: no line per step"),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "do not print times; wall: no line per step"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

@@ -291,8 +291,8 @@ int cli_help(int argc, char **argv)
     puts("");
     cli_print_entry("rollbem --help", "the options of a case");
     cli_print_entry("rollbem help COMMAND", "those of a command");
-    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
-                                         "speak of it, such as: rollbem help rubber");
+    cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
+                                         "a word, such as: rollbem help rubber");
     cli_close_pager(pager);
     return CLI_OK;
 }

@@ -25,14 +25,14 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("fit", "What is fitted"),
-    RB_TEXT_LINE("fit", PLACE(names), "NAME,...",
-                 "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
-                 "interlayer-tangential; creep-offset: the true creepage is the measured "
-                 "one plus it",
-                 .unset = "none"),
+    RB_TEXT_LINE(
+        "fit", PLACE(names), "NAME,...",
+        "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
+        "interlayer-tangential; creep-offset: a constant added to the measured creepage",
+        .unset = "none"),
     RB_NUMBER_LINE("sigma", PLACE(sigma), "-", RB_ABOVE(0),
-                   "standard deviation of the measured forces, as the file has them; a "
-                   "column sigma has one for each",
+                   "standard deviation of the measured forces, in their units; a column "
+                   "sigma gives one for each",
                    .unset = "from the residuals"),
     RB_TEXT_LINE("start", PLACE(start), "NAME=X,...",
                  "values to start from, such as those of an earlier fit",

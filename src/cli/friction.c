@@ -48,7 +48,7 @@ static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "error that counts as solved: see below"),
+                   "tolerance of the error: see below"),
     RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
                    "which error decides: scaled, or acary: (13), which depends on the "
                    "units of the file"),
@@ -57,7 +57,7 @@ static const rb_option options[] = {
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
                    .unset = "none"),
     RB_CHOICE_LINE("kind", PLACE(kind), kinds,
-                   "of the files, where their head does not tell"),
+                   "format of the files, if it is not recognised"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("facts", PLACE(facts),
                  "rank, degree of hyperstaticity, nullity of K, asymmetry"),
@@ -65,7 +65,7 @@ static const rb_option options[] = {
                  "a row per component of reactions r and velocities u instead of one per "
                  "file"),
     RB_FLAG_LINE("trace", PLACE(trace),
-                 "every iterate measured, as the solvers take turns"),
+                 "every iterate with its error, also of the members of auto"),
     CLI_JSON_LINE(PLACE(style)),
     RB_CHOICE_LINE(
         "format", PLACE(format), formats,
@@ -219,11 +219,10 @@ static cli_exit examine(const friction_run *run, const rb_friction_problem *p,
                 "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
                 r->file, r->facts.asymmetry);
     if (r->facts.indefinite)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: W is indefinite: a solution need not exist, nor be the "
-            "only one\n",
-            r->file);
+        fprintf(stderr,
+                "rollbem: %s: note: W is indefinite: a solution may not exist or may not "
+                "be unique\n",
+                r->file);
     return CLI_OK;
 }
 
@@ -235,8 +234,9 @@ static int is_infeasible(const rb_friction_problem *p, const char *file)
     if (!rb_friction_has_no_solution(p, &least, &given))
         return 0;
     fprintf(stderr,
-            "rollbem: %s: note: no solution exists: no reactions of a sum W_NN r_N below "
-            "%.2g keep all contacts from closing, where |q| adds up to %.2g\n",
+            "rollbem: %s: note: no solution exists: reactions that prevent penetration "
+            "at all contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up "
+            "to %.2g\n",
             file, least, given);
     return 1;
 }
@@ -338,7 +338,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
     if (!r->r || !r->u)
         code = failed(r, RB_ENOMEM, "out of memory");
     if (strcmp(run->o->solver, "auto") && strcmp(run->o->solver, "soclcp-smoothing"))
-        code = failed(r, RB_EINVAL, "problems on cones are for soclcp-smoothing alone");
+        code = failed(r, RB_EINVAL, "only soclcp-smoothing solves problems on cones");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);

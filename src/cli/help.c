@@ -106,8 +106,8 @@ static void print_short_help(const cli_spec *spec)
     puts("\nMore");
     cli_print_entry("--help=all", "every option");
     cli_print_entry("--help=GROUP", text);
-    cli_print_entry("rollbem help WORD", "options, results, words and questions that "
-                                         "speak of it, such as: rollbem help rubber");
+    cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
+                                         "a word, such as: rollbem help rubber");
     cli_print_entry("rollbem help",
                     "the other commands: curve, stress, wear, sweep, ...");
 }

@@ -47,11 +47,11 @@ static const rb_option options[] = {
                  "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE("solver", PLACE(solver), solvers,
-                   "auto: all in turns, those first that M's structure asks for; lemke: "
-                   "on a tableau; "
-                   "lemke-sparse: on sparse factors, also for boxes; newton: see above"),
+                   "auto: all methods in turns, first the one that suits the structure "
+                   "of M; lemke: with a tableau; lemke-sparse: with a sparse LU, also "
+                   "for bounds; newton: see above"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "scaled residual that counts as solved: see below"),
+                   "tolerance of the scaled residual: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit of each method",
                     .unset = "lemke 50 n + 1000, newton 10 n + 100"),
@@ -349,11 +349,10 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
 {
     r->info.iters = all->bases;
     if (all->singular)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: %d of %d complementary bases have no inverse: solutions "
-            "in them alone are not listed\n",
-            r->file, all->singular, all->bases);
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d complementary bases are singular: solutions "
+                "that belong to these only are not listed\n",
+                r->file, all->singular, all->bases);
     if (all->count)
         return say_end(o, r, RB_OK);
     r->status = "no solution";
@@ -525,9 +524,9 @@ static cli_exit solve_file(void *context, const char *path)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "
-                                  "the lower end, <= 0 at the upper; "
-                                  "games: z probabilities, w what a strategy loses";
+static const char conventions[] =
+    "z >= 0, w = M z + q >= 0, z'w = 0; bounds: w >= 0 at the lower, <= 0 at the upper "
+    "one; games: z probabilities, w the loss of a strategy";
 
 /* Options that ask for what the other method does. */
 static cli_exit check_options(const lcp_options *o)
@@ -535,12 +534,12 @@ static cli_exit check_options(const lcp_options *o)
     const int path = o->trace || o->cover || o->rule;
     const int vectors = o->lower || o->upper || o->start || o->cover;
     if (o->solver == NEWTON && path)
+        return cli_fail(CLI_USAGE, "lcp: --trace, --cover and --rule belong to Lemke's "
+                                   "method: not with --solver newton");
+    if (o->solver == NEWTON && (o->lower || o->upper))
         return cli_fail(
             CLI_USAGE,
-            "lcp: --trace, --cover and --rule are Lemke's: not with --solver newton");
-    if (o->solver == NEWTON && (o->lower || o->upper))
-        return cli_fail(CLI_USAGE,
-                        "lcp: --lower and --upper are Lemke's: not with --solver newton");
+            "lcp: --lower and --upper need Lemke's method: not with --solver newton");
     if (o->trace && o->solution && !is_json(o))
         return cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
                                    "them, or both with --json");
@@ -554,9 +553,8 @@ static cli_exit check_options(const lcp_options *o)
             CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, --upper, "
                        "--start, --cover, --solver or --rule");
     if (o->label && (!o->game || o->all))
-        return cli_fail(CLI_USAGE,
-                        "lcp: --label is of Lemke and Howson's method: only with --game "
-                        "and without --all");
+        return cli_fail(CLI_USAGE, "lcp: --label belongs to Lemke and Howson's method: "
+                                   "only with --game and without --all");
     return CLI_CONTINUE;
 }
 

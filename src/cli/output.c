@@ -35,7 +35,7 @@ static const rb_option options[] = {
     CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
     RB_FLAG_LINE("cite", PLACE(cite),
-                 "the papers that the run rests on, on standard error"),
+                 "print references to the methods used to standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -130,7 +130,8 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
     int set = 0, i = 0;
     for (int k = 0; k < args->operands; k++)
         if (same_file(path, args->operand[k]))
-            return cli_fail(CLI_USAGE, "--%s: '%s' is an input: it would be written over",
+            return cli_fail(CLI_USAGE,
+                            "--%s: '%s' is an input file and would be overwritten",
                             o->name, path);
     while ((name = next_path(spec, &set, &i, &other)) != NULL) {
         if (other == o || other->file == RB_FILE_FOLDER || !same_file(path, name))
@@ -139,7 +140,7 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
             return cli_fail(CLI_USAGE, "--%s and --%s: both would write '%s'", o->name,
                             other->name, path);
         return cli_fail(CLI_USAGE,
-                        "--%s: '%s' is an input (--%s): it would be written over",
+                        "--%s: '%s' is an input file (--%s) and would be overwritten",
                         o->name, path, other->name);
     }
     return CLI_CONTINUE;

@@ -25,7 +25,7 @@ extern const rb_choice cli_formats[], cli_headers[];
 
 #define CLI_OUTPUT_LINE(output)                                                          \
     RB_TEXT_LINE("output", output, "FILE",                                               \
-                 "where the table or JSON goes, whole or not at all",                    \
+                 "file for the table or JSON, written completely or not at all",         \
                  .unset = "standard output", .file = RB_FILE_WRITTEN, .common = 1)
 
 /* How pictures are drawn. */
@@ -39,10 +39,11 @@ extern const rb_choice cli_picture_sizes[];
     RB_CHOICE_LINE("plot-size", pictures + offsetof(cli_pictures, size),                 \
                    cli_picture_sizes,                                                    \
                    "of the pictures: a column or the page of a paper, or a slide"),      \
-        RB_TEXT_LINE("plot-script", pictures + offsetof(cli_pictures, script), "FILE",   \
-                     "the picture's gnuplot script with its data too, for changes by "   \
-                     "hand",                                                             \
-                     .unset = "none", .file = RB_FILE_WRITTEN)
+        RB_TEXT_LINE(                                                                    \
+            "plot-script", pictures + offsetof(cli_pictures, script), "FILE",            \
+            "also write the picture's gnuplot script with its data, for changes by "     \
+            "hand",                                                                      \
+            .unset = "none", .file = RB_FILE_WRITTEN)
 
 #define CLI_PLOT_LINES(plot, pictures)                                                   \
     RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg or .pdf (by gnuplot)",       \

@@ -1,4 +1,4 @@
-/* rollbem page: the page for browsers, with a case that it opens with. */
+/* rollbem page: writes the page for browsers, which opens with a given case. */
 #include "cli/case.h"
 #include "cli/output.h"
 #include "rollbem/io.h"
@@ -23,8 +23,9 @@ static const rb_option options[] = {
                  .unset =
                      "the one beside the program, or in share/rollbem beside its folder",
                  .file = RB_FILE_READ),
-    RB_TEXT_LINE("output", PLACE(output), "FILE", "where it goes, whole or not at all",
-                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "file to write, completely or not at all", .unset = "standard output",
+                 .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -109,7 +110,7 @@ static cli_exit refuse_files(rb_case *c)
     for (int k = 0; k < set.n; k++)
         if (rb_option_path(&set.options[k], set.target))
             return cli_fail(CLI_USAGE,
-                            "--%s: names a file, which a page cannot take along",
+                            "--%s: names a file, which the page cannot contain",
                             set.options[k].name);
     return CLI_CONTINUE;
 }

@@ -47,30 +47,31 @@ static const rb_option options[] = {
         "derivatives", PLACE(derivatives), "RESULT,...",
         "derivatives of these results (without names: of all) with respect to "
         "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
-        "tractions; of a sequence of steps: of columns of its history, RESULT:OPTION: "
-        "with respect to one number",
+        "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
+        "respect to one number",
         .unset = "none", .alone = "all"),
-    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
-                 "standard deviations of inputs, as mu=0.02,radius=1%: those of all "
-                 "results to first order, on standard error and as tolerances in JSON",
-                 .unset = "none"),
+    RB_TEXT_LINE(
+        "tolerance", PLACE(tolerance), "NAME=X,...",
+        "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
+        "results to first order to standard error, and as tolerances in JSON",
+        .unset = "none"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
                  "one row per step; standard output has the tractions of the last one",
                  .unset = "none", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
-                 "picture of creepage or shift, force and stick over the way: .png, "
+                 "picture of creepage or shift, force and stick over the distance: .png, "
                  ".svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
-                 "tractions on the way as step_000001.tsv (or .csv), ...",
-                 .unset = "none", .file = RB_FILE_FOLDER),
+                 "tractions of steps as step_000001.tsv (or .csv), ...", .unset = "none",
+                 .file = RB_FILE_FOLDER),
     RB_INTEGER_LINE("every", PLACE(steps.every), RB_FROM(1),
-                    "steps from one snapshot to the next; the last step has one too"),
+                    "number of steps between snapshots; the last step also has one"),
     RB_FLAG_LINE("states", PLACE(states),
                  "with --json: tractions, slip displacement and zone of every element at "
-                 "every step as history.states, which rollbem check asks for"),
+                 "every step as history.states, which rollbem check needs"),
     RB_FLAG_LINE("progress", PLACE(steps.progress),
                  "print progress even when standard error is not a terminal"),
 };
@@ -267,8 +268,8 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
     if (it->all_solutions && (c->rc.formulation != RB_STEADY || !model_kept ||
                               !rb_rolling_law_depends_on_state(&c->rc)))
         return cli_fail(CLI_USAGE,
-                        "--all-solutions: of steady rolling without error bars, with "
-                        "friction that depends on the slip or the temperature");
+                        "--all-solutions: only for steady rolling without error bars, "
+                        "with friction that depends on the slip or the temperature");
     if (it->all_solutions && (it->dump || it->trace || it->fclib))
         return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
                                    "--trace, which show one of them");
@@ -283,7 +284,7 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
         return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
     if (it->tolerance && rb_case_has_steps(c))
         return cli_fail(CLI_USAGE,
-                        "--tolerance: of one step; this case is a sequence of steps");
+                        "--tolerance: only for one step; this case has several");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");

@@ -49,12 +49,11 @@ static const rb_option options[] = {
                    "difference of the principal stresses from one fringe to the next; "
                    "auto: about ten fringes",
                    .word = "auto", .word_value = 0.0),
-    RB_FLAG_LINE(
-        "shakedown", PLACE(shakedown),
-        "largest p0 under which residual stresses keep A elastic, where the contact "
-        "passes again and again (Melan, Tresca)"),
+    RB_FLAG_LINE("shakedown", PLACE(shakedown),
+                 "largest p0 at which residual stresses keep A elastic under repeated "
+                 "rolling (Melan, Tresca)"),
     RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
-                   "yield stress k of A in shear: where the case stands",
+                   "yield stress k of A in shear; shows the case in the map",
                    .unset = "not given"),
     RB_TEXT_LINE("shakedown-map", PLACE(map), "FILE",
                  "picture of p0/k over Q/P with the case: .png, .svg or .pdf",

@@ -47,7 +47,7 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     study_column *c = &st->column[st->columns];
     c->bad = bad;
     if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
-        return cli_fail(bad, "%s: '%.60s' is no option of a case", source, name);
+        return cli_fail(bad, "%s: '%.60s' is not an option of a case", source, name);
     for (size_t k = 0; k <= strlen(name); k++) {
         c->name[k] = name[k] == '_' ? '-' : name[k];
         c->heading[k] = name[k] == '-' ? '_' : name[k];
@@ -62,7 +62,8 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     st->has_crack |= o && is_of_crack(o);
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
-               : cli_fail(bad, "%s: '%s' is no option of a case that takes a number",
+               : cli_fail(bad,
+                          "%s: '%s' is not an option of a case with a number as value",
                           source, name);
 }
 

@@ -23,18 +23,18 @@ static const rb_option options[] = {
                  "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
                  "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
                  .unset = "none"),
-    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every pair is a case",
-                 .unset = "none"),
+    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC",
+                 "a second one: every combination is a case", .unset = "none"),
     RB_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
     RB_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options",
                  .unset = "none", .file = RB_FILE_READ),
-    RB_INTEGER_LINE("sample", PLACE(sample), RB_FROM_TO(0, 1000000),
-                    "so many cases whose inputs scatter by --tolerance (a Latin "
-                    "hypercube of normal distributions); mean and standard deviation of "
-                    "each result on standard error; a sample that is no case fails by "
-                    "itself"),
+    RB_INTEGER_LINE(
+        "sample", PLACE(sample), RB_FROM_TO(0, 1000000),
+        "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
+        "of normal distributions); prints mean and standard deviation of each result to "
+        "standard error; a sample with invalid inputs counts as not solved"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "their standard deviations, as mu=0.02,radius=1%", .unset = "none"),
     RB_INTEGER_LINE("seed", PLACE(seed), RB_FROM_TO(0, 1000000000),
@@ -51,9 +51,10 @@ static const rb_option options[] = {
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of a result over an option that varies: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
-    RB_TEXT_LINE("map", PLACE(map), "FILE",
-                 "picture of a result over two options of which every pair is a case",
-                 .unset = "none", .file = RB_FILE_PICTURE),
+    RB_TEXT_LINE(
+        "map", PLACE(map), "FILE",
+        "picture of a result over two options; every pair of their values must be a case",
+        .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("show", PLACE(show), "RESULT", "the result of the pictures, by its name",
                  .unset = "force_ratio; of cracks delta_K_II"),
     RB_TEXT_LINE("over", PLACE(over), "OPTION", "the option along x of the pictures",
@@ -64,19 +65,18 @@ static const rb_option options[] = {
     CLI_PICTURE_LINES(PLACE(pictures)),
     CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the rows go as they come; where it holds the first rows of this "
-                 "study already, the study goes on from there (a table with tabs; the "
-                 "other formats are written at the end, whole)",
+                 "file for the rows, written as they are computed; if it already has the "
+                 "first rows of this study, the study continues from there (a table with "
+                 "tabs; other formats are written completely at the end)",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
-    RB_FLAG_LINE("restart", PLACE(restart),
-                 "begin again, whatever the output file holds"),
+    RB_FLAG_LINE("restart", PLACE(restart), "start again and overwrite the output file"),
     RB_INTEGER_LINE("jobs", PLACE(jobs), RB_FROM_TO(0, 256),
                     "processes; 0: as many as there are processors"),
     RB_FLAG_LINE("progress", PLACE(progress),
-                 "time left on standard error also where that is no terminal"),
+                 "print the time left even when standard error is not a terminal"),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
     RB_FLAG_LINE("cite", PLACE(cite),
-                 "the papers that the study rests on, on standard error"),
+                 "print references to the methods used to standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -624,9 +624,8 @@ static cli_exit resume(study *st)
     ssize_t n;
     cli_exit code = CLI_CONTINUE;
     if (!has_head(st, &line, &capacity))
-        code =
-            cli_fail(CLI_CANTWRITE,
-                     "%s: holds something else; --restart would overwrite it", st->path);
+        code = cli_fail(CLI_CANTWRITE,
+                        "%s: has other contents; --restart would overwrite it", st->path);
     st->whole = ftell(st->out);
     while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
            line[n - 1] == '\n') {
@@ -831,7 +830,7 @@ static cli_exit run(study *st)
         return CLI_OK; /* close_output says it */
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
-                        st->path ? "; the same command goes on from there" : "");
+                        st->path ? "; the same command continues from there" : "");
     st->complete = 1;
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,

@@ -1,4 +1,4 @@
-/* rollbem wear: what sliding, fretting or rolling takes off. */
+/* rollbem wear: wear by sliding, fretting or rolling. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
 #include "cli/run.h"
@@ -31,31 +31,31 @@ static const rb_option options[] = {
     RB_GROUP_LINE("wear", "Wear"),
     RB_CHOICE_LINE("wear-law", PLACE(law), laws,
                    "depth = K p s (Archard), or K times the work of friction per area"),
-    RB_NUMBER_LINE("wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),
-                   "K: worn volume per load and way, or per work, mm3/(N mm)",
-                   .unset = "none: it must be given"),
+    RB_NUMBER_LINE(
+        "wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),
+        "K: worn volume per load and sliding distance, or per work, mm3/(N mm)",
+        .unset = "none: it must be given"),
     RB_NUMBER_LINE("wear-share", PLACE(share), "-", RB_FROM_TO(0, 1),
-                   "part of K that wears B: in the contact where they fret, along its "
-                   "track where A slides, its radius where it rolls"),
+                   "fraction of K that wears B: in the contact (fretting), along its "
+                   "track (A slides) or at its radius (rolling)"),
     RB_NUMBER_LINE("slide", PLACE(slide), "mm", RB_ABOVE(0),
-                   "static: A slides over B, towards +x, by this in all",
+                   "static: total distance by which A slides over B, towards +x",
                    .unset = "A frets, or rolls"),
     RB_NUMBER_LINE("cycles", PLACE(cycles), "-", RB_ABOVE(0),
                    "static: fretting cycles between the shift or force and its opposite; "
                    "steady: turns of the wheel"),
     RB_INTEGER_LINE("wear-steps", PLACE(steps), RB_FROM_TO(1, 1000000),
-                    "parts of the way or of the cycles; each is implicit, and stable "
-                    "however long it is"),
+                    "number of steps; each is implicit and stable for any length"),
     RB_INTEGER_LINE("quarter", PLACE(increments), RB_FROM_TO(1, 100000),
-                    "increments of a quarter of a fretting cycle"),
+                    "number of increments per quarter of a fretting cycle"),
     RB_TEXT_LINE("snapshots", PLACE(snapshots), "DIR",
                  "tractions and worn depth as step_000000.tsv, ...", .unset = "none",
                  .file = RB_FILE_FOLDER),
     RB_INTEGER_LINE("every", PLACE(every), RB_FROM(1),
-                    "steps from one snapshot to the next; the last step has one too"),
+                    "number of steps between snapshots; the last step also has one"),
     RB_TEXT_LINE("profile", PLACE(profile), "FILE",
-                 "what is worn off at the end, rows x, depth: for --worn, also of "
-                 "a run that goes on from there",
+                 "file for the worn depth at the end, rows x, depth; --worn reads it, "
+                 "also to continue the run",
                  .unset = "none", .file = RB_FILE_WRITTEN),
 };
 

@@ -54,7 +54,7 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *p,
     rb_contact_cone cone;
 
     if (!by || !options->cone_solver || !by->knows(options->cone_solver))
-        return rb_fail(why, RB_EINVAL, "no cone solver '%.60s' is at hand",
+        return rb_fail(why, RB_EINVAL, "there is no cone solver '%.60s'",
                        options->cone_solver ? options->cone_solver : "");
     rb_status s = rb_contact_cone_create(p, state->delta, state->xi, &cone, why);
     if (s != RB_OK)

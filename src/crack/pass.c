@@ -357,11 +357,11 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         return rb_fail(why, RB_EINVAL, "crack: %d steps, %d passes, %d loads", p->steps,
                        p->passes, p->loads);
     if (p->fluid != RB_CRACK_DRY && c->first)
-        return rb_fail(why, RB_EINVAL,
-                       "crack: fluid comes in by a mouth; a crack below the surface has "
-                       "none");
+        return rb_fail(
+            why, RB_EINVAL,
+            "crack: fluid enters at the mouth; a crack below the surface has none");
     if (p->fluid != RB_CRACK_DRY && p->wheel)
-        return rb_fail(why, RB_EINVAL, "crack: coupled, it is without fluid");
+        return rb_fail(why, RB_EINVAL, "crack: a coupled crack cannot contain fluid");
     rb_phase("passes over the crack");
     const double scale = largest_stress(p);
     double *T = rb_alloc(2, (size_t)c->n);

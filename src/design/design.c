@@ -505,7 +505,7 @@ static rb_status search(problem *p)
         const nlopt_result r = nlopt_optimize(opt, u, &least);
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
             p->status =
-                rb_fail(p->why, RB_MAXITER, "design: not at rest after %d evaluations",
+                rb_fail(p->why, RB_MAXITER, "design: not converged after %d evaluations",
                         d->evaluations);
         else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
             p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",
@@ -542,9 +542,8 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
     rb_status s = RB_OK;
 
     if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
-        s = rb_fail(
-            why, RB_EINVAL,
-            "design: of one step without error bars; this case is not such a one");
+        s = rb_fail(why, RB_EINVAL,
+                    "design: only for cases of one step without error bars");
     else if (!p.x || !p.value || !p.gradient || !p.best)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a design");
     d->evaluations = 0;
@@ -557,7 +556,7 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
         d->variable[j].value = p.best[j];
     if (s == RB_OK && !(p.best_value < INFINITY))
         s = rb_fail(why, RB_INACCURATE,
-                    "design: no values within the bounds were found that meet all "
+                    "design: no values within the bounds were found that satisfy all "
                     "constraints");
     d->status = s;
     free(p.x);

@@ -22,7 +22,7 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem,
     if (s == RB_SINGULAR)
         return rb_fail(why, s,
                        "K is singular even with every contact held: the structure has "
-                       "motions that no contact sees");
+                       "motions without any velocity at the contacts");
     return s;
 }
 

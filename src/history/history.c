@@ -21,7 +21,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
 /* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
-    rb_rolling_case base;                /* step by step the elements are equal */
+    rb_rolling_case base;                /* the case with equal elements, for the steps */
     rb_rolling_program own;              /* of the case, where none is given */
     const rb_rolling_case *rc;           /* base */
     const rb_rolling_program *program;   /* own, or the given one */
@@ -535,8 +535,8 @@ static rb_status check_followed(const rb_rolling_case *rc,
 {
     if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
         return rb_fail(why, RB_EINVAL,
-                       "history: its states do not tell what friction that depends on "
-                       "them, or an interface that yields, remembers");
+                       "history: not for friction that depends on the state or an "
+                       "interface that yields, whose state variables are not stored");
     if (!(states->half_width > 0.0))
         return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
                        states->half_width);

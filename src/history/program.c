@@ -156,8 +156,8 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
     for (int r = 1; r < program->n; r++) {
         if (d[r] < d[r - 1])
             return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g is behind the row before", r + 1,
-                           d[r]);
+                           "history: row %d: distance %g is less than in the row before",
+                           r + 1, d[r]);
         if (d[r] > 0.0 && d[r] == d[r - 1])
             return rb_fail(why, RB_EINVAL,
                            "history: row %d: distance %g twice; a jump needs two rows a "
@@ -176,7 +176,7 @@ static rb_status check_times(const rb_rolling_program *program, const rb_rolling
     if (!t)
         return rb_fail(
             why, RB_EINVAL,
-            "history: static contact of bodies that relax needs a column time");
+            "history: static contact of viscoelastic bodies needs a column time");
     if (t[0] != 0.0)
         return rb_fail(why, RB_EINVAL,
                        "history: row 1: expected time 0, when the bodies are pressed "
@@ -210,21 +210,20 @@ static rb_status check_columns(const rb_rolling_program *program,
                        "history: transient rolling needs a column distance");
     if (formulation == RB_STATIC && program->distance)
         return rb_fail(why, RB_EINVAL,
-                       "history: a column distance is one of transient rolling; static "
+                       "history: a column distance is for transient rolling; static "
                        "contact does not roll");
     if (program->time && formulation == RB_TRANSIENT)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column time is for static contact; rolling needs a "
+                       "column distance and a speed");
+    if (program->time && !rb_rolling_relaxes(rc))
         return rb_fail(
             why, RB_EINVAL,
-            "history: a column time is one of static contact; what rolls has a "
-            "distance and a speed");
-    if (program->time && !rb_rolling_relaxes(rc))
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column time is of bodies that relax, see "
-                       "--relaxation-time");
+            "history: a column time is for viscoelastic bodies, see --relaxation-time");
     if (program->mu && rc->friction.law == RB_FRICTION_table)
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column mu means nothing to a table of friction over "
-                       "x, which has the coefficients");
+        return rb_fail(
+            why, RB_EINVAL,
+            "history: a column mu cannot be combined with a table of friction over x");
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         for (int r = 0; column_of(program, c) && r < program->n; r++)
             if (!isfinite(column_of(program, c)[r]))

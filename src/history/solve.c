@@ -111,8 +111,7 @@ static rb_status take_state(const rb_rolling_solution *before, rb_rolling_model 
 
     if (before->n != model->mesh.n || fabs(before->x[0] - x[0]) > 1e-6 * h ||
         fabs(before->x[n - 1] - x[n - 1]) > 1e-6 * h)
-        return rb_fail(why, RB_EINVAL,
-                       "a step: the state before it stands on other elements");
+        return rb_fail(why, RB_EINVAL, "a step: the state before has other elements");
     memcpy(model->state.p, before->p, bytes);
     memcpy(model->state.q, before->q, bytes);
     if (before->mu)
@@ -136,9 +135,9 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
     memset(solution, 0, sizeof *solution);
     if (s == RB_OK && (rc->formulation == RB_STEADY || rb_rolling_relaxes(rc) ||
                        rb_rolling_has_heat(rc)))
-        s = rb_fail(why, RB_EINVAL,
-                    "a step: steady rolling has none, and bodies that relax or become "
-                    "warm remember more than the state before it");
+        s = rb_fail(
+            why, RB_EINVAL,
+            "a step: not for steady rolling, viscoelastic bodies or temperatures");
     if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
         s = rb_fail(why, RB_EINVAL,
                     "a step: its length %g: expected > 0 where it rolls, 0 at rest",

@@ -105,8 +105,8 @@ static rb_status widen(wear_state *r, rb_message *why)
 
     if (!rb_rolling_can(&r->rc, RB_BODY_FLAT))
         return rb_fail(why, RB_ZONE,
-                       "the contact outgrows the zone; give a wider one, --zone, because "
-                       "on wheels the elements would move");
+                       "the contact becomes wider than the zone, which cannot grow on "
+                       "wheels; give a wider one (--zone)");
     wider.rc.contact_elements = n + 2 * more;
     wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
     memset(&wider.model, 0, sizeof wider.model);
@@ -396,10 +396,9 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
     const int rolls = rc->formulation == RB_STEADY;
 
     if (rc->formulation == RB_TRANSIENT)
-        return rb_fail(
-            why, RB_EINVAL,
-            "wear: of sliding, of fretting cycles (static) and of rolled turns "
-            "(steady), not of a transient");
+        return rb_fail(why, RB_EINVAL,
+                       "wear: only by sliding, by fretting cycles (static) or by rolling "
+                       "(steady), not in a transient");
     if (!(wear->coefficient > 0.0) || isinf(wear->coefficient))
         return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g",
                        wear->coefficient);
@@ -407,7 +406,7 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
         return rb_fail(why, RB_EINVAL, "wear share: expected 0 ... 1 of body B, got %g",
                        wear->share);
     if (!(wear->way > 0.0) || isinf(wear->way))
-        return rb_fail(why, RB_EINVAL, "wear: expected a way or cycles > 0, got %g",
+        return rb_fail(why, RB_EINVAL, "wear: expected a distance or cycles > 0, got %g",
                        wear->way);
     if (wear->steps < 1 || wear->steps > 1000000)
         return rb_fail(why, RB_EINVAL, "wear steps: expected 1 ... 1000000, got %d",
@@ -436,9 +435,9 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        "wear: a rolling wheel of one elastic material only, got a layer, "
                        "a cover or relaxation");
     if (rc->yield_stress > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "wear: surfaces that wear touch, an interface that yields keeps "
-                       "them apart: not with --yield-stress");
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: not with --yield-stress, because a third body separates the surfaces");
     return rb_rolling_case_check(rc, why);
 }
 

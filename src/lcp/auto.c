@@ -276,10 +276,10 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
  */
 
 static const rb_lcp_solver solvers[] = {
-    {"auto", "the methods below in turns, those first that the structure of M asks for"},
+    {"auto", "the methods below in turns, first the one that suits the structure of M"},
     {"lemke", "Lemke's method on a tableau; large sparse problems as lemke-sparse"},
-    {"lemke-sparse", "Lemke's method on sparse factors, also for boxes"},
-    {"newton", "block principal pivoting on sparse factors, sure for P-matrices"}};
+    {"lemke-sparse", "Lemke's method with a sparse LU, also for bounds"},
+    {"newton", "block principal pivoting with a sparse LU, finite for P-matrices"}};
 enum { AUTO, LEMKE, LEMKE_SPARSE, BLOCKS, SOLVERS };
 
 const rb_lcp_solver *rb_lcp_solvers(int *count)
@@ -320,7 +320,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
     const int boxes = p->lower || p->upper;
     if (kind == BLOCKS && boxes)
         return rb_fail(&info->msg, RB_EINVAL,
-                       "lcp: newton takes no boxes: solve them by lemke-sparse");
+                       "lcp: newton does not accept bounds; use lemke-sparse");
     const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);
     if (s != RB_OK)
         return s;

@@ -181,7 +181,7 @@ static rb_status follow_path(lemke_howson *l, int dropped)
         const int row = blocking_row(t, entering, l->tied);
         if (row < 0)
             return rb_fail(&l->info->msg, RB_INACCURATE,
-                           "lcp: rounding has spoilt the path after %d pivots",
+                           "lcp: rounding errors are too large after %d pivots",
                            l->info->iters);
         leaving = t->basis[row];
         pivot(t, row, entering);

@@ -74,7 +74,7 @@ rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,
         const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
         if (!(low <= high) || low == INFINITY || high == -INFINITY)
             return rb_fail(why, RB_EINVAL,
-                           "lcp: box %d is [%g, %g]: expected lower <= upper, with a "
+                           "lcp: bounds %d are [%g, %g]: expected lower <= upper, with a "
                            "number in between",
                            i + 1, low, high);
     }

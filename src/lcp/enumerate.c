@@ -184,7 +184,7 @@ static rb_status check(const search *s, rb_message *why)
     if (status == RB_OK && bases > MOST_BASES)
         return rb_fail(why, RB_EINVAL,
                        "lcp: all solutions: %.3g complementary bases: expected at most "
-                       "%.3g, that is order 22 without boxes",
+                       "%.3g, that is order 22 without bounds",
                        bases, MOST_BASES);
     return status;
 }

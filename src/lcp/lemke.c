@@ -222,8 +222,8 @@ rb_status rb_lcp_assess(rb_lcp_info *info)
     return info->scaled <= SPOILT
                ? RB_OK
                : rb_fail(&info->msg, RB_INACCURATE,
-                         "lcp: rounding has spoilt the solution: the residual of row %d "
-                         "is %.2g of its terms after %d steps",
+                         "lcp: rounding errors make the solution inaccurate: the "
+                         "residual of row %d is %.2g of its terms after %d steps",
                          info->row + 1, info->scaled, info->iters);
 }
 

@@ -61,7 +61,7 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
         strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
         return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
     if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
-        return rb_certificate_refuse(name, "it says itself that it is not solved", why);
+        return rb_certificate_refuse(name, "its status is not solved", why);
     if (strcmp(rb_certificate_word(root, "version"), RB_VERSION) != 0)
         return rb_certificate_refuse(name, "it is of another version of rollbem", why);
     return RB_OK;
@@ -212,7 +212,7 @@ static rb_status compare_texts(rb_certificate *c, const json_t *root,
                                   json_object_get(root, "conventions")))
         rb_certificate_violated(c, "conventions are not those of rollbem");
     if (s == RB_OK && !json_equal(units, json_object_get(root, "units")))
-        rb_certificate_violated(c, "units are not those of mm, N, MPa");
+        rb_certificate_violated(c, "units are not mm, N, MPa");
     for (size_t k = 0; k < json_array_size(notes) && s == RB_OK; k++) {
         const char *text = json_string_value(json_array_get(printed, k));
         same += text && is_same_note(text, json_string_value(json_array_get(notes, k)));

@@ -80,7 +80,7 @@ static void expect_largest(rb_certificate *c, const char *name, double depth,
 {
     const double below = printed.y - rb_rolling_surface(c->model.rc, printed.x);
     if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
-        rb_certificate_violated(c, "maxima.%s: %g below the surface, looked at to %g",
+        rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g",
                                 name, below, depth);
     if (!(found.value <= printed.value + search_slack(c)))
         rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)",

@@ -43,7 +43,7 @@ static rb_status read_status(const char *name, const char *text, double *residua
     const size_t n = strlen(", solved");
     return of - text > (ptrdiff_t)n && strncmp(of - n, ", solved", n) == 0
                ? RB_OK
-               : rb_certificate_refuse(name, "it says itself that it is not solved", why);
+               : rb_certificate_refuse(name, "its status is not solved", why);
 }
 
 /* "# patch 1: from -1 to 1 mm, p0 = 400 MPa, P = 500, Q = -20 N/mm" */

@@ -103,8 +103,7 @@ static int has_result(const rb_report_derivatives *d, int k)
 static const char *elements_of(const rb_report_derivatives *d)
 {
     static const char *const text[] = {
-        [RB_SENSITIVITY_FIXED] =
-            "on the elements of the solution, which stay where they are",
+        [RB_SENSITIVITY_FIXED] = "on the elements of the solution, which do not move",
         [RB_SENSITIVITY_HERTZ] =
             "on elements that grow with Hertz's half-width, as the automatic zone does",
         [RB_SENSITIVITY_EDGES] = ("on elements that move with the edges of the contact, "
@@ -261,7 +260,7 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
                 rb_rolling_number(d->result[k], s), unit_of(d, d->result[k]->unit));
         const int n = rows_of(d, k, -1, row);
         for (int i = 0; i < n && i < MOST && row[i].one != 0.0; i++)
-            fprintf(out, "  %-24s %12.5g  1 %% of it changes that by %.3g\n",
+            fprintf(out, "  %-24s %12.5g  1 %% of it changes the result by %.3g\n",
                     row[i].of->name,
                     isnan(row[i].side[1]) ? row[i].side[0] : row[i].side[1], row[i].one);
     }

@@ -257,7 +257,8 @@ rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas,
 {
     for (int k = 0; k < f->data->n; k++)
         if (!isfinite(f->fit->band[k]))
-            return rb_fail(why, RB_EINVAL,
-                           "no band to draw: the data do not tell all of these numbers");
+            return rb_fail(
+                why, RB_EINVAL,
+                "no band to draw: the data do not determine all of these numbers");
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, f, why);
 }

@@ -148,7 +148,7 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "command", typed("string", "the command line"));
     rb_report_json_set(&of, "conventions", typed("string", "signs and zones"));
     rb_report_json_set(&of, "notes",
-                       list_of(typed("string", NULL), "what changes how it is read"));
+                       list_of(typed("string", NULL), "notes on how to read the result"));
     rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
     rb_report_json_set(
         &of, "input_hash",
@@ -180,25 +180,26 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "depth", number("of grid and maxima; null: 2.5 half-widths"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
-                       typed("object", "of --derivatives: of each result by each input; "
-                                       "[left, right] where the sides differ"));
+                       typed("object", "of --derivatives: of each result with respect to "
+                                       "each input; [left, right] if the sides differ"));
     rb_report_json_set(&of, "without_derivatives",
                        typed("object", "inputs without, and why"));
-    rb_report_json_set(&of, "derivatives_over_x",
-                       typed("object",
-                             "of loads, approach and creepage by the gap and mu of "
-                             "every element, which stays"));
+    rb_report_json_set(
+        &of, "derivatives_over_x",
+        typed("object", "of loads, approach and creepage with respect to the gap and mu "
+                        "of every element, with fixed elements"));
     rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
     rb_report_json_set(&of, "tolerances",
                        typed("object", "of --tolerance: standard deviations of results"));
-    rb_report_json_set(&of, "parameters",
-                       typed("object", "of fit: value, interval, correlation of each"));
+    rb_report_json_set(
+        &of, "parameters",
+        typed("object", "of fit: value, interval and correlations of each"));
     rb_report_json_set(&of, "fit", typed("object", "points, fitted curve and its band"));
     rb_report_json_set(&of, "residuals",
                        list_of(number("measured less fitted"), "of fit"));
     rb_report_json_set(
         &of, "sentences",
-        list_of(typed("string", NULL), "of fit: what the data do not tell"));
+        list_of(typed("string", NULL), "of fit: what the data do not determine"));
     rb_report_json_set(
         &of, "problems",
         list_of(typed("object", NULL), "of lcp and friction, one per file"));

@@ -17,8 +17,8 @@ json_t *rb_report_json_solutions(const rb_rolling_solutions *all)
 
 void rb_report_solutions(FILE *out, const rb_rolling_solutions *all)
 {
-    fprintf(out, "%d solution%s from %d starts, %d of which did not come to rest\n",
-            all->n, all->n == 1 ? "" : "s that differ", all->starts, all->failed);
+    fprintf(out, "%d solution%s from %d starts, %d of which did not converge\n", all->n,
+            all->n == 1 ? "" : "s that differ", all->starts, all->failed);
     for (int k = 0; k < all->n; k++) {
         const rb_rolling_solution *s = &all->solution[k];
         fprintf(out,

@@ -244,19 +244,20 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
     if (body->memory.n == 0)
         return RB_OK;
     if (rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_TURNS))
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: a clamped arc does not turn, and steady rolling asks "
-                       "what a whole turn leaves; expected --support hub or halfplane");
+        return rb_fail(
+            why, RB_EINVAL,
+            "relaxation: steady rolling of a viscoelastic wheel needs whole turns, and a "
+            "clamped arc cannot turn; expected --support hub or halfplane");
     if (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: in transient rolling for the support halfplane only, "
-                       "because a wheel or cover remembers its whole circumference; "
-                       "--formulation steady takes them");
+                       "because the state of a wheel or cover extends over its whole "
+                       "circumference; use --formulation steady");
     if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
                   rb_rolling_has_elastic_core(body)))
         return rb_fail(why, RB_EINVAL,
-                       "relaxation: step by step the base or core of a body that relaxes "
-                       "is rigid, got an elastic one");
+                       "relaxation: in a computation with steps the base or core of a "
+                       "viscoelastic body must be rigid, got an elastic one");
     return RB_OK;
 }
 
@@ -280,8 +281,8 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     }
     if (terms > 0 && rc->formulation == RB_TRANSIENT && rc->steps > 0)
         return rb_fail(why, RB_EINVAL,
-                       "steps: bodies that relax roll by one element in each step, which "
-                       "--contact-elements says");
+                       "steps: viscoelastic bodies roll by one element in each step; "
+                       "choose --contact-elements instead");
     rb_status s = check_relaxing_body(rc, &rc->a, why);
     if (s == RB_OK && rc->elastic_b)
         s = check_relaxing_body(rc, &rc->b, why);
@@ -293,8 +294,8 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     if (rc->formulation != RB_STEADY &&
         (rc->gap == RB_GAP_TABLE || rc->irregularity.n > 0 || rc->worn.n > 0))
         return rb_fail(why, RB_EINVAL,
-                       "relaxation: step by step under a parabola or circle only, got a "
-                       "table of the gap");
+                       "relaxation: a computation with steps needs a parabola or circle "
+                       "as gap, got a table");
     if (!(isfinite(rc->time_step) && rc->time_step >= 0.0))
         return rb_fail(why, RB_EINVAL, "time step: expected > 0, got %g", rc->time_step);
     return RB_OK;
@@ -333,12 +334,13 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
             why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
             (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
              (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
-                ? "a layer or cover conducts otherwise than what it is on, which the "
-                  "flash temperature does not know"
-                : "a body that relaxes heats inside, not at its surface alone");
+                ? "the flash temperature is computed for homogeneous bodies only, and a "
+                  "layer or cover conducts differently"
+                : "a viscoelastic body is also heated inside, which is not computed");
     if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
         return rb_fail(why, RB_EINVAL,
-                       "temperature-b: step by step both bodies start equally warm");
+                       "temperature-b: in transient rolling both bodies must have the "
+                       "same temperature");
     const int unlike = b->conductivity > 0.0 && (a->conductivity != b->conductivity ||
                                                  a->heat_capacity != b->heat_capacity ||
                                                  a->temperature != b->temperature);
@@ -413,7 +415,7 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
-                       "free axle: friction alone turns it, expected mu > 0");
+                       "free axle: only friction turns it, expected mu > 0");
     /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
     if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
         return rb_fail(why, RB_EINVAL,
@@ -447,17 +449,18 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "hardening: expected a finite number, got %g",
                        rc->hardening);
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "hardening: of an interface that yields, add --yield-stress");
+        return rb_fail(
+            why, RB_EINVAL,
+            "hardening: only for an interface that yields, add --yield-stress");
     if (rc->yield_stress > 0.0 &&
         (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
         return rb_fail(why, RB_EINVAL,
                        "yield stress: with one coefficient of friction or a table over "
-                       "x, not with a law that follows slip or heat: where the interface "
-                       "yields, its surfaces do not slide, and no law says what it does");
+                       "x, not with a law that follows slip or heat: such a law does not "
+                       "apply where the interface yields instead of sliding");
     if (rc->yield_stress > 0.0 && rc->contact.solver == RB_SOLVER_CONE)
         return rb_fail(why, RB_EINVAL,
-                       "solver %s: knows Coulomb's law alone, expected lemke, newton or "
+                       "solver %s: solves Coulomb's law only, expected lemke, newton or "
                        "auto with --yield-stress",
                        rc->contact.cone_solver);
     return RB_OK;
@@ -469,15 +472,15 @@ static rb_status check_bore(const rb_rolling_case *rc, rb_message *why)
     if (!rc->elastic_b || rc->b.radius > 0.0 || rc->b.radius < -rc->a.radius)
         return RB_OK;
     return rb_fail(why, RB_EINVAL,
-                   "radius of body B: a bore takes in what is smaller than it; expected "
-                   "less than -%g mm, got %g mm",
+                   "radius of body B: a bore must be larger than body A; expected less "
+                   "than -%g mm, got %g mm",
                    rc->a.radius, rc->b.radius);
 }
 
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
     return rc->gap == RB_GAP_TABLE && !rc->profile
-               ? rb_fail(why, RB_EINVAL, "gap: a table is wanted, and none is given")
+               ? rb_fail(why, RB_EINVAL, "gap: expected a table, and none is given")
                : RB_OK;
 }
 
@@ -490,8 +493,8 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
         return RB_OK;
     if (rc->formulation == RB_STEADY)
         return rb_fail(why, RB_EINVAL,
-                       "irregularity: it rides through the contact, which is transient "
-                       "rolling");
+                       "irregularity: only for transient rolling, in which it moves "
+                       "through the contact");
     const rb_status s = rb_rolling_points_check("irregularity", n, rc->irregularity.x,
                                                 rc->irregularity.y, why);
     for (int i = 0; s == RB_OK && i < n; i += n - 1)
@@ -520,16 +523,16 @@ static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
     if (rc->increments > 1 && rc->formulation == RB_STEADY)
         return rb_fail(why, RB_EINVAL,
                        "increments: of static contact and of the start of a transient; "
-                       "steady rolling forgets how it began");
+                       "steady rolling does not depend on its beginning");
     return RB_OK;
 }
 
 static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
-        return rb_fail(why, RB_EINVAL, "slip operator second: of steady rolling only");
+        return rb_fail(why, RB_EINVAL, "slip operator second: only for steady rolling");
     if (rc->slip_operator == RB_SLIP_SECOND && rc->mesh == RB_MESH_FITTED)
-        return rb_fail(why, RB_EINVAL, "slip operator second: on equal elements only");
+        return rb_fail(why, RB_EINVAL, "slip operator second: only for equal elements");
     if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
         return rb_fail(why, RB_EINVAL,
                        "mesh aligned: expected 12 contact elements or more, got %d",

@@ -315,10 +315,11 @@ rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_wi
     track->heat = NULL;
     track->rows = track->newest = track->known = 0;
     if (peclet < LEAST_PECLET)
-        return rb_fail(why, RB_EINVAL,
-                       "temperature: step by step heat goes along the depth only, which "
-                       "wants V a/(2 diffusivity) >= %g, got %.3g",
-                       LEAST_PECLET, peclet);
+        return rb_fail(
+            why, RB_EINVAL,
+            "temperature: in transient rolling heat conduction is computed along the "
+            "depth only, which needs V a/(2 diffusivity) >= %g, got %.3g",
+            LEAST_PECLET, peclet);
     const double rows =
         track->step > 0.0 ? ceil(track->n * track->h / track->step) + 1.0 : 1.0;
     const rb_status s = rb_memory_check(sizeof(double) * rows * track->n,

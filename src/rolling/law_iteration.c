@@ -361,8 +361,7 @@ static rb_status find_force(search *s, double x[2], double f[2], double small)
         kept = 1 - end;
     }
     return rb_fail(s->why, RB_MAXITER,
-                   "friction law: at creepage %g the force jumps over the one that is "
-                   "wanted",
+                   "friction law: at creepage %g the force jumps past the given value",
                    s->side * x[1]);
 }
 

@@ -35,11 +35,11 @@ static rb_status check_lowest(int n, const double *gap, rb_message *why)
     for (int i = 1; i < n - 1; i++)
         if (gap[i] < gap[end])
             return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "gap: row %d: the smallest gap, %g mm, stands at an end of the table, "
-                   "which has to enclose the contact; gaps count positive where the "
-                   "bodies are apart",
-                   end + 1, gap[end]);
+    return rb_fail(
+        why, RB_EINVAL,
+        "gap: row %d: the smallest gap, %g mm, is at an end of the table, which must "
+        "enclose the contact; gaps are positive where the bodies are apart",
+        end + 1, gap[end]);
 }
 
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,

@@ -356,8 +356,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         interval wider;
         if (round == ROUNDS)
             return rb_fail(why, RB_ZONE,
-                           "no potential contact holds the contact and fits it: the last "
-                           "one tried reaches from %g to %g mm",
+                           "no potential contact was found that encloses the contact: "
+                           "the last one tried reaches from %g to %g mm",
                            zone.from, zone.to);
         s = equal_elements(model, zone, elements, &mesh, why);
         if (s == RB_OK)
@@ -393,9 +393,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         elements = coarse ? elements : elements_for(model, zone);
         if (are_too_many(model, elements))
             return rb_fail(why, RB_ZONE,
-                           "the contact has patches so far apart that equal elements "
-                           "would be %d; fit them to the patches (mesh fitted), or take "
-                           "fewer",
+                           "the patches of the contact are so far apart that %d equal "
+                           "elements would be needed; use mesh fitted, or fewer elements",
                            elements);
     }
     if (s == RB_OK && coarse) {

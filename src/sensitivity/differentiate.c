@@ -81,7 +81,8 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
         input->scale;
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
-        return rb_fail(why, RB_EINVAL, "derivatives: the input has no room to vary");
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: the input cannot vary within its range");
     v->at = *at;
     return RB_OK;
 }

@@ -254,7 +254,7 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
                                  ? tangent_at_border(s, rate, side, tangent, why)
                                  : rb_sensitivity_forward(s, s->factors, rate, tangent);
     return status == RB_SINGULAR
-               ? rb_fail(why, status, "derivatives: the Jacobian has no inverse here")
+               ? rb_fail(why, status, "derivatives: the Jacobian is singular here")
                : status;
 }
 
@@ -315,7 +315,7 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
                          s->degenerate, RB_ROLLING_LARGE);
     /* singular only between zones: then the tangent tries the others */
     if (status == RB_SINGULAR && !s->degenerate)
-        rb_fail(why, status, "derivatives: the Jacobian has no inverse here");
+        rb_fail(why, status, "derivatives: the Jacobian is singular here");
     return status == RB_SINGULAR && s->degenerate ? RB_OK : status;
 }
 
@@ -348,7 +348,7 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
 
     if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
         status = rb_fail(why, RB_EINVAL,
-                         "derivatives: of one step; this case is a sequence of steps");
+                         "derivatives: only for one step; this case has several");
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status == RB_OK && results) {

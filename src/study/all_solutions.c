@@ -81,8 +81,8 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     memset(all, 0, sizeof *all);
     if (rc->formulation != RB_STEADY || !rb_rolling_law_depends_on_state(rc))
         return rb_fail(why, RB_EINVAL,
-                       "all solutions: of steady rolling with friction that depends on "
-                       "the slip or the temperature");
+                       "all solutions: only for steady rolling with friction that "
+                       "depends on the slip or the temperature");
     if (model->problem.force_given)
         return rb_fail(why, RB_EINVAL,
                        "all solutions: at a given creepage, not under a given force");

@@ -239,10 +239,10 @@ static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *
                        "curve over speed: expected from and to > 0, got %g and %g",
                        r->from, r->to);
     if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc))
-        return rb_fail(
-            why, RB_EINVAL,
-            "curve over speed: no body relaxes, so that nothing depends on it; "
-            "add --relaxation-time and --relaxation-ratio, or --conductivity");
+        return rb_fail(why, RB_EINVAL,
+                       "curve over speed: no body is viscoelastic, so that nothing "
+                       "depends on the speed; "
+                       "add --relaxation-time and --relaxation-ratio, or --conductivity");
     return RB_OK;
 }
 
