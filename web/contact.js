@@ -276,9 +276,16 @@ function number_row(words, { numbers: n }, units, given) {
     return html(
         "dl",
         { class: "card numbers" },
-        ...["normal_load", "tangential_load", "force_ratio", "max_pressure", "half_width", "approach", "creepage"].map(
-            (name) => entry(name, show(tidy_number(name, n)), units[name] === "-" ? "" : (units[name] ?? "")),
-        ),
+        ...[
+            "normal_load",
+            "tangential_load",
+            "force_ratio",
+            "max_pressure",
+            "half_width",
+            "approach",
+            "creepage",
+            "strain_energy",
+        ].map((name) => entry(name, show(tidy_number(name, n)), units[name] === "-" ? "" : (units[name] ?? ""))),
         entry("stick", n.contact ? `${Math.round((100 * n.stick) / n.contact)} %` : "–", ""),
     );
 }

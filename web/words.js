@@ -179,6 +179,7 @@ export const words = {
         half_width: "a half-width",
         approach: "δ approach",
         creepage: "ξ creepage",
+        strain_energy: "U elastic energy",
         stick: "sticking",
     },
     stick_share: "{share} % of contact",

@@ -21,17 +21,6 @@ double *rb_large_alloc(size_t rows, size_t cols)
     return rb_alloc(rows, cols);
 }
 
-rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
-                                        const double *ends, rb_bem_flexibility *f,
-                                        rb_message *why)
-{
-    (void)wheel;
-    (void)normals;
-    (void)ends;
-    (void)f;
-    return rb_fail(why, RB_EINVAL, "a wheel that relaxes is %s", refusal);
-}
-
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                                       const rb_bem_surface *body, rb_bem_flexibility *f,
                                       rb_message *why)
@@ -220,7 +209,8 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
     return rb_fail(why, RB_EINVAL, "%s is %s", what, refusal);
 }
 
-/* Irregularities come from files too: the check above has refused them. */
+/* Irregularities come from files too: the check above has refused them.  A wheel that
+ * relaxes integrates splines; there is no memory for one. */
 const gsl_interp_type *gsl_interp_cspline = NULL;
 
 gsl_spline *gsl_spline_alloc(const gsl_interp_type *type, size_t n)
@@ -247,15 +237,40 @@ double gsl_spline_eval(const gsl_spline *spline, double x, gsl_interp_accel *acc
     return GSL_NAN;
 }
 
+double gsl_spline_eval_integ(const gsl_spline *spline, double a, double b,
+                             gsl_interp_accel *accel)
+{
+    (void)spline;
+    (void)a;
+    (void)b;
+    (void)accel;
+    return GSL_NAN;
+}
+
 void gsl_spline_free(gsl_spline *spline)
 {
     (void)spline;
+}
+
+gsl_interp_accel *gsl_interp_accel_alloc(void)
+{
+    return NULL;
+}
+
+void gsl_interp_accel_free(gsl_interp_accel *accel)
+{
+    (void)accel;
 }
 
 /* One thread. */
 int rb_blas_threads(int threads)
 {
     (void)threads;
+    return 1;
+}
+
+int rb_blas_loop_threads(void)
+{
     return 1;
 }
 
