@@ -1,6 +1,7 @@
 /* rollbem compare FILE...: performance profiles of friction solvers (Dolan and More). */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/rows.h"
 #include "cli/solvers.h"
 #include "cli/wait.h"
 
@@ -205,27 +206,34 @@ static const char *status_of(const comparison *c, const run_result *one)
                : rb_friction_status_text(one->status, c->o->tol, &one->info);
 }
 
-static rb_status print_runs(const comparison *c, FILE *out)
+/* A run as it is told. */
+typedef struct {
+    const char *file, *solver, *status;
+    rb_friction_info info;
+} told_run;
+
+#define ROW(name, column, kind, member)                                                  \
+    {                                                                                    \
+        name, column, CLI_ROW_##kind, offsetof(told_run, member)                         \
+    }
+
+static const cli_row rows[] = {ROW("file", "file", TEXT, file),
+                               ROW("solver", "solver", TEXT, solver),
+                               ROW("status", "status", WORDS, status),
+                               ROW("iterations", "iterations", WHOLE, info.iters),
+                               ROW("residual", "residual", NUMBER, info.residual),
+                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
+                               ROW("floor", "floor", NUMBER, info.floor),
+                               ROW("flops", "flops", NUMBER, info.flops),
+                               ROW("seconds", "seconds", NUMBER, info.seconds)};
+
+enum { ROWS = sizeof rows / sizeof *rows };
+
+static told_run told(const comparison *c, int k)
 {
-    rb_report_cells cells = rb_report_cells_begin(
-        out, &c->o->style,
-        "file solver status iterations residual floor flops seconds scaled");
-    rb_report_comment_origin(&cells, cli_command_line());
-    for (int p = 0; p < c->problems; p++)
-        for (int s = 0; s < c->solvers; s++) {
-            const run_result *one = &c->result[p * c->solvers + s];
-            rb_report_cell_text(&cells, c->file[p]);
-            rb_report_cell_text(&cells, c->solver[s]);
-            rb_report_cell_words(&cells, status_of(c, one));
-            rb_report_cell_whole(&cells, one->info.iters);
-            rb_report_cell_number(&cells, one->info.residual);
-            rb_report_cell_number(&cells, one->info.floor);
-            rb_report_cell_number(&cells, one->info.flops);
-            rb_report_cell_number(&cells, one->info.seconds);
-            rb_report_cell_number(&cells, one->info.scaled);
-            rb_report_cells_end_row(&cells);
-        }
-    return rb_report_flush(out);
+    const run_result *one = &c->result[k];
+    return (told_run){c->file[k / c->solvers], c->solver[k % c->solvers],
+                      status_of(c, one), one->info};
 }
 
 static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
@@ -249,41 +257,32 @@ static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
     return rb_report_flush(out);
 }
 
-static json_t *json_runs(const comparison *c)
-{
-    json_t *runs = json_array();
-    for (int p = 0; p < c->problems; p++)
-        for (int s = 0; s < c->solvers; s++) {
-            const run_result *one = &c->result[p * c->solvers + s];
-            json_t *run = json_object();
-            rb_report_json_set(&run, "file", rb_report_json_text(c->file[p]));
-            rb_report_json_set(&run, "solver", json_string(c->solver[s]));
-            rb_report_json_set(&run, "status", json_string(status_of(c, one)));
-            rb_report_json_set(&run, "iterations", json_integer(one->info.iters));
-            rb_report_json_set(&run, "residual",
-                               rb_report_json_number(one->info.residual));
-            rb_report_json_set(&run, "scaled_residual",
-                               rb_report_json_number(one->info.scaled));
-            rb_report_json_set(&run, "floor", rb_report_json_number(one->info.floor));
-            rb_report_json_set(&run, "flops", rb_report_json_number(one->info.flops));
-            rb_report_json_set(&run, "seconds", rb_report_json_number(one->info.seconds));
-            rb_report_json_append(&runs, run);
-        }
-    return runs;
-}
-
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
     const comparison *c = context;
     (void)why;
-    if (c->o->style.format != RB_REPORT_JSON)
-        return print_runs(c, out);
+    if (c->o->style.format != RB_REPORT_JSON) {
+        const char *columns =
+            "file solver status iterations residual floor flops seconds scaled";
+        rb_report_cells cells = rb_report_cells_begin(out, &c->o->style, columns);
+        rb_report_comment_origin(&cells, cli_command_line());
+        for (int k = 0; k < c->problems * c->solvers; k++) {
+            const told_run run = told(c, k);
+            cli_rows_cells(&cells, columns, ROWS, rows, &run);
+        }
+        return rb_report_flush(out);
+    }
     json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
+    json_t *runs = json_array();
+    for (int k = 0; k < c->problems * c->solvers; k++) {
+        const told_run run = told(c, k);
+        rb_report_json_append(&runs, cli_rows_json(ROWS, rows, &run, 1));
+    }
     rb_report_json_set(&root, "cost", json_string(costs[c->o->cost].name));
     rb_report_json_set(&root, "measure",
                        json_string(cli_friction_measures[c->o->measure].name));
     rb_report_json_set(&root, "tol", rb_report_json_number(c->o->tol));
-    rb_report_json_set(&root, "runs", json_runs(c));
+    rb_report_json_set(&root, "runs", runs);
     rb_report_json_set(&root, "tau", rb_report_json_numbers(TAUS, c->tau));
     for (int s = 0; s < c->solvers; s++)
         rb_report_json_set(&profiles, c->solver[s],

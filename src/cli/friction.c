@@ -2,6 +2,7 @@
  * cones, from files. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/rows.h"
 #include "cli/solvers.h"
 #include "cli/wait.h"
 
@@ -115,7 +116,7 @@ typedef struct {
 } friction_run;
 
 typedef struct {
-    const char *file, *status;
+    const char *file, *status, *measure;
     int contacts, dimension, m; /* m: 0 when not read */
     rb_friction_info info;
     rb_friction_facts facts;
@@ -130,37 +131,36 @@ static int is_json(const friction_options *o)
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-static json_t *count(int known, int n)
-{
-    return known ? json_integer(n) : json_null();
-}
+#define ROW(name, column, kind, member)                                                  \
+    {                                                                                    \
+        name, column, CLI_ROW_##kind, offsetof(friction_result, member)                  \
+    }
+
+static const cli_row rows[] = {
+    ROW("file", "file", TEXT, file),
+    ROW("solver", "solver", TEXT, info.solver),
+    ROW("status", "status", WORDS, status),
+    ROW("contacts", "contacts", WHOLE, contacts),
+    ROW("dimension", "dimension", SIZE, dimension),
+    ROW("iterations", "iterations", WHOLE, info.iters),
+    ROW("residual", "residual", NUMBER, info.residual),
+    ROW("scaled_residual", "scaled", NUMBER, info.scaled),
+    ROW("measure", NULL, TEXT, measure),
+    ROW("note", NULL, MESSAGE, note),
+    ROW("floor", "floor", NUMBER, info.floor),
+    ROW("flops", NULL, NUMBER, info.flops),
+    ROW("seconds", "seconds", NUMBER, info.seconds),
+    ROW("rank", "rank", WHOLE, facts.rank),
+    ROW("hyperstaticity", "hyperstaticity", WHOLE, facts.hyperstaticity),
+    ROW("nullity", "nullity", WHOLE, facts.nullity),
+    ROW("asymmetry", "asymmetry", NUMBER, facts.asymmetry),
+    ROW("indefinite", "indefinite", WHOLE, facts.indefinite)};
+
+enum { ROWS = sizeof rows / sizeof *rows, FACTS = 5 };
 
 static void add_problem(friction_run *run, const friction_result *r)
 {
-    json_t *p = json_object();
-    rb_report_json_set(&p, "file", rb_report_json_text(r->file));
-    rb_report_json_set(&p, "solver", json_string(r->info.solver));
-    rb_report_json_set(&p, "status", json_string(r->status));
-    rb_report_json_set(&p, "contacts", count(r->m > 0, r->contacts));
-    rb_report_json_set(&p, "dimension", count(r->dimension > 0, r->dimension));
-    rb_report_json_set(&p, "iterations", count(r->m > 0, r->info.iters));
-    rb_report_json_set(&p, "residual", rb_report_json_number(r->info.residual));
-    rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
-    rb_report_json_set(&p, "measure",
-                       json_string(cli_friction_measures[run->o->measure].name));
-    rb_report_json_set(&p, "note",
-                       r->note.text[0] ? json_string(r->note.text) : json_null());
-    rb_report_json_set(&p, "floor", rb_report_json_number(r->info.floor));
-    rb_report_json_set(&p, "flops", rb_report_json_number(r->info.flops));
-    rb_report_json_set(&p, "seconds", rb_report_json_number(r->info.seconds));
-    if (run->o->facts) {
-        rb_report_json_set(&p, "rank", count(r->m > 0, r->facts.rank));
-        rb_report_json_set(&p, "hyperstaticity",
-                           count(r->m > 0, r->facts.hyperstaticity));
-        rb_report_json_set(&p, "nullity", count(r->m > 0, r->facts.nullity));
-        rb_report_json_set(&p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
-        rb_report_json_set(&p, "indefinite", count(r->m > 0, r->facts.indefinite));
-    }
+    json_t *p = cli_rows_json(run->o->facts ? ROWS : ROWS - FACTS, rows, r, r->m > 0);
     if (run->o->solution) {
         rb_report_json_set(&p, "r",
                            r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
@@ -358,6 +358,7 @@ static cli_exit solve_file(void *context, const char *path)
     friction_run *run = context;
     friction_result r = {
         .file = path,
+        .measure = cli_friction_measures[run->o->measure].name,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
     rb_friction_file kind = (rb_friction_file)run->o->kind;
     rb_message why = {""};
@@ -396,26 +397,8 @@ static cli_exit solve_file(void *context, const char *path)
                 rb_report_cell_number(&run->files.cells, r.u[i]);
                 rb_report_cells_end_row(&run->files.cells);
             }
-        } else if (r.m) {
-            rb_report_cell_text(&run->files.cells, r.file);
-            rb_report_cell_text(&run->files.cells, r.info.solver);
-            rb_report_cell_words(&run->files.cells, r.status);
-            rb_report_cell_whole(&run->files.cells, r.contacts);
-            rb_report_cell_whole(&run->files.cells, r.dimension);
-            rb_report_cell_whole(&run->files.cells, r.info.iters);
-            rb_report_cell_number(&run->files.cells, r.info.residual);
-            rb_report_cell_number(&run->files.cells, r.info.floor);
-            rb_report_cell_number(&run->files.cells, r.info.seconds);
-            rb_report_cell_number(&run->files.cells, r.info.scaled);
-            if (run->o->facts) {
-                rb_report_cell_whole(&run->files.cells, r.facts.rank);
-                rb_report_cell_whole(&run->files.cells, r.facts.hyperstaticity);
-                rb_report_cell_whole(&run->files.cells, r.facts.nullity);
-                rb_report_cell_number(&run->files.cells, r.facts.asymmetry);
-                rb_report_cell_whole(&run->files.cells, r.facts.indefinite);
-            }
-            rb_report_cells_end_row(&run->files.cells);
-        }
+        } else if (r.m)
+            cli_rows_cells(&run->files.cells, run->files.columns, ROWS, rows, &r);
     }
     json_decref(run->steps);
     free(r.r);

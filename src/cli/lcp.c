@@ -1,6 +1,7 @@
 /* rollbem lcp FILE...: complementarity problems and bimatrix games from files. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/rows.h"
 #include "cli/wait.h"
 
 #include "rollbem/io.h"
@@ -181,21 +182,28 @@ static json_t *vector(int n, const double *x)
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
 
+#define ROW(name, column, kind, member)                                                  \
+    {                                                                                    \
+        name, column, CLI_ROW_##kind, offsetof(lcp_result, member)                       \
+    }
+
+static const cli_row rows[] = {ROW("file", "file", TEXT, file),
+                               ROW("solver", "solver", TEXT, solver),
+                               ROW("status", "status", WORDS, status),
+                               ROW("contacts", NULL, NULL, n),
+                               ROW("dimension", "n", SIZE, n),
+                               ROW("iterations", "pivots", WHOLE, info.iters),
+                               ROW("residual", "residual", NUMBER, info.res),
+                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
+                               ROW("floor", NULL, NUMBER, floor),
+                               ROW("seconds", "seconds", NUMBER, seconds)};
+
+enum { ROWS = sizeof rows / sizeof *rows };
+
 static void add_problem(lcp_run *run, const lcp_result *r)
 {
     const int known = r->n > 0;
-    json_t *p = json_object();
-    rb_report_json_set(&p, "file", rb_report_json_text(r->file));
-    rb_report_json_set(&p, "solver", json_string(r->solver));
-    rb_report_json_set(&p, "status", json_string(r->status));
-    rb_report_json_set(&p, "contacts", json_null());
-    rb_report_json_set(&p, "dimension", known ? json_integer(r->n) : json_null());
-    rb_report_json_set(&p, "iterations",
-                       known ? json_integer(r->info.iters) : json_null());
-    rb_report_json_set(&p, "residual", rb_report_json_number(r->info.res));
-    rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
-    rb_report_json_set(&p, "floor", rb_report_json_number(r->floor));
-    rb_report_json_set(&p, "seconds", rb_report_json_number(r->seconds));
+    json_t *p = cli_rows_json(ROWS, rows, r, known);
     if (run->o->game)
         rb_report_json_set(&p, "payoffs",
                            known ? rb_report_json_numbers(2, r->payoff) : json_null());
@@ -249,17 +257,8 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r->file, r->status,
                           r->solver, r->n, r->info.iters,
                           run->o->all ? "bases" : "pivots", residual, r->seconds);
-    } else {
-        rb_report_cell_text(c, r->file);
-        rb_report_cell_words(c, r->status);
-        rb_report_cell_whole(c, r->n);
-        rb_report_cell_whole(c, r->info.iters);
-        rb_report_cell_number(c, r->info.res);
-        rb_report_cell_number(c, r->seconds);
-        rb_report_cell_number(c, r->info.scaled);
-        rb_report_cell_text(c, r->solver);
-        rb_report_cells_end_row(c);
-    }
+    } else
+        cli_rows_cells(c, run->files.columns, ROWS, rows, r);
     if ((run->o->solution || run->o->all) && r->z)
         print_solutions(run, r);
 }
