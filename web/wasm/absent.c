@@ -1,5 +1,5 @@
-/* What the page does not hold: transforms for long lines, hierarchical matrices, wheels
- * with memory, cone solvers. The page's ranges stay below the sizes that would need
+/* What the page does not hold: transforms for long lines, hierarchical matrices, cone
+ * solvers. The page's ranges stay below the sizes that would need
  * them; asked for all the same, they refuse. */
 #include "api/internal.h"
 #include "bem/given.h"
@@ -11,7 +11,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_spline.h>
 #include <stdlib.h>
 
 static const char refusal[] = "not in the page: use the program";
@@ -207,59 +206,6 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
     (void)x;
     (void)gap;
     return rb_fail(why, RB_EINVAL, "%s is %s", what, refusal);
-}
-
-/* Irregularities come from files too: the check above has refused them.  A wheel that
- * relaxes integrates splines; there is no memory for one. */
-const gsl_interp_type *gsl_interp_cspline = NULL;
-
-gsl_spline *gsl_spline_alloc(const gsl_interp_type *type, size_t n)
-{
-    (void)type;
-    (void)n;
-    return NULL;
-}
-
-int gsl_spline_init(gsl_spline *spline, const double x[], const double y[], size_t n)
-{
-    (void)spline;
-    (void)x;
-    (void)y;
-    (void)n;
-    return GSL_EINVAL;
-}
-
-double gsl_spline_eval(const gsl_spline *spline, double x, gsl_interp_accel *accel)
-{
-    (void)spline;
-    (void)x;
-    (void)accel;
-    return GSL_NAN;
-}
-
-double gsl_spline_eval_integ(const gsl_spline *spline, double a, double b,
-                             gsl_interp_accel *accel)
-{
-    (void)spline;
-    (void)a;
-    (void)b;
-    (void)accel;
-    return GSL_NAN;
-}
-
-void gsl_spline_free(gsl_spline *spline)
-{
-    (void)spline;
-}
-
-gsl_interp_accel *gsl_interp_accel_alloc(void)
-{
-    return NULL;
-}
-
-void gsl_interp_accel_free(gsl_interp_accel *accel)
-{
-    (void)accel;
 }
 
 /* One thread. */

@@ -3,6 +3,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_interp.h>
+#include <gsl/gsl_spline.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_sf_bessel.h>
@@ -371,4 +372,98 @@ size_t gsl_interp_bsearch(const double x_array[], double x, size_t index_lo,
             index_lo = middle;
     }
     return index_lo;
+}
+
+/* ---- Natural cubic splines ----------------------------------------------------------
+ * The second derivatives m stand behind the n values: y has 2n numbers. */
+
+static const gsl_interp_type natural = {.name = "cspline"};
+const gsl_interp_type *gsl_interp_cspline = &natural;
+
+gsl_spline *gsl_spline_alloc(const gsl_interp_type *type, size_t n)
+{
+    gsl_spline *s = malloc(sizeof *s);
+    double *room = malloc(3 * n * sizeof *room);
+    (void)type;
+    if (!s || !room || n < 2) {
+        free(room);
+        free(s);
+        return NULL;
+    }
+    *s = (gsl_spline){.x = room, .y = room + n, .size = n};
+    return s;
+}
+
+/* Elimination of the tridiagonal system of m; what is left of its diagonal needs no room,
+ * since it is 2 (h_before + h) less the square of h_before over the one before. */
+int gsl_spline_init(gsl_spline *s, const double x[], const double y[], size_t n)
+{
+    double *m = s->y + n, diagonal = 0.0;
+    double *factor = malloc(n * sizeof *factor);
+    if (!factor)
+        return GSL_ENOMEM;
+    memcpy(s->x, x, n * sizeof *x);
+    memcpy(s->y, y, n * sizeof *y);
+    m[0] = m[n - 1] = factor[0] = 0.0;
+    for (size_t i = 1; i + 1 < n; i++) {
+        const double before = x[i] - x[i - 1], h = x[i + 1] - x[i];
+        const double right = 6.0 * ((y[i + 1] - y[i]) / h - (y[i] - y[i - 1]) / before);
+        diagonal = 2.0 * (before + h) - before * factor[i - 1];
+        factor[i] = h / diagonal;
+        m[i] = (right - before * m[i - 1]) / diagonal;
+    }
+    for (size_t i = n - 1; i-- > 1;)
+        m[i] -= factor[i] * m[i + 1];
+    free(factor);
+    return GSL_SUCCESS;
+}
+
+double gsl_spline_eval(const gsl_spline *s, double x, gsl_interp_accel *accel)
+{
+    const size_t i = gsl_interp_bsearch(s->x, x, 0, s->size - 1);
+    const double h = s->x[i + 1] - s->x[i], *m = s->y + s->size;
+    const double b = (x - s->x[i]) / h, a = 1.0 - b;
+    (void)accel;
+    return a * s->y[i] + b * s->y[i + 1] +
+           h * h / 6.0 * ((a * a * a - a) * m[i] + (b * b * b - b) * m[i + 1]);
+}
+
+/* From the left end of interval i to x in it. */
+static double spline_area(const gsl_spline *s, size_t i, double x)
+{
+    const double h = s->x[i + 1] - s->x[i], *m = s->y + s->size;
+    const double b = (x - s->x[i]) / h, a = 1.0 - b, bb = b * b, aa = a * a;
+    return 0.5 * h * ((1.0 - aa) * s->y[i] + bb * s->y[i + 1]) -
+           h * h * h / 24.0 *
+               ((1.0 - 2.0 * aa + aa * aa) * m[i] + (2.0 * bb - bb * bb) * m[i + 1]);
+}
+
+double gsl_spline_eval_integ(const gsl_spline *s, double a, double b,
+                             gsl_interp_accel *accel)
+{
+    const size_t first = gsl_interp_bsearch(s->x, a, 0, s->size - 1),
+                 last = gsl_interp_bsearch(s->x, b, 0, s->size - 1);
+    double sum = spline_area(s, last, b) - spline_area(s, first, a);
+    (void)accel;
+    for (size_t i = first; i < last; i++)
+        sum += spline_area(s, i, s->x[i + 1]);
+    return sum;
+}
+
+void gsl_spline_free(gsl_spline *s)
+{
+    if (s)
+        free(s->x);
+    free(s);
+}
+
+/* The searches above need none; NULL would mean no memory. */
+gsl_interp_accel *gsl_interp_accel_alloc(void)
+{
+    return malloc(sizeof(gsl_interp_accel));
+}
+
+void gsl_interp_accel_free(gsl_interp_accel *accel)
+{
+    free(accel);
 }
