@@ -376,7 +376,7 @@ static void studies(void **state)
     check_refused(STUDY "--vary-1 'crack-elements 3 30'", 64, "case 1: crack-elements");
     check_refused(STUDY "--vary-1 'crack-angle 30' --derivatives half_width", 64,
                   "have none");
-    check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "takes a number");
+    check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "with a number as value");
     check_refused(STUDY "--vary-1 'crack-angle 30' --paris 1e-12,3", 64, "--paris");
     check_refused(STUDY "--vary-1 'crack-angle 30' --results max_shear", 64,
                   "no result 'max_shear'");

@@ -27,7 +27,7 @@ static const struct {
     {"curve --support halfplane --load 9 --points 2 --mu 0.3,0 --quiet", 64,
      "mu = 0: curve: xi R/(mu a) has no meaning"},
     {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
-    {"curve --accuracy 1e-3", 64, "--accuracy: of single cases"},
+    {"curve --accuracy 1e-3", 64, "--accuracy: only for single cases"},
     {"curve --mu 0 --over creep --to 1e-3 --plot c.png", 64,
      "--plot: no curve to draw at mu = 0"},
     {"curve --mu 0.3,0 --over creep --to 1e-3 --plot c.png", 64,

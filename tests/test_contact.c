@@ -364,7 +364,7 @@ static void steps_elsewhere_are_refused(void **state)
              " 3 MODULE\n 002100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n"
              " 1\n 50 1 -1.5 -50. .06 100.\n");
     assert_int_equal(rollbem("contact steps.inp"), 65);
-    assert_non_null(strstr(err, "case 2: a step: the state before it stands on other"));
+    assert_non_null(strstr(err, "case 2: a step: the state before has other elements"));
 }
 
 /* Each reason once; one line in the end; most cases skipped is not success. */
