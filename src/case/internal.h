@@ -1,4 +1,4 @@
-/* What the files of src/case share. */
+/* Declarations shared by the files of src/case. */
 #ifndef ROLLBEM_CASE_INTERNAL_H
 #define ROLLBEM_CASE_INTERNAL_H
 
@@ -10,12 +10,12 @@ enum { RB_CASE_OPTIONS_MAX = 128 };
 /* A table read from a file that an option names. */
 typedef struct {
     rb_io_table table;
-    const char *path; /* that it was read from; NULL: not yet */
-    rb_units units;   /* that it was read in */
-    int borrowed;     /* 1: it belongs to the case that this one is a copy of */
+    const char *path; /* file from which it was read; NULL: not read yet */
+    rb_units units;   /* units in which it was read */
+    int borrowed;     /* 1: owned by the case of which this one is a copy */
 } case_table;
 
-/* The gap made of a table, kept while table and noise stay the same. */
+/* The gap computed from a table; kept as long as table and noise are the same. */
 typedef struct {
     rb_rolling_profile *curve;
     double noise;
@@ -27,9 +27,10 @@ enum { CASE_HISTORY, CASE_GAP, CASE_IRREGULARITY, CASE_WORN, CASE_FRICTION, CASE
 
 struct rb_case {
     rb_case_purpose purpose;
-    rb_resolved_case defaults, words, resolved; /* of the purpose; as given; as used */
-    char path[320];                             /* case file, "" without */
-    rb_units file_units;                        /* of the plain numbers in that file */
+    rb_resolved_case defaults, words,
+        resolved;        /* defaults of the purpose; values as given; values as used */
+    char path[320];      /* case file, "" without */
+    rb_units file_units; /* of numbers without a unit in that file */
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table table[CASE_TABLES];
     case_profile profile;
@@ -43,37 +44,40 @@ struct rb_case {
 extern const rb_option rb_case_table[];
 extern const int rb_case_table_n;
 
-/* Bits of `excludes` that count as one in that formulation. */
+/* Bits of `excludes` that exclude each other in this formulation. */
 unsigned rb_case_alike(rb_rolling_formulation formulation);
 
-/* Gives a number of the case, in mm, N, MPa; resolve afterwards. */
+/* Sets a number of the case in mm, N, MPa; call rb_case_resolve afterwards. */
 void rb_case_assign(rb_case *c, const rb_option *o, double value);
 
-/* A copy that lives as long as c; NULL: no memory. */
+/* Copies a text; the copy is freed with c.  NULL: no memory. */
 const char *rb_case_keep(rb_case *c, const char *text);
 
-/* Refuses an option that was given: RB_EFORMAT where the case file gave it, else
- * RB_EINVAL.  RB_OK where nobody did. */
+/* Refuses an option if it was given: RB_EFORMAT if it is from the case file, otherwise
+ * RB_EINVAL.  RB_OK: it was not given. */
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
                                rb_message *why);
 
-/* A failure of what was read from that file, without its content where c is confined. */
+/* Reports an error in a file; if c is confined, the message does not contain the content
+ * of the file. */
 rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s,
                                   rb_message *why);
 
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 
 void rb_case_free_files(rb_case *c);
-/* Before the words are used: the columns of a history may replace some of them. */
+/* Call it before the given values are used, because the columns of a history may replace
+ * some of them. */
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
-/* Gap, irregularity, wear and friction of the resolved case. */
+/* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
 /* ---- growth.c ---------------------------------------------------------------------- */
 
-/* What is wrong with the growth that is asked for. */
+/* Checks the options of crack growth. */
 rb_status rb_case_check_growth(const rb_case_crack *crack, rb_message *why);
-/* From the first length, whose summary r has, on under the same load: r->growth. */
+/* Computes r->growth under the same load, starting from the first length, whose summary
+ * is in r. */
 rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *crack,
                              const rb_crack_passage *passage, rb_case_crack_result *r,
                              rb_message *why);
@@ -83,8 +87,9 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *cra
 
 /* How options that exclude each other are resolved. */
 typedef struct {
-    const void *defaults; /* a struct like the set's target: what is taken back becomes */
-    unsigned alike;       /* bits of `excludes` that count as one */
+    const void *defaults; /* a struct like the set's target with the values for options
+                             that are reset */
+    unsigned alike;       /* bits of `excludes` that are treated as one bit */
     const char *path;     /* of the case file, for messages */
 } rb_option_precedence;
 
@@ -95,8 +100,8 @@ rb_option_precedence rb_case_precedence(const rb_case *c);
  * returns to its default. */
 rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence *how,
                             rb_message *why);
-/* The options that exclude `option` give way to its value from elsewhere, which somebody
- * gave (by, as in `given`); refused with the reason where settling would refuse both. */
+/* Resets the options that exclude `option`, whose value comes from another place (by, as
+ * in `given`); refused with the reason if rb_option_resolve would refuse both. */
 rb_status rb_option_resolve_against(const rb_option_set *set,
                                     const rb_option_precedence *how,
                                     const rb_option *option, int by, const char *reason,

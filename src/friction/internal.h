@@ -1,5 +1,6 @@
-/* What the files of src/friction share: one solve in progress, the measure, W in blocks,
- * the functions whose roots are solutions, and the linear systems of Newton's steps. */
+/* Declarations shared by the files of src/friction: the state of one solve, the measure,
+ * W in blocks, the functions whose roots are solutions, and the linear systems of
+ * Newton's steps. */
 #ifndef ROLLBEM_FRICTION_INTERNAL_H
 #define ROLLBEM_FRICTION_INTERNAL_H
 
@@ -7,7 +8,7 @@
 
 /* ---- Problems (problem.c) ---------------------------------------------------------- */
 
-/* RB_EINVAL, with the place in why: missing, other sizes, NaN or infinity. */
+/* RB_EINVAL: missing, wrong size, NaN or infinity; why names the place. */
 rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
                                    rb_message *why);
 rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows,
@@ -19,7 +20,7 @@ rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int row
 void rb_friction_project(int d, double mu, const double *z, double *p);
 /* Derivative of P_K at z (one element of the generalised one): d x d column-major. */
 void rb_friction_project_derivative(int d, double mu, const double *z, double *D);
-/* ||x_T|| of a contact's d entries */
+/* ||x_T|| of the d entries of one contact */
 double rb_friction_tangential(int d, const double *x);
 /* F = (r - P_K(r - rho (u + mu ||u_T|| e_N))) / rho over all contacts; its 2-norm.  rho:
  * every second entry, as rb_friction_rho writes it.  with_rho_1: the norm of F with
@@ -37,33 +38,36 @@ double rb_friction_distance(size_t n, const double *x, const double *y);
 
 /* ---- Units (rho.c) ----------------------------------------------------------------- */
 
-/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of its own block;
- * of the mean of all where that vanishes.  Global form: estimated from diag(K). */
+/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of the block of
+ * the contact; if the block is zero, of the mean of all.  Global form: estimated from
+ * diag(K). */
 rb_status rb_friction_rho(const rb_friction_problem *problem, double *rho);
 
 /* ---- Measure (measure.c) ----------------------------------------------------------- */
 
 typedef struct {
     const rb_friction_problem *problem;
-    double scale;               /* ||q||, or 1 where q = 0 */
-    rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
-    double spring;              /* k; 0 where K is regular */
-    double *y;                  /* m, workspace; owns e, dv, rho and ones too */
-    double *e, *dv;             /* n each, workspace */
-    double *rho, *ones;         /* 2 per contact; ones: (13) */
-    const double *deciding;     /* one of them */
+    double scale; /* ||q||, or 1 if q = 0 */
+    rb_sparse_cholesky
+        *factor;    /* GLOBAL: factorisation of K, or of K + k H H' if K is singular */
+    double spring;  /* k; 0 if K is regular */
+    double *y;      /* m, workspace; its memory also contains e, dv, rho and ones */
+    double *e, *dv; /* n each, workspace */
+    double *rho, *ones;     /* 2 per contact; ones: (13) */
+    const double *deciding; /* one of them */
 } rb_friction_measure;
 
 rb_status rb_friction_measure_init(const rb_friction_problem *problem,
                                    rb_friction_measure *measure);
-/* After q, or f and w, have changed. */
+/* Call it after q, or f and w, have changed. */
 rb_status rb_friction_measure_reload(rb_friction_measure *measure);
-/* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written.
- * paper NULL: scaled is the measure that decides; else scaled and (13). */
+/* v: n, in the global form corrected to equilibrium with r, otherwise unused.  u: m,
+ * written. paper NULL: scaled is the chosen measure; otherwise scaled and *paper are both
+ * measures, the second being (13). */
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
                                     double *v, double *u, double *scaled, double *paper);
-/* What of the measure numbers of the size of r can resolve: below this it says nothing,
- * and is exactly 0 for any r that is large enough. */
+/* The resolution of the measure for forces of the size of r: smaller values are
+ * meaningless (for very large r the measure is exactly 0). */
 double rb_friction_measure_resolution(const rb_friction_measure *measure,
                                       const double *r);
 double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
@@ -89,7 +93,7 @@ typedef struct {
 rb_status rb_friction_blocks_init(const rb_friction_problem *local,
                                   rb_friction_blocks *blocks);
 void rb_friction_blocks_free(rb_friction_blocks *blocks);
-/* y += what the force x (d entries) of one contact adds to all velocities */
+/* y += the velocities that the force x (d entries) of one contact causes */
 void rb_friction_blocks_add(const rb_friction_blocks *blocks, int contact,
                             const double *x, double *y);
 /* y += W x, y = W x; add_all returns how many blocks that took. */
@@ -98,23 +102,25 @@ int rb_friction_blocks_add_all(const rb_friction_blocks *blocks, const double *x
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
-/* ---- One contact alone (local_contact.c) ------------------------------------------- */
+/* ---- The problem of one contact (local_contact.c)
+ * ------------------------------------------- */
 
 typedef struct {
     int d;
     double mu;
     const double *W; /* d x d column-major; borrowed */
-    int regular;     /* the normal can be eliminated, what is left is positive definite */
+    int regular; /* 1: the normal direction can be eliminated, and the rest is positive
+                    definite */
     double normal, row[2], column[2]; /* 1/W_NN; W_NT and W_TN over W_NN */
     double S[4];                      /* W_TT - W_TN W_NT / W_NN */
 } rb_friction_contact;
 
 void rb_friction_contact_init(int d, double mu, const double *W,
                               rb_friction_contact *contact);
-/* All return the steps taken.  q: velocity without the contact's own force; rho: two, of
- * the functions below.  exact: 0, and r as it was, where the contact is closed and not
- * regular; lambda: -u_T / r_T when it slid last, or 0. newton and fixed_point start at r;
- * rho of the fixed point adapts. */
+/* All return the number of steps.  q: velocity without the force of this contact; rho:
+ * two values for the functions below.  exact: returns 0 and leaves r unchanged if the
+ * contact is closed and not regular; lambda: -u_T / r_T of the last time it slid, or 0.
+ * newton and fixed_point start at r; fixed_point adapts rho. */
 int rb_friction_contact_exact(const rb_friction_contact *contact, double *lambda,
                               const double *q, double *r);
 int rb_friction_contact_newton(const rb_friction_contact *contact, const double *rho,
@@ -128,19 +134,20 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
 
-/* ---- One solve in progress (task.c) ------------------------------------------------ */
+/* ---- The state of one solve (task.c) ------------------------------------------------
+ */
 
-/* What all methods that work on one problem share. */
+/* Data shared by all methods that solve one problem. */
 typedef struct {
     const rb_friction_problem *problem; /* as given; borrowed */
     const rb_friction_problem *local;   /* its local form; NULL: not condensed */
-    rb_friction_problem condensed;      /* local points here if W was not given */
-    rb_friction_blocks blocks;          /* of local, made when first wanted */
-    rb_friction_contact *contact;       /* likewise; W NULL: that one is not made yet */
-    rb_friction_measure measure;        /* of problem */
-    double
-        *memory; /* m + 2 n: of the record of a solve, and its v where no one wants it */
-    int stop;    /* the caller has asked for it */
+    rb_friction_problem condensed;      /* `local` points to it if W was not given */
+    rb_friction_blocks blocks;          /* of local, computed at first use */
+    rb_friction_contact *contact; /* likewise; W NULL: this contact is not prepared yet */
+    rb_friction_measure measure;  /* of problem */
+    double *memory; /* m + 2 n: workspace for the record of a solve, and for v if the
+                       caller passes NULL */
+    int stop;       /* 1: the caller wants to stop */
 } rb_friction_shared;
 
 rb_status rb_friction_shared_init(const rb_friction_problem *problem,
@@ -149,7 +156,7 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem,
 rb_status rb_friction_shared_reload(rb_friction_shared *shared);
 void rb_friction_shared_free(rb_friction_shared *shared);
 
-/* The best iterate that any method has measured. */
+/* The best iterate of all methods so far. */
 typedef struct {
     double *r; /* m + n: r and v */
     double error;
@@ -158,61 +165,63 @@ typedef struct {
 
 typedef struct {
     rb_friction_shared *shared;
-    const rb_friction_problem *problem; /* of shared, as the next one */
+    const rb_friction_problem *problem; /* of shared, like the next one */
     rb_friction_measure *measure;
     rb_friction_record *best;
     rb_friction_options opt; /* r0 NULL: zero */
     rb_friction_info *info;
     int d, contacts, m, n; /* n: 0 for the local form */
     double deadline;       /* on rb_seconds(); 0: none */
-    double budget;         /* of info->flops, where a method pauses; INFINITY: never */
-    int proved;            /* rb_friction_prove has accepted r */
-    rb_status measured;    /* of the last error: there may be no memory for it */
-    double *r, *u;         /* m: the iterate; start on entry */
-    double *v;             /* n */
+    double budget; /* value of info->flops at which a method pauses; INFINITY: never */
+    int proved;    /* 1: rb_friction_prove has accepted r */
+    rb_status measured; /* status of the last computation of the error (RB_ENOMEM) */
+    double *r, *u;      /* m: the iterate; start on entry */
+    double *v;          /* n */
 } rb_friction_task;
 
-/* As rb_friction_condense; flops grows by the operations. */
+/* As rb_friction_condense; adds the operations to *flops. */
 rb_status rb_friction_condense_counted(const rb_friction_problem *global,
                                        rb_friction_problem *local, double *flops,
                                        rb_message *why);
-/* Operations of condensing a global problem whose K has this factor, about. */
+/* Approximate number of operations for condensing a global problem whose K has this
+ * factorisation. */
 rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
                                         const rb_sparse_cholesky *factor, double *flops);
-/* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
+/* Condenses the task's problem at first use.  RB_SINGULAR: W does not exist. */
 rb_status rb_friction_task_condense(rb_friction_task *task);
-/* The blocks of the task's W; borrowed by all who work with them. */
+/* The blocks of the task's W; borrowed. */
 rb_status rb_friction_task_blocks(rb_friction_task *task,
                                   const rb_friction_blocks **blocks);
-/* Nothing is known yet.  The message is ended, not zeroed: it is longer than all else. */
+/* Resets info.  Of the message only the first byte is set to zero, because it is long. */
 void rb_friction_info_clear(rb_friction_info *info, const char *solver);
-/* r and v as the options have them start. */
+/* Sets r and v to the start given in the options. */
 void rb_friction_task_start(rb_friction_task *task);
-/* The contacts of those blocks, each alone, made when it is wanted: many never close. */
+/* The single contacts of these blocks; each is prepared at first use, because many
+ * contacts never close. */
 rb_status rb_friction_task_contacts(rb_friction_task *task,
                                     rb_friction_contact **contacts);
-/* The scaled measure at the task's r and v, which also brings u (and v) up to date, and
- * keeps them where they are the best; counts flops. */
+/* Computes the measure at the task's r and v, updates u (and v), and stores the iterate
+ * if it is the best so far; counts flops. */
 double rb_friction_task_error(rb_friction_task *task);
-/* Iterations that the task's max_iters leaves: at most `own` of a method, which has
- * max_iters 0 mean. */
+/* Iterations that remain of the task's max_iters; with max_iters = 0 the method's limit
+ * `own`. */
 int rb_friction_task_left(const rb_friction_task *task, int own);
 /* error at or below the tolerance or the floor */
 int rb_friction_task_accepts(const rb_friction_task *task, double error);
-/* Neither the budget nor the iterations are used. */
+/* 1: neither the budget nor the limit of iterations is used up. */
 int rb_friction_task_goes_on(const rb_friction_task *task);
-/* The time is over, or the caller wants no more. */
+/* 1: the time limit has passed, or the caller wants to stop. */
 int rb_friction_task_late(const rb_friction_task *task);
-/* Of the task's iterate.  RB_OK: accepted; RB_MAXITER: not there yet; RB_SINGULAR: it is
- * no number; RB_INTERRUPTED: late. */
+/* Status of the task's iterate.  RB_OK: accepted; RB_MAXITER: not accepted yet;
+ * RB_SINGULAR: not a finite number; RB_INTERRUPTED: time limit or stop. */
 rb_status rb_friction_task_assess(rb_friction_task *task);
-/* The task's iterate has this error: kept where it is the best, told to whoever traces.
- */
+/* Records that the task's iterate has this error: stores the iterate if it is the best,
+ * and calls the progress function. */
 void rb_friction_task_seen(rb_friction_task *task, double error);
-/* The measures recomputed from r (and v) alone, and their floor, into info; 1: accepted.
- */
+/* Recomputes the measures from r (and v) alone, and their floor, and stores them in info;
+ * returns 1 if r is accepted. */
 int rb_friction_prove(rb_friction_task *task);
-/* r, v and info->solver of the best iterate, where one is on record. */
+/* Restores r, v and info->solver of the best iterate, if there is one. */
 void rb_friction_task_recall(rb_friction_task *task);
 
 /* ---- Anderson's acceleration (anderson.c) ------------------------------------------ */
@@ -220,9 +229,10 @@ void rb_friction_task_recall(rb_friction_task *task);
 #define RB_FRICTION_ANDERSON_DEPTH 5
 
 typedef struct {
-    int m, used, next;    /* differences kept, place of the next one */
-    int known;            /* there is a step before */
-    double *f, *r, *u;    /* m: that step, what it led to; owned by f, as what follows */
+    int m, used, next;    /* number of stored differences, place of the next one */
+    int known;            /* 1: there was a step before */
+    double *f, *r, *u;    /* m: this step and its result; in the memory of f, like the
+                             following arrays */
     double *df, *dr, *du; /* m x DEPTH */
     double size;          /* ||f|| */
     double gram[RB_FRICTION_ANDERSON_DEPTH][RB_FRICTION_ANDERSON_DEPTH];
@@ -231,14 +241,14 @@ typedef struct {
 rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a);
 void rb_friction_anderson_free(rb_friction_anderson *a);
 void rb_friction_anderson_forget(rb_friction_anderson *a);
-/* An iteration went from start to r, with velocities u: r and u become those from which
- * the next one is to start. */
+/* An iteration has led from start to r with velocities u; the function replaces r and u
+ * by the values from which the next iteration starts. */
 void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
                                double *u);
 
 /* ---- Functions whose roots are solutions (functions.c) ----------------------------- */
 
-/* One contact's cone and scaling: rho_n, rho_t > 0 [force/velocity]. */
+/* Cone and scaling of one contact: rho_n, rho_t > 0 [force/velocity]. */
 typedef struct {
     int d;
     double mu, rho_n, rho_t;
@@ -267,17 +277,17 @@ typedef struct {
     int d, contacts, m, n;            /* n: 0 for the local form */
     double *rho;                      /* 2 per contact: rho_n, rho_t, 1/(W's own block) */
     double *rhs, *x;                  /* n + m */
-    int *place;  /* contacts: number among those not known to be open, -1 if open */
+    int *place;  /* contacts: number among the contacts that may be closed, -1 if open */
     rb_sparse j; /* sparse LU: the matrix (local form), or its transposed (global) */
     rb_sparse_lu *lu;
     double *dense; /* dense LU */
     int *pivots;
-    size_t order; /* that there is memory for */
+    size_t order; /* order for which memory is allocated */
     double flops;
 } rb_friction_system;
 
 rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *system);
-/* Of the local form, also where the problem is global and W has been condensed. */
+/* The same for the local form, also if the problem is global and W has been condensed. */
 rb_status rb_friction_system_init_local(rb_friction_task *task,
                                         rb_friction_system *system);
 void rb_friction_system_free(rb_friction_system *system);
@@ -294,15 +304,15 @@ rb_status rb_friction_system_step(rb_friction_system *system,
                                   const rb_friction_linearised *at, const double *e,
                                   double *dr, double *dv);
 
-/* What the two forms share: which LU is the faster one; dense: room for that order,
- * zeroed, and its solution with x as the right-hand side ('T': transposed). */
+/* Used by both forms: whether the dense LU is faster; zeroed memory for a dense matrix of
+ * this order; its solution with x as the right-hand side ('T': transposed). */
 int rb_friction_system_is_dense(int order, double fill);
 rb_status rb_friction_system_dense(rb_friction_system *system, size_t order);
 rb_status rb_friction_system_solve_dense(rb_friction_system *system, int order,
                                          char transposed);
-/* What follows is of the local form (system_local.c): its pattern; the step, into x. */
+/* Local form (system_local.c): its pattern; the step, written into x. */
 rb_status rb_friction_local_pattern(rb_friction_system *system);
-/* A + B W factored once, and solved with x as the right-hand side as often as wanted. */
+/* Factorises A + B W, and solves with x as the right-hand side, any number of times. */
 rb_status rb_friction_local_factor(rb_friction_system *system, const double *A,
                                    const double *B);
 rb_status rb_friction_local_solve(rb_friction_system *system, double *x);
@@ -311,8 +321,9 @@ rb_status rb_friction_local_step(rb_friction_system *system,
 
 /* ---- Methods ----------------------------------------------------------------------- */
 
-/* How a solver is run.  Either all at once, or in parts: start, which writes the whole
- * state, then go_on until it no longer pauses, then finish, also where start failed. */
+/* The functions of a solver.  It runs either at once (run), or in parts: start, which
+ * writes the whole state; then go_on until it no longer pauses; then finish, also if
+ * start failed. */
 typedef struct rb_friction_method {
     rb_status (*run)(rb_friction_task *task, int variant); /* NULL: in parts */
     size_t size;                                           /* of the state */
@@ -323,9 +334,10 @@ typedef struct rb_friction_method {
 } rb_friction_method;
 
 typedef enum {
-    RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact, instead of exact */
-    RB_FRICTION_SWEEP_ANDERSON = 2,   /* accelerated */
-    RB_FRICTION_SWEEP_YIELD = 4 /* pauses where it stalls, as long as it has no budget */
+    RB_FRICTION_SWEEP_PROJECTION =
+        1, /* fixed point at each contact instead of the exact solution */
+    RB_FRICTION_SWEEP_ANDERSON = 2, /* accelerated */
+    RB_FRICTION_SWEEP_YIELD = 4     /* pauses when it stalls, unless it has a budget */
 } rb_friction_sweep_variant;
 
 typedef enum {
@@ -343,24 +355,24 @@ typedef enum {
 
 typedef enum { RB_FRICTION_HUNDRED_SWEEPS = 1 } rb_friction_hybrid_variant;
 
-/* Of plane problems alone.  Variant 0: one attempt after the other until one solves; k:
- * the k-th alone. */
+/* For plane problems only.  Variant 0: all attempts in turn until one succeeds; k: only
+ * the k-th. */
 enum { RB_FRICTION_LEMKE_ATTEMPTS = 8 };
 
 extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_friction_admm,
     rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
     rb_friction_lemke_method, rb_friction_auto_method;
 
-/* Lemke's method for plane problems whose W is there, on a sparse LU (lemke_pairs.c);
- * and the operations of so many of its pivots. */
+/* Lemke's method for plane problems with a given W, with a sparse LU (lemke_pairs.c), and
+ * the operations of the given number of its pivots. */
 rb_status rb_friction_lemke_pairs(rb_friction_task *task);
 double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots);
 
-/* The row of the list of solvers. */
+/* The row of the list of solvers for a method and variant. */
 const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method,
                                                 int variant);
 
-/* Runs a method on the prepared task, all at once; `limit` iterations at most. */
+/* Runs a method on the prepared task to its end, with at most `limit` iterations. */
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
                           int variant, int limit);
 

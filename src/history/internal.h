@@ -1,4 +1,5 @@
-/* What the files of this folder share, with those of rolling and of results. */
+/* Declarations shared by the files of this folder; includes those of rolling and
+ * results. */
 #ifndef ROLLBEM_HISTORY_INTERNAL_H
 #define ROLLBEM_HISTORY_INTERNAL_H
 
@@ -6,7 +7,7 @@
 
 /* ---- relax.c ----------------------------------------------------------------------- */
 
-/* A body that relaxes, and the filtered tractions of each of its terms (V6). */
+/* A viscoelastic body and the filtered tractions of each of its relaxation terms (V6). */
 typedef struct {
     const rb_rolling_memory *memory; /* borrowed from the case */
     double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
@@ -14,19 +15,20 @@ typedef struct {
     double *past;                    /* terms x 2 all; owned */
 } rb_rolling_relaxing;
 
-/* The past of both bodies: of the n elements of the mesh, and of `tail` elements behind
- * them, where the material is that has rolled out of the mesh. */
+/* Stored tractions of both bodies: on the n elements of the mesh, and on `tail` elements
+ * behind them, for the material that has left the mesh. */
 typedef struct {
     int n, tail, all, bodies;
     rb_rolling_relaxing body[2];
     double *traction; /* 2 all: on A at the end of the last step; owned */
     double *scratch;  /* owned */
-    double lost;      /* work that the bodies have lost so far [force] */
+    double lost;      /* energy that the bodies have dissipated so far [force] */
 } rb_rolling_memory_track;
 
-/* What the bodies are in a step of so many seconds: elastic ones.  INFINITY: rubbery. */
+/* The equivalent elastic bodies for a step of this length in seconds.  INFINITY:
+ * rubbery. */
 rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
-/* Bodies at rest without a past.  tail > 0: equal elements. */
+/* Creates a track for bodies at rest without earlier loads.  tail > 0: equal elements. */
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
                                          const rb_rolling_mesh *mesh, int tail,
                                          rb_rolling_memory_track *r, rb_message *why);
@@ -41,47 +43,51 @@ void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
 
 /* ---- carried.c --------------------------------------------------------------------- */
 
-/* What particles carry into a step of a history.  The caller sets the first five. */
+/* State variables that the particles bring into a step of a history.  The caller sets the
+ * first five members. */
 typedef struct {
     const rb_rolling_case *rc; /* of the history; borrowed */
     rb_rolling_model *model;   /* after the last step; borrowed */
-    double step;               /* length of a rolled step; 0: none rolls */
+    double step;               /* length of a rolled step; 0: no rolling */
     int steps;                 /* in all */
-    int keeps_elements;        /* 1: those of states that are known */
+    int keeps_elements;        /* 1: keep the elements of the given states */
     double *w_T;     /* n: tangential displacement that the next step starts from */
     double *mu;      /* n: coefficients before the step */
-    double *yielded; /* n + 1: what the interface has yielded, to be brought on */
-    rb_rolling_former_place ahead; /* for steps of another length than an element's */
+    double *yielded; /* n + 1: plastic slip of the interface, to be moved with the
+                        particles */
+    rb_rolling_former_place ahead; /* for steps whose length is not that of an element */
     rb_rolling_heat_track heat;
-    rb_rolling_memory_track past; /* of bodies that relax */
-    double interval; /* [s] that the bodies at hand are those of; -1: of none */
+    rb_rolling_memory_track past; /* of viscoelastic bodies */
+    double
+        interval; /* step length [s] for which the present bodies were built; -1: none */
 } rb_rolling_particles;
 
-/* A step: rolled by c, 0: at rest, in so many seconds. */
+/* A step: rolled distance c (0: at rest) and duration in seconds. */
 typedef struct {
     double c, interval;
-    int is_first; /* 1: at rest, with nothing before it */
+    int is_first; /* 1: at rest, the first step */
 } rb_rolling_stride;
 
-/* Length of the element in the middle, which all have. */
+/* Length of the middle element; all elements have the same length. */
 double rb_rolling_middle_length(const rb_rolling_model *model);
-/* May change the mesh of the model. */
+/* This call may change the mesh of the model. */
 rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why);
-/* Before a step is solved: what is carried comes to where its particles are then. */
+/* Before a step is solved: moves the state variables to the places of the particles. */
 rb_status rb_rolling_particles_bring(rb_rolling_particles *r,
                                      const rb_rolling_stride *stride, rb_message *why);
-/* After it. */
+/* After a step: stores the state variables. */
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
 void rb_rolling_particles_free(rb_rolling_particles *r);
 
 /* ---- program.c --------------------------------------------------------------------- */
 
-/* Rows at rest that the program begins with. */
+/* Number of rows at rest at the beginning of the program. */
 int rb_rolling_program_at_rest(const rb_rolling_program *program);
-/* Steps at rest from the row before to row r. */
+/* Number of steps at rest from row r - 1 to row r. */
 int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
                              int r);
-/* The case of row r at rest, or part/parts of the way there from the row before. */
+/* The case of row r at rest, or at the fraction part/parts between row r - 1 and row
+ * r. */
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
                                        const rb_rolling_case *rc, int r, int part,
                                        int parts);
@@ -89,11 +95,11 @@ rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
 rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
                                         const rb_rolling_case *rc, double from,
                                         double to);
-/* Each row must be a case that could be solved. */
+/* Checks that each row is a valid case. */
 rb_status rb_rolling_program_check(const rb_rolling_program *program,
                                    const rb_rolling_case *rc, rb_message *why);
-/* The case's own: increments of pressing and of loading, then the way.  room: its
- * columns, for free(); NULL: no memory. */
+/* The program of a case without a history: increments of pressing and of loading, then
+ * rolling.  Returns the memory of its columns for free(); NULL: no memory. */
 double *rb_rolling_program_of_case(const rb_rolling_case *rc,
                                    rb_rolling_program *program);
 

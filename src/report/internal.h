@@ -1,18 +1,19 @@
-/* What the files of this folder share. */
+/* Declarations shared by the files of this folder. */
 #ifndef ROLLBEM_REPORT_INTERNAL_H
 #define ROLLBEM_REPORT_INTERNAL_H
 
 #include "rollbem/report.h"
 
-/* The solver that gave the answer, as the option `solver` calls it. */
+/* Name of the solver that found the solution, as in the option `solver`. */
 const char *rb_report_solver(const rb_rolling_solution *s);
 
-/* For people: 0 where x is rounding of a sum of terms of that size. */
+/* Returns 0 if x is only a rounding error of a sum of terms of this size, otherwise x;
+ * for output to readers. */
 double rb_report_tidy(double x, double size);
 
 /* ---- Columns by the tables of results ---------------------------------------------- */
 
-/* The columns of an owner side by side; of errors those that have error bars alone. */
+/* The columns of a struct; with errors = 1 only those that have error bars. */
 typedef struct {
     const rb_rolling_results *columns;
     const void *owner;
@@ -20,11 +21,12 @@ typedef struct {
     rb_units units;
 } rb_report_columns;
 
-/* The headings of all parts as one row; # lines with version, command, conventions. */
+/* Writes the headings of all parts as one row, and # lines with version, command,
+ * conventions. */
 rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
                                         const char *command, int parts,
                                         const rb_report_columns *part);
-/* The headings, and entry i of every column, as cells of the row at hand. */
+/* Write the headings, or entry i of every column, as cells of the current row. */
 void rb_report_cell_headings(rb_report_cells *c, int parts,
                              const rb_report_columns *part);
 void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
@@ -35,14 +37,14 @@ void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row);
 void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
-/* # lines with what must be known to read the numbers. */
+/* Writes the notes as # lines. */
 void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,
                              const rb_rolling_solution *s);
 /* Rows of entries, to the end of the table.  RB_EWRITE: see errno. */
 rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
                                 const rb_report_columns *part);
 
-/* A list for each column, by its name or, headed, by its heading. */
+/* Sets a list for each column, with its name or (headed = 1) its heading. */
 void rb_report_json_columns(struct json_t **object, int rows, const rb_report_columns *c,
                             int headed);
 
@@ -52,16 +54,16 @@ int rb_report_stress_is_inside(const rb_report_stress *s, int k);
 
 /* ---- Behind the solution ----------------------------------------------------------- */
 
-/* What rb_report_trace has left in the folder. */
+/* Removes the files that rb_report_trace has written to the folder. */
 void rb_report_remove_tableaux(const char *folder);
 
 /* ---- Pictures ---------------------------------------------------------------------- */
 
-/* The size of the font of a key, which would otherwise be larger. */
+/* Font size of keys. */
 double rb_report_key_font(rb_report_canvas canvas);
-/* Where panels lie that start at `left` and need no more than a title above them.  A
- * column of print has no room for a title, which is its caption's: the panels are raised,
- * and begin farther to the right, because the letters are larger. */
+/* Place of panels that start at `left` and have only a title above them.  A picture for a
+ * column of print has no title (the caption replaces it): its panels are higher, and
+ * begin further to the right, because the letters are larger. */
 typedef struct {
     int titled;
     double right, up; /* in parts of the canvas */
@@ -70,11 +72,11 @@ rb_report_place rb_report_place_of(rb_report_canvas canvas);
 /* The label of the picture that names the bodies, centred at screen x, y. */
 void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units,
                             double x, double y);
-/* Thin lines at the tics, for charts that are read off. */
+/* Thin grid lines at the tics. */
 #define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
 /* The colour of curve k of several, as gnuplot's rgb. */
 const char *rb_report_colour(int k);
-/* Markers of a size are drawn larger by gnuplot's svg: what to multiply it by. */
+/* gnuplot draws markers larger in svg; this is the factor that corrects their size. */
 double rb_report_marker_scale(rb_report_canvas canvas);
 /* The colour of a zone as the page has it, strong or a pale shade of it. */
 const char *rb_report_zone_colour(int zone, int pale);
@@ -86,7 +88,8 @@ typedef struct {
     const char *name;
 } rb_report_unit;
 
-/* One whose numbers are neither long nor tiny up to `largest`; unit: "MPa" or "mm". */
+/* A unit in which numbers up to `largest` are neither too long nor too small; unit: "MPa"
+ * or "mm". */
 rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest);
 /* Lengths about a contact of half-width a, in the system's unit or, where that has too
  * many digits, in a: "[mm]", "/ a". */
@@ -95,7 +98,7 @@ typedef struct {
     char label[16];
 } rb_report_length;
 rb_report_length rb_report_length_axis(rb_units units, double a);
-/* The power of ten that small numbers up to `largest` are shown in; of others 0. */
+/* The power of ten for showing small numbers up to `largest`; 0 for other numbers. */
 int rb_report_exponent(double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
@@ -103,7 +106,7 @@ double rb_report_round_step(double step);
 /* "MPa.mm^0.5" as gnuplot writes it, exponents raised.  Returns text. */
 const char *rb_report_raised(const char *unit, char text[40]);
 const char *rb_report_large_number(double x, char text[40]);
-/* As many labels as that part of the canvas takes without one touching the next. */
+/* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */
 #define RB_REPORT_PALETTE                                                                \
@@ -118,16 +121,16 @@ typedef enum {
                       */
 } rb_report_shape;
 
-/* Runs gnuplot on a script, which names no file: data blocks only.  out gets the whole
- * picture or nothing.  RB_EHELPER: gnuplot is missing, refuses, or took longer than so
- * many seconds; RB_EWRITE: the disk is full; RB_ENOMEM. */
+/* Runs gnuplot on a script, which contains data blocks and no file names.  out receives
+ * the complete picture or nothing.  RB_EHELPER: gnuplot is missing, has failed, or took
+ * longer than `seconds`; RB_EWRITE: the disk is full; RB_ENOMEM. */
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
                             FILE *out, rb_message *why);
 
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
 
-/* A picture from what `script` writes behind the settings of its canvas, shape and axes;
- * or that script itself. */
+/* Draws a picture from the commands that `script` writes after the settings of canvas,
+ * shape and axes; or writes these commands themselves. */
 typedef void rb_report_script(FILE *script, rb_report_canvas canvas, const void *view);
 rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
                          rb_report_script *script, const void *view, rb_message *why);

@@ -1,4 +1,4 @@
-/* What the files of this folder share. */
+/* Declarations shared by the files of this folder. */
 #ifndef ROLLBEM_ROLLING_INTERNAL_H
 #define ROLLBEM_ROLLING_INTERNAL_H
 
@@ -8,22 +8,23 @@
 
 /* ---- case.c: quantities derived from a case ---------------------------------------- */
 
-/* Whether the boundary of wheels outside the contact is finer than is worth solving to
- * learn where the contact is, and the plan with the usual one. */
+/* 1 if the boundary of wheels outside the contact is finer than needed for finding the
+ * contact; the second function sets the plan to the default boundary. */
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
-/* Q, a ratio of it or a free axle is given, and no creepage. */
+/* 1: Q, a force ratio or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
 
-/* 1 where the flexibility has products by Fourier transforms: half-planes under equal
- * elements, by Newton. */
+/* 1 if products are computed by Fourier transforms: half-planes with equal elements,
+ * solved by Newton's method. */
 int rb_rolling_has_transforms(const rb_rolling_case *rc);
 
 /* ---- profile.c --------------------------------------------------------------------- */
 
-/* Number and places of the points that the spline goes through; borrowed. */
+/* Number and abscissae of the points of the spline; borrowed. */
 int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
-/* Three points or more, finite, x increasing: RB_EINVAL "<what>: row ...". */
+/* Checks for three or more finite points with increasing x: RB_EINVAL "<what>: row
+ * ...". */
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
 
@@ -42,9 +43,9 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
 typedef struct {
     rb_bem_flexibility f;  /* owned */
     rb_bem_system *system; /* NULL without boundary elements; owned */
-    int keeps_memory;      /* 1: `memory` is wanted of a half-plane too */
-    double *memory;        /* 2m x 2n: what memory adds to f, of pairs with a wheel that
-                              roll steadily; else NULL; owned */
+    int keeps_memory;      /* 1: compute `memory` for a half-plane, too */
+    double *memory; /* 2m x 2n: viscoelastic part of f, for pairs with a wheel in steady
+                       rolling; otherwise NULL; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_body_flexibility;
 
@@ -55,8 +56,8 @@ struct rb_rolling_body_kind {
                                                   addition; NULL: the row of a support */
     int can;                                   /* a sum of rb_rolling_ability */
     const rb_rolling_parameter *parameters;
-    /* Ranges of the parameters; of an addition for every body, with or without it.
-     * which: "", or " of body B".  NULL: nothing to check. */
+    /* Checks ranges of the parameters; for an addition it is called for every body, with
+     * or without the addition.  which: "", or " of body B".  NULL: nothing to check. */
     rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body,
                        const char *which, rb_message *why);
 
@@ -64,24 +65,24 @@ struct rb_rolling_body_kind {
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                              rb_rolling_body_flexibility *one_body, rb_message *why);
-    /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
-     * depends on more than the distance. */
+    /* The same for equal elements by Fourier transforms, without a matrix; NULL: the
+     * flexibility does not depend on the distance alone. */
     rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                             const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                             rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The half-plane or layer that answers like the body close to a load. */
     rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
                               double length[RB_ROLLING_TERMS]);
-    /* Depth of zero displacement; NULL: there is none. */
+    /* Depth of zero displacement; NULL: not defined. */
     double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
 };
 
-/* All rows; NULL ends them. */
+/* All rows; NULL ends the list. */
 extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 
 /* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ------------------- */
 
-/* 1: a cover whose core is elastic, and not rigid. */
+/* 1: a cover with an elastic core. */
 int rb_rolling_has_elastic_core(const rb_rolling_body *body);
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
 extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
@@ -92,28 +93,28 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
 /* L = V tau of each term. */
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
                                double length[RB_ROLLING_TERMS]);
-/* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
+/* Checks E >= 0 (0: rigid) and nu of the base or core below a layer or cover. */
 rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
                                 double poisson, const char *which, rb_message *why);
 
 /* ---- material.c -------------------------------------------------------------------- */
 
-/* nu in the range of the plane problem; what: "base" or "core", NULL of the body itself.
- */
+/* Checks that nu is in the range of the plane problem; what: "base" or "core", NULL for
+ * the body itself. */
 rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
                                    double poisson, const char *which, rb_message *why);
 
 /* ---- body.c ------------------------------------------------------------------------ */
 
-/* RB_EINVAL: what no body can be.  which: "", or " of body B". */
+/* Checks a body.  RB_EINVAL: invalid values.  which: "", or " of body B". */
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
                                 const char *which, int plane_allowed, rb_message *why);
 
-/* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane;
- * NAN where nothing is measured from one: wheels, and layers on a rigid base. */
+/* The given datum of a half-plane, or 2R/e with R of the body (of A for a plane); NAN if
+ * displacements are not relative to a datum: wheels, and layers on a rigid base. */
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
-/* The half-plane or layer that answers like the body close to a load.  length: room for
- * the lengths of its memory, which the surface borrows like the body's ratios. */
+/* The half-plane or layer that answers like the body close to a load.  length: array for
+ * the lengths V tau, which the surface borrows, like the ratios of the body. */
 rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
                                      const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
@@ -121,33 +122,34 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
 /* ---- body_memory.c
  * ----------------------------------------------------------------- */
 
-/* memory = whole - glassy, 2m x 2n, in two calls: before memory is added, and after it.
- * RB_ENOMEM. */
+/* Computes the viscoelastic part, memory = whole - glassy, 2m x 2n, in two calls: before
+ * the viscoelastic part is added to the flexibility, and after. RB_ENOMEM. */
 rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory);
 void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 
 /* ---- bodies.c ---------------------------------------------------------------------- */
 
-/* Stores the matrix of bodies that were made without one. */
+/* Computes and stores the matrix of bodies that have none yet. */
 rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
                                        const rb_rolling_mesh *mesh,
                                        rb_rolling_bodies *bodies, rb_message *why);
 
 /* ---- mesh.c ------------------------------------------------------------------------ */
 
-/* Gaps at the midpoints, with the irregularity where it is now.  RB_ENOMEM. */
+/* Computes the gaps at the midpoints with the irregularity at its present place.
+ * RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
 
 /* ---- former_place.c
  * ----------------------------------------------------------------------- */
 
-/* Tangential displacement a length `step` further along the surface than each midpoint:
- * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels. */
+/* Tangential displacement at the distance `step` upstream of each midpoint: w_T = w0_T +
+ * W_T (p, q).  Equal elements, half-planes and wheels. */
 typedef struct {
     int n;
     double step;      /* 0: there is none */
     double *W_T;      /* n x 2n; NULL without a dense flexibility; owned, as below */
-    double *response; /* there: w_T of a unit p and of a unit q at 2n - 1 distances */
+    double *response; /* w_T of a unit p and of a unit q at 2n - 1 distances */
 } rb_rolling_former_place;
 
 /* ahead: overwritten. */
@@ -191,48 +193,49 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
                         rb_contact_problem *p);
 
-/* What the interface has yielded so far at the elements (n). */
+/* Accumulated plastic slip of the interface at the elements (n). */
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
 /* ---- law.c, law_iteration.c: friction laws ----------------------------------------- */
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
-/* Linear between the table's places, constant beyond them. */
+/* Value of the table at x: linear between its points, constant beyond them. */
 double rb_rolling_friction_at(const rb_rolling_table *table, double x);
-/* 1 where the law depends on the slip velocity. */
+/* 1 if the law depends on the slip velocity. */
 int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
                          double temperature);
-/* Where nothing slides and nothing has become warm. */
+/* The coefficient at rest and without heating. */
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
-/* Largest -dmu/dv, or a little more where two terms fall at different velocities. */
+/* Largest -dmu/dv, or an upper bound if two terms have different slip scales. */
 double rb_rolling_law_steepest(const rb_rolling_case *rc);
-/* Bounds of the elements before anything is solved: those at rest, or the given start. */
+/* First bounds of the elements for the iteration: those at rest, or the given start. */
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              rb_contact_problem *p);
-/* The coefficients (n) that the law gives the state. */
+/* The coefficients (n) of the law for the state. */
 rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
                                       rb_message *why);
-/* Bounds to start from: coefficients of fast sliding up to x, behind it those at rest. */
+/* Sets first bounds: coefficients of fast sliding up to x, and those at rest beyond. */
 rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why);
-/* law_newton.c: from the bounds at hand until those of the law differ by no more than
- * `enough` in the natural residual.  left: contact problems that may be solved, counted
- * down.  RB_MAXITER: none are left, or the residual does not become less. */
+/* law_newton.c: Newton's method from the present bounds, until these and the bounds of
+ * the law differ by at most `enough` in the natural residual.  left: number of contact
+ * problems that may still be solved.  RB_MAXITER: this number is used up, or the residual
+ * does not decrease. */
 rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left,
                                 rb_message *why);
-/* Solves the model's problem by iteration, where the law depends on the state.
- * iterations: added to. */
+/* Solves the model's problem by iteration if the law depends on the state. */
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
 
-/* A creepage that makes everything slide, to start a search for a given force from. */
+/* A creepage at which the whole contact slides; the search for a given force starts
+ * there. */
 double rb_rolling_sliding_creepage(const rb_rolling_case *rc,
                                    const rb_contact_problem *p);
 
 /* ---- heat.c ------------------------------------------------------------------------ */
 
-/* 1 where the case asks for temperatures. */
+/* 1 if temperatures are computed. */
 int rb_rolling_has_heat(const rb_rolling_case *rc);
-/* V a/(2 diffusivity); INFINITY where no heat enters the body. */
+/* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
  * a steady solution with tractions, slip and zones. */
@@ -243,21 +246,22 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
 void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
                                  double *value, double *at);
 
-/* The heat of the steps that particles still in the mesh have met. */
+/* The heat of earlier steps, for the particles that are still in the mesh. */
 typedef struct rb_rolling_heat_track {
-    int n, rows, newest, known; /* rows: steps kept, a ring of which `known` are filled */
+    int n, rows, newest, known; /* rows: number of stored steps (ring buffer), of which
+                                   `known` are filled */
     double h, step;             /* lengths of an element and of a step */
     double *heat;               /* rows x n [stress * length / time]; owned */
 } rb_rolling_heat_track;
 
-/* Of track->n elements of length h and steps.  RB_EINVAL: the Peclet number is too small
- * for heat that goes along the depth only. */
+/* Creates a track for track->n elements of length h.  RB_EINVAL: the Peclet number is too
+ * small for heat conduction along the depth only. */
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
                                        rb_rolling_heat_track *track, rb_message *why);
-/* Makes room for the heat of another rolled step. */
+/* Prepares the storage for the heat of the next rolled step. */
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
-/* The newest step has friction q and slip displacement lambda; temperature: n, of both
- * surfaces at its end. */
+/* Stores the heat of the newest step with friction q and slip displacement lambda, and
+ * computes the temperature (n) of both surfaces at its end. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 const double *lambda, rb_rolling_heat_track *track,
                                 double *temperature);
@@ -265,24 +269,25 @@ void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 
 /* ---- coarse.c ---------------------------------------------------------------------- */
 
-/* Elements of the mesh that starts one of n. */
+/* Number of elements of the coarser mesh on which a problem with n elements starts. */
 int rb_rolling_coarse_elements(int n);
-/* Tractions, zones, delta and xi from a solution on fewer elements over the same line. */
+/* Interpolates tractions, zones, delta and xi from a solution with fewer elements on the
+ * same line. */
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                            const rb_contact_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_contact_state *fine);
 
 /* ---- model.c ----------------------------------------------------------------------- */
 
-/* Another case on the same elements, as the next step of a history or the next point of a
- * curve; mesh, bodies and problem stay as they are. */
+/* Sets another case on the same elements, for the next step of a history or the next
+ * point of a curve; mesh, bodies and problem are not changed. */
 rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
                                     rb_message *why);
 
 /* ---- create.c ---------------------------------------------------------------------- */
 
-/* The free creepage as one result among others: where it is not found it is NAN, and the
- * case that was solved stays solved.  RB_ENOMEM. */
+/* The free-rolling creepage as a result: NAN if it is not found, which does not change
+ * the status of the solved case.  RB_ENOMEM. */
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
 
@@ -291,21 +296,21 @@ rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creep
 
 enum { RB_MOST_OVERLAPS = 16 };
 
-/* Stretches where the bodies of a state overlap and no element of the mesh sees it. */
+/* Intervals in which the bodies overlap although no midpoint of an element lies there. */
 typedef struct {
     int count;
     double from[RB_MOST_OVERLAPS], to[RB_MOST_OVERLAPS];
 } rb_rolling_overlap;
 
-/* Looks along the whole table; other gaps are convex, so that nothing can touch beyond
- * the contact (theory.md 5.1).  RB_ENOMEM. */
+/* Searches along the whole table; other gaps are convex, so that the bodies cannot touch
+ * outside the contact (theory.md 5.1).  RB_ENOMEM. */
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
                                   const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
 
-/* RB_ZONE: an element in contact stands at an end of the mesh, so that the contact may
- * reach further, or the bodies overlap where no element sees it.  state: of the model's
- * problem. */
+/* RB_ZONE: an element at an end of the mesh is in contact, so that the contact may extend
+ * further, or the bodies overlap where there is no midpoint of an element.  state: of the
+ * model's problem. */
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
                                     const rb_contact_state *state, rb_message *why);
 
@@ -313,54 +318,57 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
 
 /* RB_EINVAL: a layer, cover or rim is compressed by all of its thickness. */
 rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why);
-/* The end of a solution, a history or a curve with this status.  RB_EINVAL: a layer or
- * cover is crushed, or needs shorter elements than those in contact, which may also be
- * why it failed. Of meshes that results are taken from; the coarse ones before them may
- * be too coarse.
- */
+/* Called at the end of a solution, a history or a curve with status s.  RB_EINVAL: a
+ * layer or cover is crushed, or needs shorter elements than those in contact, which may
+ * also be the reason for a failure.  Only meshes of results are checked; coarse meshes
+ * used before may be too coarse. */
 rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
                                           rb_message *why);
-/* Solves on equal elements in the given potential contact, or in one that holds the
- * contact.  coarse: elements may be too long for separate patches; later searches begin
- * with the potential contact of this one.  RB_ZONE where there is none; RB_NO_CONTACT. */
+/* Solves on equal elements in the given potential contact, or in one that is found and
+ * encloses the contact.  coarse: elements may be too long for separate patches; later
+ * searches begin with the potential contact of this one.  RB_ZONE: no potential contact
+ * was found; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
 /* ---- align.c ----------------------------------------------------------------------- */
 
-/* A first solution, then equal elements whose ends meet both edges; where these do not
- * come to rest, equal ones anywhere, with model->equal_instead saying so.  RB_EINVAL:
- * several patches. */
+/* Solves on equal elements whose ends coincide with both edges, after a first solution.
+ * If the edges do not converge, other equal elements are used, and model->equal_instead
+ * is set. RB_EINVAL: several patches. */
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
-/* The same from the edges that the model has now. */
+/* The same, starting from the present edges of the model. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
 
 /* ---- fit.c ------------------------------------------------------------------------- */
 
-/* Solves on elements fitted to the contact edges; on equal ones where these do not come
- * to rest, with model->equal_instead saying so. */
+/* Solves on elements fitted to the contact edges; if these do not converge, on equal
+ * elements, and model->equal_instead is set. */
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why);
-/* A fitted mesh, bodies and solution anew for the edges that the model has now. */
+/* Builds a fitted mesh and bodies again for the present edges of the model, and
+ * solves. */
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
-/* As many equal elements across the contact, wherever their ends are. */
+/* Solves on the same number of equal elements across the contact, without fitting their
+ * ends. */
 rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why);
 
 /* ---- mesh.c ------------------------------------------------------------------------ */
 
-/* What is worn off at x. */
+/* The worn depth at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
-/* The undeformed gap at n places, with the irregularity that has come there.  RB_ENOMEM.
- */
+/* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
                                const double *x, double *gap);
-/* 0: a gap that may touch in several places. */
+/* 0: the bodies may touch in several places. */
 int rb_rolling_is_convex(const rb_rolling_case *rc);
-/* Where elements may stand: on the lower half of every round body, within the table. */
+/* The interval in which elements may lie: on the lower half of every round body, within
+ * the table. */
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
 
-/* A patch to fit elements to, and how far beyond either edge they have to reach. */
+/* A patch for fitted elements, and how far the elements must extend beyond its edges. */
 typedef struct {
     double from, to, room_left, room_right;
-    double h_left, h_right; /* lengths of the elements that told the edges; fit.c */
+    double h_left,
+        h_right; /* lengths of the elements from which the edges were computed; fit.c */
 } rb_rolling_span;
 
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
@@ -374,24 +382,25 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T);
 
-/* int p abs(slip) dx per rolled way, slip and pressure paired as the power does. */
+/* int p abs(slip) dx per rolled distance, with slip and pressure multiplied as in the
+ * power. */
 double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
                                 const double *p, const double *h, const double *e_T);
 
-/* Compression of the thinnest layer, cover or rim over its thickness, and which it is
- * (or NULL): of two elastic bodies each takes its share of the approach by its
- * compliance, and none more than the pressure makes of its material.  NAN: neither body
- * has one. */
+/* Compression of the thinnest layer, cover or rim divided by its thickness; what: which
+ * of them it is (may be NULL).  The approach is divided between two elastic bodies by
+ * their compliances, but no body is compressed more than the pressure can compress its
+ * material.  NAN: neither body has a layer, cover or rim. */
 double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
                          const char **what);
 
-/* Torques that keep both bodies rolling against M and the force Q, > 0 where they drive
- * (theory.md V4); of B NAN where it is a plane. */
+/* Torques that keep both bodies rolling against M and the force Q, > 0 if they drive
+ * (theory.md V4); torque_b is NAN if B is a plane. */
 void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
                         double *torque_a, double *torque_b);
 
-/* Power per unit speed that the bodies lose, -int t Dw ds (theory.md V4): 0 for elastic
- * bodies, NAN but in steady rolling.  RB_ENOMEM. */
+/* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory.md V4): 0
+ * for elastic bodies; steady rolling only, otherwise NAN.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 
 /* ---- patches.c --------------------------------------------------------------------- */
@@ -400,14 +409,15 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 typedef struct {
     int first, last;
     double from, to;
-    int bounded; /* 1: an edge is known to the elements beside it only */
+    int bounded; /* 1: an edge is only known to lie within one element */
 } rb_rolling_run;
 
-/* A patch of so many equal elements has edges that the pressure tells (theory.md 4.7). */
+/* Smallest number of equal elements of a patch whose edges can be computed from the
+ * pressure (theory.md 4.7). */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 
-/* The vertex of the parabola through (0, 0) and two neighbours (d, f): how high, and
- * where.  0: it has no maximum. */
+/* Vertex of the parabola through (0, 0) and two neighbours (d, f): its height and place.
+ * 0: the parabola has no maximum. */
 static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise,
                                     double *at)
 {
@@ -421,22 +431,24 @@ static inline int rb_rolling_vertex(const double d[2], const double f[2], double
     *at = -slope / (2.0 * curvature);
     return 1;
 }
-/* The next patch from element `at` on; 0 where there is none. */
+/* Finds the next patch from element `at` on; returns 0 if there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);
-/* The same with patches between which more elements would be of no use made one: all
- * under a convex gap, whatever single elements beside an edge do; and those that one open
- * element separates where large friction between unlike bodies opens every other one. */
+/* The same, but patches are merged if more elements between them would not help: all
+ * patches under a convex gap (single open elements next to an edge are ignored), and
+ * patches that are separated by one open element if large friction between dissimilar
+ * bodies opens every other element. */
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                  const rb_contact_state *state, int at,
                                  rb_rolling_run *run);
 /* p0: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
-/* The patches of a solution and what is taken from all of them.  RB_ENOMEM. */
+/* Computes the patches of a solution and the results that depend on all of them.
+ * RB_ENOMEM. */
 rb_status rb_rolling_set_patches(const rb_rolling_model *model,
                                  rb_rolling_solution *solution);
 
-/* The longest element in contact. */
+/* Length of the longest element in contact. */
 double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
 #endif

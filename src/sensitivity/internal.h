@@ -1,40 +1,44 @@
-/* What the files of this folder share. */
+/* Declarations shared by the files of this folder. */
 #ifndef ROLLBEM_SENSITIVITY_INTERNAL_H
 #define ROLLBEM_SENSITIVITY_INTERNAL_H
 
 #include "rollbem/sensitivity.h"
 
-/* The equations of a state with zones (D1), and the factors of their Jacobian. */
+/* The equations of a state with given zones (D1), and the factorisation of their
+ * Jacobian. */
 struct rb_sensitivity {
     const rb_rolling_model *model; /* borrowed */
     int n, degenerate;
-    char *border;                 /* n: which pair of an element is degenerate; owned */
-    double *slip;                 /* 2n: T_T lambda and gap as they are; owned */
-    double *law_slip, *law_force; /* n x n: what bounds change by with slips and with
-                                     friction; NULL: not at all; owned */
-    rb_rolling_solution solution; /* of the model, where results are differentiated */
-    struct rb_sensitivity_factors *factors; /* of the model's own zones; owned */
-    struct rb_sensitivity *free_rolling; /* of the model that rolls freely; NULL: none */
-    rb_rolling_model *freely;            /* that model; owned */
-    rb_rolling_model *with_matrix; /* the model where it was solved without; NULL: it is
-                                      the caller's; owned */
+    char *border;                 /* n: which pairs of an element are degenerate; owned */
+    double *slip;                 /* 2n: T_T lambda and gap of the state; owned */
+    double *law_slip, *law_force; /* n x n: derivatives of the bounds with respect to
+                                     slips and friction; NULL: zero; owned */
+    rb_rolling_solution solution; /* of the model, if results are differentiated */
+    struct rb_sensitivity_factors *factors; /* for the zones of the model; owned */
+    struct rb_sensitivity
+        *free_rolling;             /* for free rolling of the same model; NULL: none */
+    rb_rolling_model *freely;      /* the model in free rolling; owned */
+    rb_rolling_model *with_matrix; /* a copy of the model with matrices, if it was solved
+                                      without; otherwise NULL; owned */
     int moves;                     /* rb_sensitivity_elements, fixed at first */
-    rb_rolling_solution motion[2]; /* of elements stretched and shifted by 1 mm; owned */
-    double creepage[2];            /* of free rolling, by its motions */
-    double gain[4];                /* of these motions by half-width and centre found */
+    rb_rolling_solution motion[2]; /* derivatives for elements that are stretched or
+                                      shifted by 1 mm; owned */
+    double creepage[2]; /* derivatives of the free-rolling creepage for these motions */
+    double
+        gain[4]; /* derivatives of the computed half-width and centre for these motions */
 };
 
-/* Pairs that are degenerate. */
+/* Bits for degenerate complementary pairs. */
 enum { BORDER_GAP = 1, BORDER_SLIP = 2 };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
-/* law_slip and law_force.  RB_ENOMEM. */
+/* Computes law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
 /* ---- differentiate.c --------------------------------------------------------------- */
 
-/* Whether and how the elements move.  RB_ENOMEM. */
+/* Determines whether and how the elements move.  RB_ENOMEM. */
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
 /* The case that rolls without a force. */
 rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc);
@@ -44,7 +48,7 @@ rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc);
 typedef struct rb_sensitivity_factors {
     int contacts, size;
     int *contact;        /* contacts: element numbers; owned */
-    int *zone;           /* n: zones that they are of; owned */
+    int *zone;           /* n: zones for which they were computed; owned */
     double *J, *unknown; /* size x size: LU; size: scales of the unknowns; owned */
     double *row;         /* size: scales of the equations; owned */
     int *pivot;          /* owned */
@@ -54,7 +58,7 @@ typedef struct rb_sensitivity_factors {
 rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
                                 rb_sensitivity_factors **factors);
 void rb_sensitivity_factors_free(rb_sensitivity_factors *factors);
-/* J y' = -R'. */
+/* Solves J y' = -R'. */
 rb_status rb_sensitivity_forward(const rb_sensitivity *s,
                                  const rb_sensitivity_factors *factors,
                                  const rb_sensitivity_rate *rate,
