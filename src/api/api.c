@@ -317,16 +317,6 @@ const char *rb_api_message(const rb_api *a)
 
 /* ---- Descriptions ------------------------------------------------------------------ */
 
-static const char *write_choices(const rb_option *o, char *text, int size)
-{
-    int used = 0;
-    text[0] = '\0';
-    for (const rb_choice *c = o->choices; c && c->name && used < size; c++)
-        used += snprintf(text + used, (size_t)(size - used), "%s%s", used ? " " : "",
-                         c->name);
-    return text;
-}
-
 static const char *written(const char *what, char *text, int size)
 {
     snprintf(text, (size_t)size, "%s", what ? what : "");
@@ -379,8 +369,14 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
         return written(o->help, text, size);
     if (strcmp(field, "word") == 0)
         return written(o->word, text, size);
-    if (strcmp(field, "choices") == 0)
-        return write_choices(o, text, size);
+    if (strcmp(field, "choices") == 0) {
+        int used = 0;
+        text[0] = '\0';
+        for (const rb_choice *c = o->choices; c && c->name && used < size; c++)
+            used += snprintf(text + used, (size_t)(size - used), "%s%s", used ? " " : "",
+                             c->name);
+        return text;
+    }
     if (strcmp(field, "expected") == 0)
         return is_group ? written("", text, size)
                         : rb_option_expected(o, text, (size_t)size);
@@ -475,24 +471,6 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
     return text;
 }
 
-/* Of the last curve, or of the problem that was handed over. */
-static double other_number(const rb_api *a, const char *name)
-{
-    if (strcmp(name, "curve.free_creepage") == 0 && a->curve.n > 0)
-        return a->curve.free_creepage;
-    if (strcmp(name, "curve.half_width") == 0 && a->curve.n > 0)
-        return a->curve.half_width;
-    if (strcmp(name, "history.half_width") == 0 && a->result.history.n > 0)
-        return a->result.history.half_width;
-    if (strcmp(name, "task.iterations") == 0)
-        return a->iterations;
-    if (strcmp(name, "task.residual") == 0)
-        return a->residual;
-    if (strcmp(name, "task.scaled_residual") == 0)
-        return a->scaled_residual;
-    return NAN;
-}
-
 static const char error_[] = "error.";
 
 double rb_api_number(const rb_api *a, const char *name)
@@ -510,29 +488,28 @@ double rb_api_number(const rb_api *a, const char *name)
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
     const rb_rolling_result *r = find_result(&rb_rolling_solution_scalars,
                                              is_error ? name + strlen(error_) : name);
-    if (!r)
-        return other_number(a, name);
+    if (!r) {
+        /* Of the last curve, or of the problem that was handed over. */
+        if (strcmp(name, "curve.free_creepage") == 0 && a->curve.n > 0)
+            return a->curve.free_creepage;
+        if (strcmp(name, "curve.half_width") == 0 && a->curve.n > 0)
+            return a->curve.half_width;
+        if (strcmp(name, "history.half_width") == 0 && a->result.history.n > 0)
+            return a->result.history.half_width;
+        if (strcmp(name, "task.iterations") == 0)
+            return a->iterations;
+        if (strcmp(name, "task.residual") == 0)
+            return a->residual;
+        if (strcmp(name, "task.scaled_residual") == 0)
+            return a->scaled_residual;
+        return NAN;
+    }
     if (result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
         return NAN;
     return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
 }
 
 /* ---- Matrices ---------------------------------------------------------------------- */
-
-static api_array *boundary_matrices(rb_api *a, const rb_bem_mesh *mesh, const char *name)
-{
-    const rb_rolling_case *rc = a->result.model.rc;
-    api_array *H = rb_api_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
-    api_array *G = rb_api_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
-    if (!H || !G ||
-        rb_bem_assemble(mesh, rb_rolling_material(rc, &rc->a), H->at, G->at, 2 * mesh->n,
-                        &a->why) != RB_OK) {
-        rb_api_forget_arrays(a, "H");
-        rb_api_forget_arrays(a, "G");
-        return NULL;
-    }
-    return strcmp(name, "H") == 0 ? H : G;
-}
 
 static api_array *boundary_array(rb_api *a, const char *name)
 {
@@ -550,8 +527,19 @@ static api_array *boundary_array(rb_api *a, const char *name)
     for (size_t k = 0; k < sizeof places / sizeof *places && mesh.n > 0; k++)
         if (strcmp(name, places[k].name) == 0)
             made = rb_api_copy_array(a, name, mesh.n, 1, places[k].at);
-    if (mesh.n > 0 && (strcmp(name, "H") == 0 || strcmp(name, "G") == 0))
-        made = boundary_matrices(a, &mesh, name);
+    if (mesh.n > 0 && (strcmp(name, "H") == 0 || strcmp(name, "G") == 0)) {
+        const rb_rolling_case *rc = a->result.model.rc;
+        api_array *H = rb_api_make_array(a, "H", 2 * mesh.n, 2 * mesh.n);
+        api_array *G = rb_api_make_array(a, "G", 2 * mesh.n, 2 * mesh.n);
+        if (!H || !G ||
+            rb_bem_assemble(&mesh, rb_rolling_material(rc, &rc->a), H->at, G->at,
+                            2 * mesh.n, &a->why) != RB_OK) {
+            rb_api_forget_arrays(a, "H");
+            rb_api_forget_arrays(a, "G");
+            made = NULL;
+        } else
+            made = strcmp(name, "H") == 0 ? H : G;
+    }
     rb_bem_mesh_free(&mesh);
     return made;
 }
@@ -576,17 +564,6 @@ static api_array *model_array(rb_api *a, const char *name)
     return boundary_array(a, name);
 }
 
-static api_array *patch_array(rb_api *a, const char *name, const char *column)
-{
-    const rb_rolling_solution *s = &a->result.solution;
-    const rb_rolling_result *r = find_result(&rb_rolling_patch_scalars, column);
-    api_array *made =
-        r && s->patches > 0 ? rb_api_make_array(a, name, s->patches, 1) : NULL;
-    for (int k = 0; made && k < s->patches; k++)
-        made->at[k] = rb_rolling_number(r, &s->patch[k]);
-    return made;
-}
-
 /* Hertz and Carter at the elements' midpoints. */
 static api_array *closed_array(rb_api *a, const char *name)
 {
@@ -604,15 +581,6 @@ static api_array *closed_array(rb_api *a, const char *name)
         made->at[i] = friction
                           ? rb_closed_carter_traction(mu, highest, half, creep, s->x[i])
                           : rb_closed_hertz_pressure(highest, half, s->x[i]);
-    return made;
-}
-
-static api_array *power_array(rb_api *a, const char *name)
-{
-    const rb_rolling_solution *s = &a->result.solution;
-    api_array *made = s->n > 0 ? rb_api_make_array(a, name, s->n, 1) : NULL;
-    if (made)
-        rb_rolling_friction_power(s, made->at);
     return made;
 }
 
@@ -685,10 +653,19 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
     api_array *made = rb_api_find_array(a, name);
     if (!made)
         made = series_array(a, name);
-    if (!made && strncmp(name, "patch.", 6) == 0)
-        made = patch_array(a, name, name + 6);
-    if (!made && strcmp(name, "friction_power") == 0)
-        made = power_array(a, name);
+    if (!made && strncmp(name, "patch.", 6) == 0) {
+        const rb_rolling_solution *s = &a->result.solution;
+        const rb_rolling_result *r = find_result(&rb_rolling_patch_scalars, name + 6);
+        made = r && s->patches > 0 ? rb_api_make_array(a, name, s->patches, 1) : NULL;
+        for (int k = 0; made && k < s->patches; k++)
+            made->at[k] = rb_rolling_number(r, &s->patch[k]);
+    }
+    if (!made && strcmp(name, "friction_power") == 0) {
+        const rb_rolling_solution *s = &a->result.solution;
+        made = s->n > 0 ? rb_api_make_array(a, name, s->n, 1) : NULL;
+        if (made)
+            rb_rolling_friction_power(s, made->at);
+    }
     if (!made && strncmp(name, "closed.", 7) == 0)
         made = closed_array(a, name);
     if (!made && strncmp(name, "derivative.", 11) == 0)
@@ -746,24 +723,6 @@ static int has_model(rb_api *a)
     return 0;
 }
 
-/* The column of the entering variable and the values of the basic ones, before the pivot:
- * of the last pivot's tableau, or of z0, which enters first with a column of ones. */
-static void before_pivot(const rb_api *a, const rb_lcp_pivot *p, double *value,
-                         double *column)
-{
-    const size_t n = (size_t)p->n;
-    for (size_t i = 0; i < n; i++) {
-        value[i] = a->lcp.b[i];
-        column[i] = 1.0;
-    }
-    if (a->pivots == 0)
-        return;
-    memcpy(value, &a->tableau[n * (n + 1)], n * sizeof *value);
-    for (size_t j = 0; j <= n; j++)
-        if (a->nonbasis[j] == p->entering)
-            memcpy(column, &a->tableau[n * j], n * sizeof *column);
-}
-
 static rb_status keep_tractions(rb_api *a, const rb_lcp_pivot *p, const double *value)
 {
     const int n = a->result.model.mesh.n;
@@ -801,7 +760,19 @@ static rb_status keep_columns(rb_api *a, const rb_lcp_pivot *p, double *work)
         {"pivot.z0", &p->z0, 1}};
     rb_status s = RB_OK;
 
-    before_pivot(a, p, value, column);
+    /* The column of the entering variable and the values of the basic ones, before the
+     * pivot: of the last pivot's tableau, or of z0, which enters first with a column of
+     * ones. */
+    for (size_t i = 0; i < n; i++) {
+        value[i] = a->lcp.b[i];
+        column[i] = 1.0;
+    }
+    if (a->pivots != 0) {
+        memcpy(value, &a->tableau[n * (n + 1)], n * sizeof *value);
+        for (size_t j = 0; j <= n; j++)
+            if (a->nonbasis[j] == p->entering)
+                memcpy(column, &a->tableau[n * j], n * sizeof *column);
+    }
     for (size_t i = 0; i < n; i++)
         basis[i] = p->basis[i];
     for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++)

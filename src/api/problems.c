@@ -194,22 +194,6 @@ static int is_of_contact(const char *name)
     return 0;
 }
 
-static rb_status make_columns(rb_api *a, int rows, int cracks)
-{
-    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
-                                          &rb_case_crack_scalars};
-    char text[40];
-    api_array *made = rb_api_make_array(a, "sweep.status", rows, 1);
-    for (int t = 0; t <= cracks; t++)
-        for (int j = 0; made && j < tables[t]->n; j++) {
-            if (t > 0 && is_of_contact(tables[t]->row[j].name))
-                continue;
-            snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
-            made = rb_api_make_array(a, text, rows, 1);
-        }
-    return made ? RB_OK : RB_ENOMEM;
-}
-
 static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     const study *st = context;
@@ -231,14 +215,6 @@ static int tick(int seen, void *context)
     const study *st = context;
     st->a->done = seen;
     return st->a->stopped;
-}
-
-static rb_status run_study(const rb_rolling_sweep *sweep, rb_message *why)
-{
-    rb_api_call_begins();
-    const rb_status s = rb_rolling_sweep_run(sweep, why);
-    rb_api_call_ends();
-    return s;
 }
 
 /* The crack of case k, with the m options whose texts begin at `values`. */
@@ -285,11 +261,27 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                         k + 1);
         else if (names)
             s = set_crack(&st, k, m, names, values + (size_t)k * (size_t)m);
-    if (s == RB_OK && n > 0)
-        s = make_columns(a, n, names != NULL);
+    if (s == RB_OK && n > 0) {
+        const int cracks = names != NULL;
+        const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
+                                              &rb_case_crack_scalars};
+        char text[40];
+        api_array *made = rb_api_make_array(a, "sweep.status", n, 1);
+        for (int t = 0; t <= cracks; t++)
+            for (int j = 0; made && j < tables[t]->n; j++) {
+                if (t > 0 && is_of_contact(tables[t]->row[j].name))
+                    continue;
+                snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
+                made = rb_api_make_array(a, text, n, 1);
+            }
+        s = made ? RB_OK : RB_ENOMEM;
+    }
     a->total = n;
-    if (s == RB_OK)
-        s = run_study(&of_cases, &a->why);
+    if (s == RB_OK) {
+        rb_api_call_begins();
+        s = rb_rolling_sweep_run(&of_cases, &a->why);
+        rb_api_call_ends();
+    }
     free(st.crack);
     return rb_api_ended(a, s);
 }

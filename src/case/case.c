@@ -321,16 +321,6 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 
 /* ---- Body B ------------------------------------------------------------------------ */
 
-/* Options of the second body mean nothing to a rigid plane. */
-static rb_status check_rigid(const rb_case *c, rb_message *why)
-{
-    for (int i = 0; i < rb_case_table_n; i++)
-        if (c->given[i] && strcmp(rb_case_section(&rb_case_table[i]), "body-b") == 0)
-            return refuse(c, &rb_case_table[i],
-                          "body B is rigid without --similar or --young-b", why);
-    return RB_OK;
-}
-
 /* What --similar copies from A beside its two constants, each unless B's own is given. */
 static const struct {
     const char *of_b;
@@ -378,7 +368,12 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     rc->elastic_b = s->similar || !isnan(s->young_b);
     if (!rc->elastic_b) {
         s->young_b = s->poisson_b = NAN;
-        return check_rigid(c, why);
+        /* Options of the second body mean nothing to a rigid plane. */
+        for (int i = 0; i < rb_case_table_n; i++)
+            if (c->given[i] && strcmp(rb_case_section(&rb_case_table[i]), "body-b") == 0)
+                return refuse(c, &rb_case_table[i],
+                              "body B is rigid without --similar or --young-b", why);
+        return RB_OK;
     }
     if (s->similar)
         copy_to_b(c);
@@ -435,17 +430,6 @@ static rb_status check_parameter(const rb_case *c, int is_b,
                : rb_case_refuse_given(c, name, reason, why);
 }
 
-static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
-{
-    rb_status s = RB_OK;
-    const rb_rolling_body_kind *kind;
-    for (int k = 0; (kind = rb_rolling_body_kind_get(k)); k++)
-        for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind);
-             p->option && s == RB_OK; p++)
-            s = check_parameter(c, is_b, kind, p, why);
-    return s;
-}
-
 static rb_status resolve_bodies(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
@@ -454,8 +438,13 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
         status = resolve_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
         status = resolve_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
-    for (int body = 0; body < 2 && status == RB_OK; body++)
-        status = check_parameters(c, body, why);
+    for (int body = 0; body < 2 && status == RB_OK; body++) {
+        const rb_rolling_body_kind *kind;
+        for (int k = 0; (kind = rb_rolling_body_kind_get(k)); k++)
+            for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind);
+                 p->option && status == RB_OK; p++)
+                status = check_parameter(c, body, kind, p, why);
+    }
     return status;
 }
 
@@ -551,26 +540,6 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* ---- What depends on other options ------------------------------------------------- */
 
-/* The paper's own example stays on its equal elements, as do large contacts, which need
- * them. */
-static void choose_mesh(rb_case *c)
-{
-    rb_rolling_case *rc = &c->resolved.rc;
-    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
-    const rb_rolling_mesh equal = {.n = rc->contact_elements};
-    const int many =
-        rc->contact_elements >= RB_ROLLING_LARGE || rb_rolling_is_large(rc, &equal);
-    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
-        rc->mesh = !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
-                                                                  : RB_MESH_ALIGNED;
-    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
-        rc->mesh == RB_MESH_ALIGNED)
-        rc->slip_operator = RB_SLIP_SECOND;
-    if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
-        rc->contact_elements = 100;
-}
-
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
@@ -643,13 +612,6 @@ static const struct {
     {RB_CASE_STUDY, "history", "a study has none"},
 };
 
-/* 0,3 is read as 0 and 3. */
-static int looks_like_decimal_comma(const rb_numbers *x)
-{
-    return x->n == 2 && x->value[0] == floor(x->value[0]) &&
-           x->value[1] == floor(x->value[1]);
-}
-
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
     const rb_rolling_formulation formulation = c->resolved.rc.formulation;
@@ -664,10 +626,13 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
         s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases",
                                  why);
+    /* 0,3 is read as 0 and 3. */
     if (s == RB_OK && !curve && c->resolved.mus.n > 1)
         s = rb_case_refuse_given(
             c, "mu",
-            looks_like_decimal_comma(&c->resolved.mus)
+            (c->resolved.mus.n == 2 &&
+             c->resolved.mus.value[0] == floor(c->resolved.mus.value[0]) &&
+             c->resolved.mus.value[1] == floor(c->resolved.mus.value[1]))
                 ? "expected one number, with a decimal point; a curve takes several"
                 : "expected one number; a curve takes several",
             why);
@@ -700,7 +665,22 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_purpose(c, why);
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
-    choose_mesh(c);
+    /* The paper's own example stays on its equal elements, as do large contacts, which
+     * need them. */
+    rb_rolling_case *rc = &c->resolved.rc;
+    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    const rb_rolling_mesh equal = {.n = rc->contact_elements};
+    const int many =
+        rc->contact_elements >= RB_ROLLING_LARGE || rb_rolling_is_large(rc, &equal);
+    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
+        rc->mesh = !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
+                                                                  : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
+        rc->mesh == RB_MESH_ALIGNED)
+        rc->slip_operator = RB_SLIP_SECOND;
+    if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
+        rc->contact_elements = 100;
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
     rb_rolling_case checked = c->resolved.rc;

@@ -120,19 +120,6 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     return s;
 }
 
-/* The table stands in the place of --mu: on the command line it wins over mu of the case
- * file. */
-static rb_status resolve_table_and_mu(rb_case *c, rb_message *why)
-{
-    const rb_option_set set = rb_case_options(c);
-    const rb_option_precedence how = rb_case_precedence(c);
-    const rb_status s = rb_option_resolve_against(
-        &set, &how, rb_case_option("mu"), rb_case_given(c, "friction-law"),
-        "the table of --friction-law has the coefficients", why);
-    c->resolved.rc.mu = c->words.rc.mu;
-    return s;
-}
-
 static rb_status read_friction(rb_case *c, rb_message *why)
 {
     rb_resolved_case *resolved = &c->resolved;
@@ -141,7 +128,17 @@ static rb_status read_friction(rb_case *c, rb_message *why)
     const rb_status s = read_over_x(c, &c->table[CASE_FRICTION], resolved->friction_file,
                                     units_of_file(c, "friction-law"), 1,
                                     &resolved->rc.friction.table, why);
-    return s == RB_OK ? resolve_table_and_mu(c, why) : s;
+    if (s != RB_OK)
+        return s;
+    /* The table stands in the place of --mu: on the command line it wins over mu of the
+     * case file. */
+    const rb_option_set set = rb_case_options(c);
+    const rb_option_precedence how = rb_case_precedence(c);
+    const rb_status status = rb_option_resolve_against(
+        &set, &how, rb_case_option("mu"), rb_case_given(c, "friction-law"),
+        "the table of --friction-law has the coefficients", why);
+    c->resolved.rc.mu = c->words.rc.mu;
+    return status;
 }
 
 /* ---- The history ------------------------------------------------------------------- */
@@ -199,25 +196,6 @@ int rb_case_is_replaced(const rb_case *c, const rb_option *option)
     return 0;
 }
 
-/* A column stands in the place of an option: as between two options the command line wins
- * over the file, and otherwise both at once are refused. */
-static rb_status resolve_columns(rb_case *c, rb_message *why)
-{
-    const rb_option_precedence how = rb_case_precedence(c);
-    const rb_option_set set = rb_case_options(c);
-    const rb_io_table *t = &c->table[CASE_HISTORY].table;
-    rb_status s = RB_OK;
-    for (int j = 0; j < t->columns && s == RB_OK; j++) {
-        char reason[80];
-        const rb_option *option = replaced_option(t->name[j]);
-        snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
-        if (option)
-            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
-                                          reason, why);
-    }
-    return s;
-}
-
 /* Columns named like options, in the units of those or in their own: load_kN/m. */
 static rb_status read_program_table(const rb_case *c, case_table *t, const char *path,
                                     rb_units units, rb_message *why)
@@ -249,7 +227,23 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = rb_case_without_content(c, path, set_program(t, path, &c->words.program, why),
                                     why);
-    return s == RB_OK ? resolve_columns(c, why) : s;
+    if (s != RB_OK)
+        return s;
+    /* A column stands in the place of an option: as between two options the command line
+     * wins over the file, and otherwise both at once are refused. */
+    const rb_option_precedence how = rb_case_precedence(c);
+    const rb_option_set set = rb_case_options(c);
+
+    s = RB_OK;
+    for (int j = 0; j < t->columns && s == RB_OK; j++) {
+        char reason[80];
+        const rb_option *option = replaced_option(t->name[j]);
+        snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
+        if (option)
+            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
+                                          reason, why);
+    }
+    return s;
 }
 
 /* ---- All others -------------------------------------------------------------------- */

@@ -17,19 +17,6 @@ static const rb_rolling_result *find_result(const rb_rolling_results *table,
     return NULL;
 }
 
-static rb_status refuse_result(const rb_rolling_results *table, const char *name,
-                               rb_message *why)
-{
-    rb_guess guess = {.word = name};
-
-    for (int k = 0; k < table->n; k++)
-        if (rb_sensitivity_has(&table->row[k]))
-            rb_guess_try(&guess, table->row[k].name);
-    return rb_fail(why, RB_EINVAL, "expected a result that has derivatives%s, got '%s'%s",
-                   table == &rb_rolling_history_columns ? " step by step" : "", name,
-                   rb_guess_text(&guess, ""));
-}
-
 static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
                            const rb_case_number *number, int most, rb_message *why)
 {
@@ -60,8 +47,17 @@ static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *wo
 
     if (input)
         *input++ = '\0';
-    if (!all && !find_result(s->table, word))
-        return refuse_result(s->table, word, why);
+    if (!all && !find_result(s->table, word)) {
+        rb_guess guess = {.word = word};
+
+        for (int k = 0; k < s->table->n; k++)
+            if (rb_sensitivity_has(&s->table->row[k]))
+                rb_guess_try(&guess, s->table->row[k].name);
+        return rb_fail(why, RB_EINVAL,
+                       "expected a result that has derivatives%s, got '%s'%s",
+                       s->table == &rb_rolling_history_columns ? " step by step" : "",
+                       word, rb_guess_text(&guess, ""));
+    }
     if (!all && !rb_rolling_has_result(find_result(s->table, word), rc))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
     for (int r = 0; r < s->table->n; r++) {
@@ -462,27 +458,6 @@ static void take_columns(const varied *v, int n, rb_case_slopes *s)
         }
 }
 
-static rb_status check_steps(const rb_rolling_case *rc, const rb_rolling_states *states,
-                             rb_message *why)
-{
-    return rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0
-               ? rb_fail(why, RB_EINVAL,
-                         "derivatives of a history: not for friction that depends on the "
-                         "state or an interface that yields, whose state variables are "
-                         "not stored")
-           : isnan(rb_rolling_derive(rc).load) &&
-                   !(states->program && states->program->load)
-               ? rb_fail(why, RB_EINVAL,
-                         "derivatives of a history: under a given approach the unit of "
-                         "its distances depends on the solution; give a load")
-           : states->n >= RB_ROLLING_LARGE
-               ? rb_fail(
-                     why, RB_EINVAL,
-                     "derivatives of a history: need matrices: fewer than %d elements",
-                     RB_ROLLING_LARGE)
-               : RB_OK;
-}
-
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *s, rb_message *why)
 {
@@ -492,7 +467,23 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     varied *v = calloc(RB_CASE_NUMBERS_MAX, sizeof *v);
     rb_rolling_follower *base = NULL;
     int numbers = 0, n = 0;
-    rb_status status = check_steps(&c->resolved.rc, states, why);
+    rb_status status =
+        rb_rolling_law_depends_on_state(&c->resolved.rc) ||
+                c->resolved.rc.yield_stress > 0.0
+            ? rb_fail(why, RB_EINVAL,
+                      "derivatives of a history: not for friction that depends on the "
+                      "state or an interface that yields, whose state variables are "
+                      "not stored")
+        : isnan(rb_rolling_derive(&c->resolved.rc).load) &&
+                !(states->program && states->program->load)
+            ? rb_fail(why, RB_EINVAL,
+                      "derivatives of a history: under a given approach the unit of "
+                      "its distances depends on the solution; give a load")
+        : states->n >= RB_ROLLING_LARGE
+            ? rb_fail(why, RB_EINVAL,
+                      "derivatives of a history: need matrices: fewer than %d elements",
+                      RB_ROLLING_LARGE)
+            : RB_OK;
 
     if (!number || !v)
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");

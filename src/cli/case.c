@@ -135,24 +135,6 @@ static void summarise(const cli_case_run *run)
         cli_print_lines(print_summary, run);
 }
 
-static cli_exit print(const cli_spec *spec, const cli_case_run *run)
-{
-    /* a person reads the notes first */
-    const int first = !run->o.output && cli_reader_is_person();
-    cli_exit code = run->command->before_table ? run->command->before_table(run) : CLI_OK;
-    if (code == CLI_OK && first)
-        summarise(run);
-    if (code == CLI_OK)
-        code = cli_write_file(run->o.output, write_results, run);
-    if (code == CLI_OK)
-        code = write_files(spec, run, 0);
-    if (code == CLI_OK && !first)
-        summarise(run);
-    if (code == CLI_OK && run->o.cite)
-        rb_report_citations(stderr, &run->c->rc, run->solution);
-    return code == CLI_OK ? write_files(spec, run, 1) : code;
-}
-
 /* The sets of options of a command: the case's, the command's and those of its output. */
 static cli_spec spec_of(cli_case_run *run)
 {
@@ -224,7 +206,23 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         const rb_status s = command->solve(&run, &why);
         if (!run.o.quiet)
             cli_wait_end();
-        code = run.printable ? print(&spec, &run) : CLI_OK;
+        if (run.printable) {
+            /* a person reads the notes first */
+            const int first = !run.o.output && cli_reader_is_person();
+            code = run.command->before_table ? run.command->before_table(&run) : CLI_OK;
+            if (code == CLI_OK && first)
+                summarise(&run);
+            if (code == CLI_OK)
+                code = cli_write_file(run.o.output, write_results, &run);
+            if (code == CLI_OK)
+                code = write_files(&spec, &run, 0);
+            if (code == CLI_OK && !first)
+                summarise(&run);
+            if (code == CLI_OK && run.o.cite)
+                rb_report_citations(stderr, &run.c->rc, run.solution);
+            code = code == CLI_OK ? write_files(&spec, &run, 1) : code;
+        } else
+            code = CLI_OK;
         if (code == CLI_OK && s != RB_OK)
             code = cli_case_refused(run.words, s, &why);
     }

@@ -8,16 +8,6 @@
 static const cli_command *commands;
 static char *command_line;
 
-/* Room for every character quoted ('\''), a pair of quotes and a space each; then 4 bytes
- * for each of them in print. */
-static size_t quoted_size(int argc, char **argv)
-{
-    size_t size = sizeof "rollbem";
-    for (int i = 1; i < argc; i++)
-        size += 4 * strlen(argv[i]) + 3;
-    return size;
-}
-
 static char *append_quoted(char *to, const char *word)
 {
     const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -41,7 +31,12 @@ static char *append_quoted(char *to, const char *word)
 
 static char *quote(int argc, char **argv)
 {
-    char *line = malloc(quoted_size(argc, argv));
+    /* Room for every character quoted ('\''), a pair of quotes and a space each; then 4
+     * bytes for each of them in print. */
+    size_t size = sizeof "rollbem";
+    for (int i = 1; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    char *line = malloc(size);
     if (!line)
         return NULL;
     memcpy(line, "rollbem", 7);

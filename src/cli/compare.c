@@ -199,13 +199,6 @@ static double cost_of(const comparison *c, int problem, int solver)
 
 /* ---- Output ------------------------------------------------------------------------ */
 
-static const char *status_of(const comparison *c, const run_result *one)
-{
-    return one->status == RB_EINVAL
-               ? "not taken"
-               : rb_friction_status_text(one->status, c->o->tol, &one->info);
-}
-
 /* A run as it is told. */
 typedef struct {
     const char *file, *solver, *status;
@@ -233,7 +226,10 @@ static told_run told(const comparison *c, int k)
 {
     const run_result *one = &c->result[k];
     return (told_run){c->file[k / c->solvers], c->solver[k % c->solvers],
-                      status_of(c, one), one->info};
+                      one->status == RB_EINVAL
+                          ? "not taken"
+                          : rb_friction_status_text(one->status, c->o->tol, &one->info),
+                      one->info};
 }
 
 static rb_status print_profiles(FILE *out, const void *context, rb_message *why)

@@ -158,20 +158,6 @@ static const cli_row rows[] = {
 
 enum { ROWS = sizeof rows / sizeof *rows, FACTS = 5 };
 
-static void add_problem(friction_run *run, const friction_result *r)
-{
-    json_t *p = cli_rows_json(run->o->facts ? ROWS : ROWS - FACTS, rows, r, r->m > 0);
-    if (run->o->solution) {
-        rb_report_json_set(&p, "r",
-                           r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
-        rb_report_json_set(&p, "u",
-                           r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
-    }
-    if (run->o->trace)
-        rb_report_json_set(&p, "trace", json_incref(run->steps));
-    rb_report_json_append(&run->files.problems, p);
-}
-
 static const char *columns_of(const friction_options *o)
 {
     if (o->solution)
@@ -373,9 +359,18 @@ static cli_exit solve_file(void *context, const char *path)
         code = solve_cones(run, &r);
     else
         code = solve_friction(run, &r);
-    if (is_json(run->o))
-        add_problem(run, &r);
-    else {
+    if (is_json(run->o)) {
+        json_t *p = cli_rows_json(run->o->facts ? ROWS : ROWS - FACTS, rows, &r, r.m > 0);
+        if (run->o->solution) {
+            rb_report_json_set(&p, "r",
+                               r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
+            rb_report_json_set(&p, "u",
+                               r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
+        }
+        if (run->o->trace)
+            rb_report_json_set(&p, "trace", json_incref(run->steps));
+        rb_report_json_append(&run->files.problems, p);
+    } else {
         if (r.m && r.note.text[0])
             rb_report_comment(&run->files.cells, "note: %s: %s", r.file, r.note.text);
         if (r.m && run->o->solution) {

@@ -244,25 +244,6 @@ static void print_solutions(lcp_run *run, const lcp_result *r)
         }
 }
 
-/* The row of a file, or its # line where the rows are pivots or unknowns. */
-static void print_problem(lcp_run *run, const lcp_result *r)
-{
-    rb_report_cells *c = &run->files.cells;
-    if (!r->n)
-        return;
-    if (run->o->trace || run->o->solution || run->o->all) {
-        char residual[40] = ""; /* without a solution there is none */
-        if (isfinite(r->info.res))
-            snprintf(residual, sizeof residual, ", scaled residual %.3g", r->info.scaled);
-        rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r->file, r->status,
-                          r->solver, r->n, r->info.iters,
-                          run->o->all ? "bases" : "pivots", residual, r->seconds);
-    } else
-        cli_rows_cells(c, run->files.columns, ROWS, rows, r);
-    if ((run->o->solution || run->o->all) && r->z)
-        print_solutions(run, r);
-}
-
 /* ---- A problem --------------------------------------------------------------------- */
 
 /* A scaled residual that rounding leaves. */
@@ -322,23 +303,6 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
     else if (code != CLI_OK)
         cli_fail(code, "%s: %s", r->file, r->info.msg.text);
     return code;
-}
-
-static cli_exit run_solver(lcp_run *run, lcp_result *r)
-{
-    const rb_lcp_options opt = solver_options(run, r);
-    const double start = rb_seconds();
-    const rb_status s =
-        rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
-    r->seconds = rb_seconds() - start;
-    if (s < 0)
-        return invalid(r, s, &r->info.msg);
-    r->solver = r->info.solver;
-    r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
-    r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
-    if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
-        return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
-    return say_end(run->o, r, s);
 }
 
 /* ---- All solutions ----------------------------------------------------------------- */
@@ -412,7 +376,21 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, &(rb_message){""});
     r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
-    return run->o->all ? run_all(run, &p->M, r) : run_solver(run, r);
+    if (run->o->all)
+        return run_all(run, &p->M, r);
+    const rb_lcp_options opt = solver_options(run, r);
+    const double start = rb_seconds();
+    const rb_status s =
+        rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
+    r->seconds = rb_seconds() - start;
+    if (s < 0)
+        return invalid(r, s, &r->info.msg);
+    r->solver = r->info.solver;
+    r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
+    r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
+    if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
+        return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
+    return say_end(run->o, r, s);
 }
 
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
@@ -508,8 +486,24 @@ static cli_exit solve_file(void *context, const char *path)
         cli_wait_end();
     if (is_json(run->o))
         add_problem(run, &r);
-    else
-        print_problem(run, &r);
+    else {
+        /* The row of a file, or its # line where the rows are pivots or unknowns. */
+        rb_report_cells *c = &run->files.cells;
+        if (r.n) {
+            if (run->o->trace || run->o->solution || run->o->all) {
+                char residual[40] = ""; /* without a solution there is none */
+                if (isfinite(r.info.res))
+                    snprintf(residual, sizeof residual, ", scaled residual %.3g",
+                             r.info.scaled);
+                rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file,
+                                  r.status, r.solver, r.n, r.info.iters,
+                                  run->o->all ? "bases" : "pivots", residual, r.seconds);
+            } else
+                cli_rows_cells(c, run->files.columns, ROWS, rows, &r);
+            if ((run->o->solution || run->o->all) && r.z)
+                print_solutions(run, &r);
+        }
+    }
     json_decref(run->pivots);
     rb_sparse_free(&r.M);
     free(r.lower);

@@ -6,9 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The program beside this one. */
-static cli_exit take_over(int argc, char **argv)
+cli_exit cli_pool_begin(int argc, char **argv)
 {
+    if (!cli_pool_is_launched())
+        return CLI_CONTINUE;
+    /* The program beside this one. */
     char path[4096];
     const ssize_t n = readlink("/proc/self/exe", path, sizeof path - sizeof "-mpi");
     char **all = calloc((size_t)argc + 2, sizeof *all);
@@ -22,11 +24,6 @@ static cli_exit take_over(int argc, char **argv)
     free(all);
     return cli_fail(CLI_INTERNAL, "started by mpirun, but there is no rollbem-mpi beside "
                                   "rollbem: built without Open MPI");
-}
-
-cli_exit cli_pool_begin(int argc, char **argv)
-{
-    return cli_pool_is_launched() ? take_over(argc, argv) : CLI_CONTINUE;
 }
 
 int cli_pool_is_worker(void)

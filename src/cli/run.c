@@ -52,19 +52,6 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
     return s;
 }
 
-static rb_status keep_snapshot(watch *w, const rb_rolling_model *model, int step)
-{
-    rb_rolling_solution solution = {0};
-    rb_status s = rb_rolling_model_solution(model, &solution, w->why);
-    rb_rolling_solution_convert(&solution, w->units);
-    if (s == RB_OK)
-        s = cli_write_snapshot(w->steps->snapshots, step, model->rc, &solution,
-                               &w->steps->style, w->why);
-    w->written = step;
-    rb_rolling_solution_free(&solution);
-    return s;
-}
-
 /* A run that begins anew, on a wider zone, has other steps. */
 static void remove_snapshots(watch *w)
 {
@@ -119,8 +106,17 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     }
     if (step == 0 && w->written > 0)
         remove_snapshots(w);
-    if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
-        w->failed = keep_snapshot(w, model, step + 1);
+    if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps)) {
+        rb_rolling_solution solution = {0};
+        rb_status s = rb_rolling_model_solution(model, &solution, w->why);
+        rb_rolling_solution_convert(&solution, w->units);
+        if (s == RB_OK)
+            s = cli_write_snapshot(w->steps->snapshots, step + 1, model->rc, &solution,
+                                   &w->steps->style, w->why);
+        w->written = step + 1;
+        rb_rolling_solution_free(&solution);
+        w->failed = s;
+    }
     if (asked->states && w->failed == RB_OK)
         w->failed = keep_state(model, step, steps, asked->states, w->why);
     return cli_interrupted() || w->failed != RB_OK;

@@ -158,12 +158,23 @@ static int read_values(typed *t, char *text, double **value)
     return *value ? n : NO_MEMORY;
 }
 
-/* The values behind the name of the column that has just been added. */
-static cli_exit read_varied(study *st, int k, const char *source, const char *text)
+static cli_exit add_varied(study *st, int k)
 {
+    char source[24], name[64];
+    int at = 0;
+
+    snprintf(source, sizeof source, "--vary-%d", k + 1);
+    const cli_exit bad = code_of(st, source + 2);
+    if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
+        return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
+                        st->o->vary[k]);
+    const cli_exit code = add_column(st, source, bad, name, NULL);
+    if (code != CLI_CONTINUE)
+        return code;
+    /* The values behind the name of the column that has just been added. */
     study_column *c = &st->column[st->columns - 1];
     typed t = typed_of(st, source + 2, c->name);
-    char *copy = strdup(text);
+    char *copy = strdup(st->o->vary[k] + at);
     const int rows = copy ? read_values(&t, copy, &st->owned[k]) : NO_MEMORY;
     free(copy);
     if (rows == NO_MEMORY)
@@ -176,28 +187,6 @@ static cli_exit read_varied(study *st, int k, const char *source, const char *te
             source, st->o->vary[k]);
     c->value = st->owned[k];
     return add_factor(st, source, c->bad, rows);
-}
-
-static cli_exit add_varied(study *st, int k)
-{
-    char source[24], name[64];
-    int at = 0;
-
-    snprintf(source, sizeof source, "--vary-%d", k + 1);
-    const cli_exit bad = code_of(st, source + 2);
-    if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
-        return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
-                        st->o->vary[k]);
-    const cli_exit code = add_column(st, source, bad, name, NULL);
-    return code == CLI_CONTINUE ? read_varied(st, k, source, st->o->vary[k] + at) : code;
-}
-
-/* The numbers of the table, as typed numbers. */
-static void convert_column(const study *st, const study_column *c, double *value)
-{
-    const typed t = typed_of(st, "cases", c->name);
-    for (int k = 0; k < st->table.rows; k++)
-        value[k] = converted(&t, value[k]);
 }
 
 static cli_exit add_table(study *st)
@@ -214,8 +203,12 @@ static cli_exit add_table(study *st)
     for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
         double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
         code = add_column(st, path, CLI_DATA, st->table.name[j], value);
-        if (code == CLI_CONTINUE)
-            convert_column(st, &st->column[st->columns - 1], value);
+        if (code == CLI_CONTINUE) {
+            /* The numbers of the table, as typed numbers. */
+            const typed t = typed_of(st, "cases", st->column[st->columns - 1].name);
+            for (int k = 0; k < st->table.rows; k++)
+                value[k] = converted(&t, value[k]);
+        }
     }
     return code == CLI_CONTINUE ? add_factor(st, path, CLI_DATA, st->table.rows) : code;
 }
@@ -235,15 +228,6 @@ cli_exit cli_study_read(study *st)
     if (code == CLI_CONTINUE && st->factors == 0 && st->o->sample == 0)
         code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases, or --sample");
     return code;
-}
-
-/* n numbers of a standard normal distribution, one from each of n equal parts of its
- * probability, in random order. */
-static void latin_column(gsl_rng *rng, int n, double *x)
-{
-    for (int k = 0; k < n; k++)
-        x[k] = gsl_cdf_ugaussian_Pinv((k + gsl_rng_uniform_pos(rng)) / n);
-    gsl_ran_shuffle(rng, x, (size_t)n, sizeof *x);
 }
 
 cli_exit cli_study_sample(study *st, const rb_case *c)
@@ -267,7 +251,11 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
     for (int j = 0; j < t.n && code == CLI_CONTINUE; j++) {
         double *value = st->sampled + (size_t)j * (size_t)n;
         const rb_option *o = rb_case_option(t.name[j]);
-        latin_column(rng, n, value);
+        /* n numbers of a standard normal distribution, one from each of n equal parts of
+         * its probability, in random order. */
+        for (int k = 0; k < n; k++)
+            value[k] = gsl_cdf_ugaussian_Pinv((k + gsl_rng_uniform_pos(rng)) / n);
+        gsl_ran_shuffle(rng, value, (size_t)n, sizeof *value);
         for (int k = 0; k < n && o; k++)
             value[k] = rb_unit_shown(rb_case_resolved(c)->units, o->unit,
                                      t.value[j] + t.deviation[j] * value[k]);

@@ -180,20 +180,6 @@ static study_tables tables_of(const study *st)
                      {OF_SOLUTION, OF_STRESS}};
 }
 
-/* With the results that there are, where none is similar. */
-static cli_exit refuse_result(const study *st, const char *option, const char *name,
-                              rb_guess *guess, int bar)
-{
-    const study_tables of = tables_of(st);
-    const char *near = rb_guess_text(guess, bar ? "error_" : "");
-    char all[3000] = "";
-    for (int t = 0; t < 2 && !*near; t++)
-        for (int k = 0; k < of.table[t]->n; k++)
-            rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
-                      of.table[t]->row[k].name);
-    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
-}
-
 /* The contact of a crack has no error bars of its own. */
 static int has_error_bar(const study *st, const study_result *of)
 {
@@ -226,7 +212,15 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
                        ? cli_fail(CLI_USAGE, "--%s: %s has no error bar", option, own)
                        : CLI_CONTINUE;
         }
-    return refuse_result(st, option, name, &guess, bar);
+    /* With the results that there are, where none is similar. */
+    const study_tables of = tables_of(st);
+    const char *near = rb_guess_text(&guess, bar ? "error_" : "");
+    char all[3000] = "";
+    for (int t = 0; t < 2 && !*near; t++)
+        for (int k = 0; k < of.table[t]->n; k++)
+            rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
+                      of.table[t]->row[k].name);
+    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
 }
 
 /* The next of --results, whose name ends at *at. */
@@ -237,22 +231,6 @@ static cli_exit choose_next(study *st, const char **at)
     snprintf(name, sizeof name, "%.*s", (int)(n < most ? n : most), *at);
     *at += n + ((*at)[n] == ',');
     return choose_by_name(st, "results", name);
-}
-
-static cli_exit choose_shown(study *st)
-{
-    const char *shown = cli_study_shown(st);
-    return is_given(st, shown)
-               ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result", shown)
-               : choose_by_name(st, "show", shown);
-}
-
-static void choose_error_bars(study *st)
-{
-    const int n = st->results;
-    for (int k = 0; k < n; k++)
-        if (has_error_bar(st, &st->result[k]))
-            choose(st, (study_result){st->result[k].r, st->result[k].of, 1});
 }
 
 /* Not every body's stress is known; what else is wrong is known with the first case. */
@@ -283,10 +261,18 @@ static cli_exit choose_results(study *st)
             choose(st, (study_result){r, OF_SOLUTION, 0});
     for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
         code = choose_next(st, &at);
-    if (code == CLI_CONTINUE && cli_study_has_pictures(st))
-        code = choose_shown(st);
-    if (code == CLI_CONTINUE && one->error)
-        choose_error_bars(st);
+    if (code == CLI_CONTINUE && cli_study_has_pictures(st)) {
+        const char *shown = cli_study_shown(st);
+        code = is_given(st, shown)
+                   ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result", shown)
+                   : choose_by_name(st, "show", shown);
+    }
+    if (code == CLI_CONTINUE && one->error) {
+        const int n = st->results;
+        for (int k = 0; k < n; k++)
+            if (has_error_bar(st, &st->result[k]))
+                choose(st, (study_result){st->result[k].r, st->result[k].of, 1});
+    }
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
         code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
@@ -367,14 +353,6 @@ static void write_head(const study *st, FILE *out)
                           "friction on A points to -x, Q < 0");
 }
 
-/* Its first cells alone, as far as they are known before the case is solved. */
-static void write_inputs(const study *st, int k, FILE *out)
-{
-    rb_report_cells c = {.out = out, .style = st->o->style};
-    for (int j = 0; j <= st->columns; j++)
-        rb_report_cell_number(&c, cell_value(st, j, k, NULL));
-}
-
 /* A case that was not solved shows in the exit code. */
 static void count_status(study *st, int k, rb_status status)
 {
@@ -385,39 +363,6 @@ static void count_status(study *st, int k, rb_status status)
     st->worst = code > st->worst ? code : st->worst;
     if (status != RB_OK && status != RB_ENOMEM && !st->unsolved_case)
         st->unsolved_case = k + 1;
-}
-
-/* Means and deviations of a sample: of what has come in this run. */
-static void add_to_sums(study *st, int k, const rb_rolling_row *row)
-{
-    if (st->o->sample == 0 || row->solution.status != RB_OK)
-        return;
-    for (int j = 0; j < st->results; j++) {
-        const double x = cell_value(st, st->columns + 2 + j, k, row);
-        if (st->summed == 0)
-            st->first_result[j] = x;
-        st->sum[j] += x - st->first_result[j];
-        st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
-    }
-    st->summed++;
-}
-
-static void print_sums(const study *st)
-{
-    char heading[STUDY_HEADING];
-    const double n = st->summed;
-
-    for (int j = 0; j < st->results && st->summed > 1; j++) {
-        const double mean = st->sum[j] / n;
-        const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
-        const rb_rolling_result *r = st->result[j].r;
-        const double rounding = rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc,
-                                                        r, st->first_result[j] + mean);
-        if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
-            fprintf(stderr, "  %-28s %.6g +- %.2g\n",
-                    column_name(st, st->columns + 2 + j, heading),
-                    st->first_result[j] + mean, sqrt(variance));
-    }
 }
 
 static int see_row(int k, const rb_rolling_row *row, void *context)
@@ -439,18 +384,19 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     }
     if (st->o->style.format != RB_REPORT_JSON)
         rb_report_cells_end_row(&c);
-    add_to_sums(st, k, &shown);
+    /* Means and deviations of a sample: of what has come in this run. */
+    if (st->o->sample != 0 && shown.solution.status == RB_OK) {
+        for (int j = 0; j < st->results; j++) {
+            const double x = cell_value(st, st->columns + 2 + j, k, &shown);
+            if (st->summed == 0)
+                st->first_result[j] = x;
+            st->sum[j] += x - st->first_result[j];
+            st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
+        }
+        st->summed++;
+    }
     count_status(st, k, row->solution.status);
     return ferror(st->out);
-}
-
-/* The lists that see_row fills. */
-static cli_exit begin_json(study *st)
-{
-    st->list = json_array();
-    for (int j = 0; j < column_count(st); j++)
-        rb_report_json_append(&st->list, json_array());
-    return st->list ? CLI_CONTINUE : cli_fail(CLI_INTERNAL, "out of memory");
 }
 
 /* Inputs are those of the first case. */
@@ -599,7 +545,10 @@ static int is_row(study *st, int k, const char *line, size_t length)
     double status = 0.0, value;
     FILE *memory = open_memstream(&wanted, &size);
     if (memory) {
-        write_inputs(st, k, memory);
+        /* Its first cells alone, as far as they are known before the case is solved. */
+        rb_report_cells c = {.out = memory, .style = st->o->style};
+        for (int j = 0; j <= st->columns; j++)
+            rb_report_cell_number(&c, cell_value(st, j, k, NULL));
         fclose(memory);
     }
     int good = wanted && length == strlen(line) && strncmp(line, wanted, size) == 0;
@@ -676,45 +625,29 @@ static cli_exit begin_file(study *st)
 
 static cli_exit close_output(study *st, cli_exit code);
 
-/* What cannot be resumed appears at the end, whole. */
-static cli_exit open_whole(study *st)
-{
-    rb_message why = {""};
-    const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    st->out = st->w.file;
-    if (st->o->style.format == RB_REPORT_JSON)
-        return begin_json(st);
-    write_head(st, st->out);
-    return CLI_CONTINUE;
-}
-
-static cli_exit close_whole(study *st, cli_exit code)
-{
-    rb_message why = {""};
-    rb_status s = RB_OK;
-    if (!st->complete || st->lost) {
-        rb_io_writer_abandon(&st->w);
-        return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
-    }
-    if (st->list)
-        s = write_json(st);
-    if (s == RB_OK)
-        s = rb_io_writer_commit(&st->w, &why);
-    else
-        rb_io_writer_abandon(&st->w);
-    return s == RB_OK ? code : cli_say(s, &why);
-}
-
 static cli_exit open_output(study *st)
 {
     struct stat old;
     const char *path = st->o->output;
     const int exists = path && stat(path, &old) == 0;
 
-    if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare)
-        return open_whole(st);
+    if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare) {
+        /* What cannot be resumed appears at the end, whole. */
+        rb_message why = {""};
+        const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
+        if (s != RB_OK)
+            return cli_say(s, &why);
+        st->out = st->w.file;
+        if (st->o->style.format == RB_REPORT_JSON) {
+            /* The lists that see_row fills. */
+            st->list = json_array();
+            for (int j = 0; j < column_count(st); j++)
+                rb_report_json_append(&st->list, json_array());
+            return st->list ? CLI_CONTINUE : cli_fail(CLI_INTERNAL, "out of memory");
+        }
+        write_head(st, st->out);
+        return CLI_CONTINUE;
+    }
     st->out = stdout;
     if (!path && cli_reader_is_person()) {
         st->out = open_memstream(&st->text, &st->size);
@@ -745,20 +678,23 @@ static cli_exit open_output(study *st)
     return code == CLI_CONTINUE ? code : close_output(st, code);
 }
 
-/* What was not written whole is taken back: half a row, half a head. */
-static void take_back(const study *st)
-{
-    struct stat now;
-    if (st->created && st->whole == 0)
-        unlink(st->path);
-    else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
-        (void)!truncate(st->path, st->whole);
-}
-
 static cli_exit close_output(study *st, cli_exit code)
 {
-    if (st->w.file)
-        return close_whole(st, code);
+    if (st->w.file) {
+        rb_message why = {""};
+        rb_status s = RB_OK;
+        if (!st->complete || st->lost) {
+            rb_io_writer_abandon(&st->w);
+            return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
+        }
+        if (st->list)
+            s = write_json(st);
+        if (s == RB_OK)
+            s = rb_io_writer_commit(&st->w, &why);
+        else
+            rb_io_writer_abandon(&st->w);
+        return s == RB_OK ? code : cli_say(s, &why);
+    }
     int failed = ferror(st->out) || !flush_rows(st), e = errno;
     if (st->out != stdout && fclose(st->out) != 0 && !failed) {
         failed = 1;
@@ -771,8 +707,14 @@ static cli_exit close_output(study *st, cli_exit code)
     }
     free(st->text);
     st->text = NULL;
-    if (failed && st->path)
-        take_back(st);
+    if (failed && st->path) {
+        /* What was not written whole is taken back: half a row, half a head. */
+        struct stat now;
+        if (st->created && st->whole == 0)
+            unlink(st->path);
+        else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
+            (void)!truncate(st->path, st->whole);
+    }
     if (!failed || code == CLI_CANTWRITE || (!st->path && e == EPIPE))
         return failed ? CLI_CANTWRITE : code;
     errno = e;
@@ -835,8 +777,22 @@ static cli_exit run(study *st)
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
                 spent, st->unsolved, st->cases);
-    if (!st->o->quiet)
-        print_sums(st);
+    if (!st->o->quiet) {
+        char heading[STUDY_HEADING];
+        const double n = st->summed;
+
+        for (int j = 0; j < st->results && st->summed > 1; j++) {
+            const double mean = st->sum[j] / n;
+            const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
+            const rb_rolling_result *r = st->result[j].r;
+            const double rounding = rb_sensitivity_rounding(
+                &rb_case_resolved(st->base)->rc, r, st->first_result[j] + mean);
+            if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
+                fprintf(stderr, "  %-28s %.6g +- %.2g\n",
+                        column_name(st, st->columns + 2 + j, heading),
+                        st->first_result[j] + mean, sqrt(variance));
+        }
+    }
     say_why_unsolved(st, &sweep);
     if (st->o->cite)
         rb_report_citations(stderr, &rb_case_resolved(st->base)->rc, NULL);

@@ -46,16 +46,6 @@ static void list_check(const rb_verify_check *c, void *context)
     rb_report_json_append(context, one);
 }
 
-static int print_all(void)
-{
-    int count = 0;
-    if (cli_reader_is_person())
-        printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
-    const int failed = rb_verify_run(print_check, &count);
-    printf("%d of %d references hold\n", count - failed, count);
-    return failed;
-}
-
 static rb_status write_json(FILE *out, const void *context, rb_message *why)
 {
     json_t *root = rb_report_json_start(cli_command_line());
@@ -79,8 +69,14 @@ int cli_verify(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands > 0)
         code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
-    if (code == CLI_CONTINUE && !json)
-        code = print_all() ? CLI_UNSOLVED : CLI_OK;
+    if (code == CLI_CONTINUE && !json) {
+        int count = 0;
+        if (cli_reader_is_person())
+            printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
+        const int failed = rb_verify_run(print_check, &count);
+        printf("%d of %d references hold\n", count - failed, count);
+        code = failed ? CLI_UNSOLVED : CLI_OK;
+    }
     if (code == CLI_CONTINUE) {
         json_t *all = json_array();
         const int failed = rb_verify_run(list_check, &all);

@@ -4,27 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Axis of component k of the contact frame (N, T1, T2). */
-static int axis_of(int dimension, int k)
-{
-    return k == 0 ? dimension - 1 : k - 1;
-}
-
-static rb_status contact_map(const rb_fem_mesh *mesh, int contacts, const int *node,
-                             rb_sparse *H)
-{
-    const int d = mesh->dimension, m = d * contacts;
-    rb_triplets t = {.rows = mesh->dofs, .cols = m};
-    for (int k = 0; k < m; k++) {
-        const int dof = mesh->dof[d * node[k / d] + axis_of(d, k % d)];
-        if (dof >= 0)
-            rb_triplets_add(&t, dof, k, 1.0);
-    }
-    const rb_status s = rb_sparse_from_triplets(&t, H);
-    rb_triplets_free(&t);
-    return s;
-}
-
 static int slides(const rb_fem_mesh *mesh, int node)
 {
     for (int k = 0; k < mesh->dimension - 1; k++)
@@ -60,9 +39,20 @@ rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *materia
     if (!model->load)
         return RB_ENOMEM;
     const rb_status status = rb_fem_stiffness(&model->mesh, material, &s->K, why);
-    return status == RB_OK
-               ? contact_map(&model->mesh, s->contacts, model->contact_node, &s->H)
-               : status;
+    if (status != RB_OK)
+        return status;
+    const int d = model->mesh.dimension, m = d * s->contacts;
+    rb_triplets t = {.rows = model->mesh.dofs, .cols = m};
+    for (int k = 0; k < m; k++) {
+        /* Axis of component k of the contact frame (N, T1, T2). */
+        const int dof = model->mesh.dof[d * model->contact_node[k / d] +
+                                        ((k % d) == 0 ? d - 1 : (k % d) - 1)];
+        if (dof >= 0)
+            rb_triplets_add(&t, dof, k, 1.0);
+    }
+    const rb_status st = rb_sparse_from_triplets(&t, &s->H);
+    rb_triplets_free(&t);
+    return st;
 }
 
 void rb_fem_model_free(rb_fem_model *model)

@@ -40,12 +40,6 @@ static int *join_layer(int n, int first, int *bar)
     return bar;
 }
 
-static int bars(grid g)
-{
-    const int inclined = g.m < g.n ? g.m * g.m : g.n * g.n;
-    return 2 * g.n * (g.n - 1) + 2 * g.m * (g.m - 1) + 4 * inclined;
-}
-
 static double share(int i, int n)
 {
     return i == 0 || i == n - 1 ? 0.5 : 1.0;
@@ -59,8 +53,10 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
     *model = (rb_fem_model){0};
     if (n < 2 || n > 200)
         return rb_fail(why, RB_EINVAL, "truss: %d contact nodes per side", n);
-    rb_status s =
-        rb_fem_model_alloc(RB_FEM_BAR, n * n + g.m * g.m, bars(g), n * n, model);
+    const int inclined = g.m < g.n ? g.m * g.m : g.n * g.n;
+    rb_status s = rb_fem_model_alloc(
+        RB_FEM_BAR, n * n + g.m * g.m,
+        (2 * g.n * (g.n - 1) + 2 * g.m * (g.m - 1) + 4 * inclined), n * n, model);
     if (s == RB_OK) {
         place_layer(n, 0, 0.0, &model->mesh);
         place_layer(g.m, n * n, spacing[2], &model->mesh);

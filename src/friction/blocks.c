@@ -32,28 +32,28 @@ static void reader_start(const rb_friction_problem *local, int contact, reader *
     }
 }
 
-static int next_sparse(reader *s, double *block)
+/* The next block row that has an entry or is the diagonal, -1 after the last.  block:
+ * d x d zeros to be filled, or NULL (sparse W only). */
+static int next_block(reader *s, double *block)
 {
-    const rb_sparse *w = &s->local->Ws;
-    const int d = s->d;
-    int first = s->diagonal;
-    for (int b = 0; b < d; b++)
-        if (s->at[b] < s->end[b] && w->i[s->at[b]] < first)
-            first = w->i[s->at[b]];
-    if (first == INT_MAX)
-        return -1;
-    const int row = first / d, top = row * d;
-    for (int b = 0; b < d; b++)
-        for (; s->at[b] < s->end[b] && w->i[s->at[b]] < top + d; s->at[b]++)
-            if (block)
-                block[w->i[s->at[b]] - top + b * d] = w->x[s->at[b]];
-    if (row == s->contact)
-        s->diagonal = INT_MAX;
-    return row;
-}
-
-static int next_dense(reader *s, double *block)
-{
+    if (s->local->form != RB_FRICTION_LOCAL_DENSE) {
+        const rb_sparse *w = &s->local->Ws;
+        const int d = s->d;
+        int first = s->diagonal;
+        for (int b = 0; b < d; b++)
+            if (s->at[b] < s->end[b] && w->i[s->at[b]] < first)
+                first = w->i[s->at[b]];
+        if (first == INT_MAX)
+            return -1;
+        const int row = first / d, top = row * d;
+        for (int b = 0; b < d; b++)
+            for (; s->at[b] < s->end[b] && w->i[s->at[b]] < top + d; s->at[b]++)
+                if (block)
+                    block[w->i[s->at[b]] - top + b * d] = w->x[s->at[b]];
+        if (row == s->contact)
+            s->diagonal = INT_MAX;
+        return row;
+    }
     const int d = s->d;
     const size_t m = (size_t)(d * s->local->contacts);
     for (int row = s->next; row < s->local->contacts; row++) {
@@ -69,14 +69,6 @@ static int next_dense(reader *s, double *block)
             return row;
     }
     return -1;
-}
-
-/* The next block row that has an entry or is the diagonal, -1 after the last.  block:
- * d x d zeros to be filled, or NULL (sparse W only). */
-static int next_block(reader *s, double *block)
-{
-    return s->local->form == RB_FRICTION_LOCAL_DENSE ? next_dense(s, block)
-                                                     : next_sparse(s, block);
 }
 
 /* ---- Blocks ------------------------------------------------------------------------ */

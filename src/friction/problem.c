@@ -143,19 +143,6 @@ static rb_status examine_local(const rb_sparse *w, int with_rank,
     return s;
 }
 
-static rb_status examine_global(const rb_friction_problem *p, int with_rank,
-                                rb_friction_facts *facts)
-{
-    int rank = p->dofs;
-    if (!with_rank)
-        return RB_OK;
-    rb_status s = rb_sparse_rank(&p->H, &facts->rank);
-    if (s == RB_OK)
-        s = rb_sparse_rank(&p->K, &rank);
-    facts->nullity = p->dofs - rank;
-    return s;
-}
-
 rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
                               rb_friction_facts *facts)
 {
@@ -164,9 +151,17 @@ rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
     rb_status s;
     *facts = (rb_friction_facts){0};
     switch (problem->form) {
-    case RB_FRICTION_GLOBAL:
-        s = examine_global(problem, with_rank, facts);
-        break;
+    case RB_FRICTION_GLOBAL: {
+        int rank = problem->dofs;
+        if (!with_rank)
+            s = RB_OK;
+        else {
+            s = rb_sparse_rank(&problem->H, &facts->rank);
+            if (s == RB_OK)
+                s = rb_sparse_rank(&problem->K, &rank);
+            facts->nullity = problem->dofs - rank;
+        }
+    } break;
     case RB_FRICTION_LOCAL_SPARSE:
         s = examine_local(&problem->Ws, with_rank, facts);
         break;

@@ -172,17 +172,6 @@ static rb_status solve_global_dense(rb_friction_system *s)
     return rb_friction_system_solve_dense(s, (int)order, 'T');
 }
 
-static rb_status solve_global_sparse(rb_friction_system *s)
-{
-    rb_status st = s->lu ? RB_OK : rb_sparse_lu_create(&s->j, &s->lu);
-    if (st == RB_OK)
-        st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
-    if (st == RB_OK)
-        st = rb_sparse_lu_solve_transposed(s->lu, s->rhs, s->x);
-    s->flops += 4.0 * s->j.p[s->j.cols];
-    return st;
-}
-
 static rb_status global_step(rb_friction_system *s, const rb_friction_linearised *at,
                              const double *e)
 {
@@ -193,9 +182,15 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
     for (int k = 0; k < s->m; k++)
         s->rhs[n + k] = -at->F[k];
     s->flops += 2.0 * s->d * (double)s->problem->H.p[s->m] * s->d;
-    return rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order))
-               ? solve_global_dense(s)
-               : solve_global_sparse(s);
+    if (rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order)))
+        return solve_global_dense(s);
+    rb_status st = s->lu ? RB_OK : rb_sparse_lu_create(&s->j, &s->lu);
+    if (st == RB_OK)
+        st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+    if (st == RB_OK)
+        st = rb_sparse_lu_solve_transposed(s->lu, s->rhs, s->x);
+    s->flops += 4.0 * s->j.p[s->j.cols];
+    return st;
 }
 
 rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)

@@ -17,16 +17,6 @@ static int says_open(int d, const double *A, const double *B)
     return 1;
 }
 
-/* Numbers the contacts that are not open; how many. */
-static int number_closed(rb_friction_system *s, const double *A, const double *B)
-{
-    const int dd = s->d * s->d;
-    int closed = 0;
-    for (int c = 0; c < s->contacts; c++)
-        s->place[c] = says_open(s->d, A + c * dd, B + c * dd) ? -1 : closed++;
-    return closed;
-}
-
 /* y = B x for d x d column-major B */
 static void times(int d, const double *B, const double *x, double *y)
 {
@@ -132,7 +122,12 @@ static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
 rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linearised *at)
 {
     const double blocks = s->blocks->p[s->contacts], nc = s->contacts;
-    const int order = s->d * number_closed(s, at->A, at->B);
+    /* Numbers the contacts that are not open; how many. */
+    const int dd = s->d * s->d;
+    int closed = 0;
+    for (int c = 0; c < s->contacts; c++)
+        s->place[c] = says_open(s->d, at->A + c * dd, at->B + c * dd) ? -1 : closed++;
+    const int order = s->d * closed;
     s->flops += 2.0 * s->d * s->d * s->d * blocks;
     if (!rb_friction_system_is_dense(order, blocks / (nc * nc))) {
         rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);

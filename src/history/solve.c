@@ -102,25 +102,6 @@ static rb_status set_up_between(const rb_rolling_case *rc, double from, double t
     return s;
 }
 
-/* The state of the solution before, as far as a step looks at it. */
-static rb_status take_state(const rb_rolling_solution *before, rb_rolling_model *model,
-                            rb_message *why)
-{
-    const size_t n = (size_t)model->mesh.n, bytes = n * sizeof(double);
-    const double *x = model->bodies.f.x, h = model->bodies.f.h[0];
-
-    if (before->n != model->mesh.n || fabs(before->x[0] - x[0]) > 1e-6 * h ||
-        fabs(before->x[n - 1] - x[n - 1]) > 1e-6 * h)
-        return rb_fail(why, RB_EINVAL, "a step: the state before has other elements");
-    memcpy(model->state.p, before->p, bytes);
-    memcpy(model->state.q, before->q, bytes);
-    if (before->mu)
-        memcpy(model->problem.bound, before->mu, bytes);
-    if (before->plastic && model->carried.yielded)
-        memcpy(model->carried.yielded, before->plastic, bytes);
-    return RB_OK;
-}
-
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
                                   const rb_rolling_solution *before, double step,
                                   rb_rolling_solution *solution, rb_message *why)
@@ -146,8 +127,23 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
         s = set_up_between(rc, from, to, &model, why);
     if (s == RB_OK)
         s = rb_rolling_particles_create(&particles, why);
-    if (s == RB_OK && before)
-        s = take_state(before, &model, why);
+    if (s == RB_OK && before) {
+        /* The state of the solution before, as far as a step looks at it. */
+        const size_t n = (size_t)model.mesh.n, bytes = n * sizeof(double);
+        const double *x = model.bodies.f.x, h = model.bodies.f.h[0];
+
+        if (before->n != model.mesh.n || fabs(before->x[0] - x[0]) > 1e-6 * h ||
+            fabs(before->x[n - 1] - x[n - 1]) > 1e-6 * h)
+            s = rb_fail(why, RB_EINVAL, "a step: the state before has other elements");
+        else {
+            memcpy(model.state.p, before->p, bytes);
+            memcpy(model.state.q, before->q, bytes);
+            if (before->mu)
+                memcpy(model.problem.bound, before->mu, bytes);
+            if (before->plastic && model.carried.yielded)
+                memcpy(model.carried.yielded, before->plastic, bytes);
+        }
+    }
     if (s == RB_OK)
         s = rb_rolling_particles_bring(&particles, &stride, why);
     if (s == RB_OK) {

@@ -375,20 +375,6 @@ static rb_status read_global_constraints(const reader *in, rb_io_fclib *p)
     return s == RB_OK ? read_doubles(in, vectors, "b", p->constraints, &p->b) : s;
 }
 
-/* What is there under /solution and long enough. */
-static rb_status read_solution(const reader *in, rb_io_fclib *p)
-{
-    const int m = p->contacts * p->spacedim;
-    rb_status s = RB_OK;
-    if (exists(in, "/solution/r"))
-        s = read_doubles(in, "/solution", "r", m, &p->r);
-    if (s == RB_OK && exists(in, "/solution/u"))
-        s = read_doubles(in, "/solution", "u", m, &p->u);
-    if (s == RB_OK && p->global && exists(in, "/solution/v"))
-        s = read_doubles(in, "/solution", "v", p->M.rows, &p->v);
-    return s;
-}
-
 static rb_status read_file(const reader *in, rb_io_fclib *p)
 {
     rb_status s;
@@ -433,7 +419,18 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
     } else
         return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem",
                        in->path);
-    return s == RB_OK ? read_solution(in, p) : s;
+    if (s != RB_OK)
+        return s;
+    /* What is there under /solution and long enough. */
+    const int m = p->contacts * p->spacedim;
+    s = RB_OK;
+    if (exists(in, "/solution/r"))
+        s = read_doubles(in, "/solution", "r", m, &p->r);
+    if (s == RB_OK && exists(in, "/solution/u"))
+        s = read_doubles(in, "/solution", "u", m, &p->u);
+    if (s == RB_OK && p->global && exists(in, "/solution/v"))
+        s = read_doubles(in, "/solution", "v", p->M.rows, &p->v);
+    return s;
 }
 
 /* ---- HDF5 in a process of its own -------------------------------------------------- */

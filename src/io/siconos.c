@@ -58,17 +58,6 @@ static int extent(const int *end, int i)
     return end[i] - (i ? end[i - 1] : 0);
 }
 
-/* More than INT_MAX: too many, and not all of them counted. */
-static size_t entries_of(const blocks *b)
-{
-    size_t nz = 0;
-    for (int i = 0; i < b->rows; i++)
-        for (int k = b->first[i]; k < b->first[i + 1] && nz <= INT_MAX; k++)
-            nz +=
-                (size_t)extent(b->row_end, i) * (size_t)extent(b->col_end, b->column[k]);
-    return nz;
-}
-
 static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix *m)
 {
     const int j = b->column[k], rows = extent(b->row_end, i),
@@ -162,8 +151,15 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
             for (int k = 0; ok(t) && k < b.count; k++)
                 b.column[k] = rb_io_tokens_int(t, 0, b.cols - 1, "second index");
         }
-        if (ok(t))
-            alloc_triplets(t, entries_of(&b), m);
+        if (ok(t)) {
+            /* More than INT_MAX: too many, and not all of them counted. */
+            size_t nz = 0;
+            for (int i = 0; i < b.rows; i++)
+                for (int k = b.first[i]; k < b.first[i + 1] && nz <= INT_MAX; k++)
+                    nz += (size_t)extent(b.row_end, i) *
+                          (size_t)extent(b.col_end, b.column[k]);
+            alloc_triplets(t, nz, m);
+        }
         for (int i = 0; ok(t) && i < b.rows; i++)
             for (int k = b.first[i]; ok(t) && k < b.first[i + 1]; k++)
                 read_block(t, &b, i, k, m);

@@ -112,9 +112,18 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     return s;
 }
 
-/* The canonical path of the folder is the beginning of that of the file. */
-static rb_status check_below(const char *path, const char *folder, rb_message *why)
+rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why)
 {
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return cannot_read(path, why);
+    if (!S_ISREG(st.st_mode))
+        return rb_fail(why, RB_EFORMAT, "%s: expected a regular file", path);
+    if ((unsigned long long)st.st_size > largest_harmless)
+        return too_large(path, largest_harmless, why);
+    if (!folder)
+        return RB_OK;
+    /* The canonical path of the folder is the beginning of that of the file. */
     char *file = realpath(path, NULL), *above = realpath(folder, NULL);
     rb_status s = RB_OK;
     if (!file || !above)
@@ -129,16 +138,4 @@ static rb_status check_below(const char *path, const char *folder, rb_message *w
     free(file);
     free(above);
     return s;
-}
-
-rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why)
-{
-    struct stat st;
-    if (stat(path, &st) != 0)
-        return cannot_read(path, why);
-    if (!S_ISREG(st.st_mode))
-        return rb_fail(why, RB_EFORMAT, "%s: expected a regular file", path);
-    if ((unsigned long long)st.st_size > largest_harmless)
-        return too_large(path, largest_harmless, why);
-    return folder ? check_below(path, folder, why) : RB_OK;
 }

@@ -172,21 +172,18 @@ static const double GROWTH = 1.25;
 /* Operations that Newton's method may always take after the pivots have failed. */
 static const double LAST_CHANCE = 1e6;
 
-/* As many pivots as a path that is not one of the long ones takes. */
-static double first_allowance(const member *a)
-{
-    const double n = a->task.M.n, pivots = 2.0 * n + 50.0;
-    return a->method == &rb_lcp_tableau_method
-               ? pivots * rb_lcp_work_of_pivot(a->task.M.n)
-               : pivots * (2000.0 + 40.0 * n);
-}
-
 static rb_status first_turn(portfolio *p)
 {
     member *a = &p->member[0];
     rb_status s = RB_OK;
-    if (!a->systems)
-        return take_turn(p, a, first_allowance(a));
+    if (!a->systems) {
+        /* As many pivots as a path that is not one of the long ones takes. */
+        const double n = a->task.M.n, pivots = 2.0 * n + 50.0;
+        return take_turn(p, a,
+                         (a->method == &rb_lcp_tableau_method
+                              ? pivots * rb_lcp_work_of_pivot(a->task.M.n)
+                              : pivots * (2000.0 + 40.0 * n)));
+    }
     while (s == RB_OK && !a->ended && a->info.iters < a->systems)
         s = take_turn(p, a, used_by(a) + 1.0);
     return s;
@@ -288,20 +285,6 @@ const rb_lcp_solver *rb_lcp_solvers(int *count)
     return solvers;
 }
 
-static rb_status run_tableau(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
-                             double *z, rb_lcp_info *info)
-{
-    const int n = p->M->cols;
-    double *dense;
-    rb_status s = make_dense(p->M, &dense);
-    if (s == RB_OK)
-        s = rb_lcp_lemke(&(rb_lcp_problem){n, dense, n, p->q}, opt, z, info);
-    else
-        rb_fail(&info->msg, s, "lcp: out of memory for a dense matrix of order %d", n);
-    free(dense);
-    return s;
-}
-
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info)
 {
@@ -336,7 +319,16 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
     if (kind == BLOCKS)
         return rb_lcp_newton(p->M, p->q, &o, z, info);
     const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
-    return kind == LEMKE_SPARSE || boxes || o.start || large
-               ? rb_lcp_mixed(p, &o, z, info)
-               : run_tableau(p, &o, z, info);
+    if (kind == LEMKE_SPARSE || boxes || o.start || large)
+        return rb_lcp_mixed(p, &o, z, info);
+    const int n = p->M->cols;
+    double *dense;
+    rb_status status = make_dense(p->M, &dense);
+    if (status == RB_OK)
+        status = rb_lcp_lemke(&(rb_lcp_problem){n, dense, n, p->q}, &o, z, info);
+    else
+        rb_fail(&info->msg, status, "lcp: out of memory for a dense matrix of order %d",
+                n);
+    free(dense);
+    return status;
 }

@@ -34,22 +34,6 @@ static rb_status check_column(int n, int j, const double *x, rb_message *why)
     return RB_OK;
 }
 
-static rb_status check_cover(int n, const double *q, const double *cover, rb_message *why)
-{
-    for (int i = 0; i < n && cover; i++) {
-        if (!(isfinite(cover[i]) && cover[i] >= 0.0))
-            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
-                           i + 1, cover[i]);
-        if (cover[i] == 0.0 && q[i] < 0.0)
-            return rb_fail(
-                why, RB_EINVAL,
-                "lcp: cover(%d) = 0: expected a number > 0, because q(%d) = %g "
-                "is negative",
-                i + 1, i + 1, q[i]);
-    }
-    return RB_OK;
-}
-
 rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
                              rb_message *why)
 {
@@ -64,7 +48,20 @@ rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
         s = check_column(n, j, p->M + (size_t)j * (size_t)p->ldm, why);
     if (s == RB_OK)
         s = check_q(n, p->q, why);
-    return s == RB_OK ? check_cover(n, p->q, opt->cover, why) : s;
+    if (s != RB_OK)
+        return s;
+    for (int i = 0; i < n && opt->cover; i++) {
+        if (!(isfinite(opt->cover[i]) && opt->cover[i] >= 0.0))
+            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
+                           i + 1, opt->cover[i]);
+        if (opt->cover[i] == 0.0 && p->q[i] < 0.0)
+            return rb_fail(
+                why, RB_EINVAL,
+                "lcp: cover(%d) = 0: expected a number > 0, because q(%d) = %g "
+                "is negative",
+                i + 1, i + 1, p->q[i]);
+    }
+    return RB_OK;
 }
 
 rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,

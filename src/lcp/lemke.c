@@ -287,24 +287,6 @@ static rb_status fail_memory(lemke *l)
                    8e-6 * n * (n + 2.0));
 }
 
-static rb_status allocate(lemke *l)
-{
-    const size_t n = (size_t)l->n;
-    const int traced = l->opt.trace && l->opt.trace_tableau;
-    const rb_status s = rb_lcp_tableau_create(&l->data, &l->t);
-    l->a = rb_alloc(n + 1, 7);
-    l->tied = rb_alloc_int(n);
-    l->image = traced ? rb_alloc(n, n + 2) : NULL;
-    if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
-        return fail_memory(l);
-    l->other = l->a + n;
-    l->scratch = l->other + n;
-    l->r = l->scratch + n;
-    l->sum = l->r + n;
-    l->weight = l->sum + n;
-    return RB_OK;
-}
-
 /* Entries of a generic cover differ by this part: enough to make the paths of Murty and
  * Fathi short, and little enough for other paths to stay as long as with ones. */
 static const double GENERIC = 0.0625;
@@ -333,7 +315,25 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
             l->largest = 1.0;
         }
     }
-    s = s == RB_ENOMEM ? fail_memory(l) : allocate(l);
+    if (s == RB_ENOMEM)
+        s = fail_memory(l);
+    else {
+        const int traced = l->opt.trace && l->opt.trace_tableau;
+        const rb_status status = rb_lcp_tableau_create(&l->data, &l->t);
+        l->a = rb_alloc((size_t)l->n + 1, 7);
+        l->tied = rb_alloc_int((size_t)l->n);
+        l->image = traced ? rb_alloc((size_t)l->n, (size_t)l->n + 2) : NULL;
+        if (status != RB_OK || !l->a || !l->tied || (traced && !l->image))
+            s = fail_memory(l);
+        else {
+            l->other = l->a + (size_t)l->n;
+            l->scratch = l->other + (size_t)l->n;
+            l->r = l->scratch + (size_t)l->n;
+            l->sum = l->r + (size_t)l->n;
+            l->weight = l->sum + (size_t)l->n;
+            s = RB_OK;
+        }
+    }
     if (s == RB_OK) {
         double *cover = l->weight + n + 1;
         unsigned long long seed = 20260101;

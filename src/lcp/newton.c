@@ -142,23 +142,6 @@ static rb_status fail_memory(newton *s)
                    M->p[M->cols]);
 }
 
-static rb_status allocate(newton *s)
-{
-    const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
-    s->z = rb_alloc(n, 4);
-    s->number = rb_alloc_int(2 * n);
-    s->A.p = rb_alloc_int(n + 1);
-    s->A.i = rb_alloc_int(nz + 1);
-    s->A.x = rb_alloc(nz + 1, 1);
-    if (!s->z || !s->number || !s->A.p || !s->A.i || !s->A.x)
-        return fail_memory(s);
-    s->w = s->z + n;
-    s->rhs = s->w + n;
-    s->x = s->rhs + n;
-    s->wrong = s->number + n;
-    return RB_OK;
-}
-
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
                        void *state)
 {
@@ -177,7 +160,25 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
                                       &s->scaled);
     if (s->scaled.q)
         s->p = (rb_lcp_mixed_problem){.M = &s->scaled.sparse, .q = s->scaled.q};
-    status = status == RB_ENOMEM ? fail_memory(s) : allocate(s);
+    if (status == RB_ENOMEM)
+        status = fail_memory(s);
+    else {
+        const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
+        s->z = rb_alloc(n, 4);
+        s->number = rb_alloc_int(2 * n);
+        s->A.p = rb_alloc_int(n + 1);
+        s->A.i = rb_alloc_int(nz + 1);
+        s->A.x = rb_alloc(nz + 1, 1);
+        if (!s->z || !s->number || !s->A.p || !s->A.i || !s->A.x)
+            status = fail_memory(s);
+        else {
+            s->w = s->z + n;
+            s->rhs = s->w + n;
+            s->x = s->rhs + n;
+            s->wrong = s->number + n;
+            status = RB_OK;
+        }
+    }
     const int fits = status == RB_OK && !start && rb_lcp_coarse_fits(M);
     if (fits && M->rows >= LCP_COARSE_FROM) {
         const rb_status coarse = rb_lcp_coarse_start(M, task->q, s->z, &s->work.used);

@@ -60,30 +60,28 @@ static json_t *json_errors(const rb_rolling_curve *error)
     return errors;
 }
 
-static json_t *json_curve(const rb_report_curves *curves, int k)
-{
-    const rb_rolling_curve *c = &curves->curve[k];
-    const rb_report_columns columns = columns_of(c, 0);
-    json_t *curve = json_object();
-
-    rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
-    rb_report_json_columns(&curve, c->n, &columns, 0);
-    if (curves->slopes[k].n > 0)
-        rb_report_json_slopes(&curve, &curves->slopes[k]);
-    rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
-    rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
-    rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
-    rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
-    if (curves->has_errors)
-        rb_report_json_set(&curve, "errors", json_errors(&curves->error[k]));
-    return curve;
-}
-
 void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
 {
     json_t *all = json_array();
-    for (int k = 0; k < curves->n; k++)
-        rb_report_json_append(&all, json_curve(curves, k));
+    for (int k = 0; k < curves->n; k++) {
+        const rb_rolling_curve *c = &curves->curve[k];
+        const rb_report_columns columns = columns_of(c, 0);
+        json_t *curve = json_object();
+
+        rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
+        rb_report_json_columns(&curve, c->n, &columns, 0);
+        if (curves->slopes[k].n > 0)
+            rb_report_json_slopes(&curve, &curves->slopes[k]);
+        rb_report_json_set(&curve, "free_creepage",
+                           rb_report_json_number(c->free_creepage));
+        rb_report_json_set(&curve, "hertz_half_width",
+                           rb_report_json_number(c->half_width));
+        rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
+        rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
+        if (curves->has_errors)
+            rb_report_json_set(&curve, "errors", json_errors(&curves->error[k]));
+        rb_report_json_append(&all, curve);
+    }
     rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
     if (curves->n > 1)
         rb_report_json_set(root, "curves", json_incref(all));

@@ -65,26 +65,6 @@ static json_t *one_side(const rb_rolling_result *r, int is_column,
     return list;
 }
 
-static json_t *by_inputs(const rb_report_derivatives *d, int k)
-{
-    json_t *object = json_object();
-
-    for (int i = 0; i < d->all->n; i++) {
-        const rb_case_derivative *of = &d->all->of[i];
-        if (of->status != RB_OK)
-            continue;
-        json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
-        if (of->d.sides == 2) {
-            json_t *both = json_array();
-            rb_report_json_append(&both, value);
-            rb_report_json_append(&both, one_side(d->result[k], d->is_column[k], of, 1));
-            value = both;
-        }
-        rb_report_json_set(&object, of->name, value);
-    }
-    return object;
-}
-
 /* 1: the case has the result, so that it has a derivative. */
 static int has_result(const rb_report_derivatives *d, int k)
 {
@@ -117,8 +97,25 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
     char text[160];
 
     for (int k = 0; k < d->n; k++)
-        if (has_result(d, k))
-            rb_report_json_set(&results, d->result[k]->name, by_inputs(d, k));
+        if (has_result(d, k)) {
+            json_t *object = json_object();
+
+            for (int i = 0; i < d->all->n; i++) {
+                const rb_case_derivative *of = &d->all->of[i];
+                if (of->status != RB_OK)
+                    continue;
+                json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
+                if (of->d.sides == 2) {
+                    json_t *both = json_array();
+                    rb_report_json_append(&both, value);
+                    rb_report_json_append(&both,
+                                          one_side(d->result[k], d->is_column[k], of, 1));
+                    value = both;
+                }
+                rb_report_json_set(&object, of->name, value);
+            }
+            rb_report_json_set(&results, d->result[k]->name, object);
+        }
     rb_report_json_set(root, "derivatives", results);
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
@@ -346,29 +343,26 @@ static json_t *json_slope(const rb_case_slopes *s, int row, int k)
     return sides;
 }
 
-/* Of the result of column first, whose inputs stand behind it. */
-static json_t *slopes_of_result(const rb_case_slopes *s, int first)
-{
-    json_t *inputs = json_object();
-
-    for (int k = first; k < s->n; k++) {
-        json_t *list = json_array();
-        for (int row = 0; row < s->rows && s->of[k].result == s->of[first].result; row++)
-            rb_report_json_append(&list, json_slope(s, row, k));
-        if (s->of[k].result == s->of[first].result)
-            rb_report_json_set(&inputs, s->of[k].input, list);
-        else
-            json_decref(list);
-    }
-    return inputs;
-}
-
 void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 {
     json_t *results = json_object();
 
     for (int k = 0; k < s->n; k++)
-        if (!json_object_get(results, s->of[k].result->name))
-            rb_report_json_set(&results, s->of[k].result->name, slopes_of_result(s, k));
+        if (!json_object_get(results, s->of[k].result->name)) {
+            /* Of the result of column first, whose inputs stand behind it. */
+            json_t *inputs = json_object();
+
+            for (int i = k; i < s->n; i++) {
+                json_t *list = json_array();
+                for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result;
+                     row++)
+                    rb_report_json_append(&list, json_slope(s, row, i));
+                if (s->of[i].result == s->of[k].result)
+                    rb_report_json_set(&inputs, s->of[i].input, list);
+                else
+                    json_decref(list);
+            }
+            rb_report_json_set(&results, s->of[k].result->name, inputs);
+        }
     rb_report_json_set(owner, "derivatives", results);
 }

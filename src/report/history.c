@@ -58,19 +58,6 @@ static json_t *lists_of(const rb_rolling_states *s, const double *values)
     return lists;
 }
 
-static json_t *zones_of(const rb_rolling_states *s)
-{
-    json_t *lists = json_array();
-
-    for (int k = 0; k < s->steps; k++) {
-        json_t *list = json_array();
-        for (int i = 0; i < s->n; i++)
-            rb_report_json_append(&list, json_integer(s->zone[k * s->n + i]));
-        rb_report_json_append(&lists, list);
-    }
-    return lists;
-}
-
 json_t *rb_report_json_states(const rb_rolling_states *s)
 {
     json_t *states = json_object();
@@ -79,7 +66,15 @@ json_t *rb_report_json_states(const rb_rolling_states *s)
     rb_report_json_set(&states, "p_MPa", lists_of(s, s->p));
     rb_report_json_set(&states, "q_MPa", lists_of(s, s->q));
     rb_report_json_set(&states, "shift_mm", lists_of(s, s->lambda));
-    rb_report_json_set(&states, "zone", zones_of(s));
+    json_t *lists = json_array();
+
+    for (int k = 0; k < s->steps; k++) {
+        json_t *list = json_array();
+        for (int i = 0; i < s->n; i++)
+            rb_report_json_append(&list, json_integer(s->zone[k * s->n + i]));
+        rb_report_json_append(&lists, list);
+    }
+    rb_report_json_set(&states, "zone", lists);
     return states;
 }
 

@@ -53,8 +53,21 @@ json_t *rb_report_json_inputs(const rb_case *c)
 
 /* ---- Hash -------------------------------------------------------------------------- */
 
-static rb_status add_files(const rb_case *c, uint64_t *hash, rb_message *why)
+static int add_text(const char *text, size_t size, void *hash)
 {
+    *(uint64_t *)hash = rb_hash(*(uint64_t *)hash, text, size);
+    return 0;
+}
+
+rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why)
+{
+    json_t *inputs = rb_report_json_inputs(c);
+    *hash = RB_HASH_START;
+    /* json_dumps loses pieces where its text cannot grow */
+    const int failed = json_dump_callback(inputs, add_text, hash, JSON_COMPACT) != 0;
+    json_decref(inputs);
+    if (failed)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
     int n;
     const rb_option *o = rb_case_describe(&n);
     for (int i = 0; i < n; i++) {
@@ -70,22 +83,6 @@ static rb_status add_files(const rb_case *c, uint64_t *hash, rb_message *why)
         free(text);
     }
     return RB_OK;
-}
-
-static int add_text(const char *text, size_t size, void *hash)
-{
-    *(uint64_t *)hash = rb_hash(*(uint64_t *)hash, text, size);
-    return 0;
-}
-
-rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why)
-{
-    json_t *inputs = rb_report_json_inputs(c);
-    *hash = RB_HASH_START;
-    /* json_dumps loses pieces where its text cannot grow */
-    const int failed = json_dump_callback(inputs, add_text, hash, JSON_COMPACT) != 0;
-    json_decref(inputs);
-    return failed ? rb_fail(why, RB_ENOMEM, "out of memory") : add_files(c, hash, why);
 }
 
 json_t *rb_report_json_input_hash(const rb_case *c)

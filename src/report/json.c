@@ -46,24 +46,19 @@ json_t *rb_report_json_numbers(int n, const double *x)
     return list;
 }
 
-static json_t *conventions_text(void)
-{
-    char text[800] = "";
-    for (const char *const *line = rb_report_conventions; *line; line++) {
-        strncat(text, *line, sizeof text - strlen(text) - 1);
-        if (line[1])
-            strncat(text, ". ", sizeof text - strlen(text) - 1);
-    }
-    return json_string(text);
-}
-
 json_t *rb_report_json_start(const char *command)
 {
     json_t *root = json_object();
     rb_report_json_set(&root, "schema", json_string("rollbem/1"));
     rb_report_json_set(&root, "version", json_string(RB_VERSION));
     rb_report_json_set(&root, "command", rb_report_json_text(command));
-    rb_report_json_set(&root, "conventions", conventions_text());
+    char text[800] = "";
+    for (const char *const *line = rb_report_conventions; *line; line++) {
+        strncat(text, *line, sizeof text - strlen(text) - 1);
+        if (line[1])
+            strncat(text, ". ", sizeof text - strlen(text) - 1);
+    }
+    rb_report_json_set(&root, "conventions", json_string(text));
     return root;
 }
 

@@ -121,8 +121,11 @@ static json_t *json_extremum(rb_rolling_extremum m)
     return object;
 }
 
-static json_t *json_maxima(const rb_report_stress *s)
+void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
+    json_t *points = json_object();
+    rb_report_json_set(root, "depth",
+                       rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
     for (int k = 0; maximum(k); k++) {
         json_t *one = json_extremum(extremum(s->maxima, k));
@@ -130,31 +133,19 @@ static json_t *json_maxima(const rb_report_stress *s)
             rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
         rb_report_json_set(&all, maximum(k)->name, one);
     }
-    return all;
-}
-
-static json_t *json_shakedown(const rb_report_stress *s)
-{
-    const rb_rolling_shakedown *d = s->shakedown;
-    json_t *object = json_object();
-    rb_report_json_set(&object, "limit",
-                       rb_report_json_number(s->s->max_pressure / d->shear_yield));
-    rb_report_json_set(&object, "shear_yield", rb_report_json_number(d->shear_yield));
-    rb_report_json_set(&object, "x", rb_report_json_number(d->x));
-    rb_report_json_set(&object, "y", rb_report_json_number(d->y));
-    rb_report_json_set(&object, "residual", rb_report_json_number(d->residual));
-    rb_report_json_set(&object, "yield_shear", rb_report_json_number(s->yield_shear));
-    return object;
-}
-
-void rb_report_json_stress(json_t **root, const rb_report_stress *s)
-{
-    json_t *points = json_object();
-    rb_report_json_set(root, "depth",
-                       rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
-    rb_report_json_set(root, "maxima", json_maxima(s));
-    if (s->shakedown)
-        rb_report_json_set(root, "shakedown", json_shakedown(s));
+    rb_report_json_set(root, "maxima", all);
+    if (s->shakedown) {
+        const rb_rolling_shakedown *d = s->shakedown;
+        json_t *object = json_object();
+        rb_report_json_set(&object, "limit",
+                           rb_report_json_number(s->s->max_pressure / d->shear_yield));
+        rb_report_json_set(&object, "shear_yield", rb_report_json_number(d->shear_yield));
+        rb_report_json_set(&object, "x", rb_report_json_number(d->x));
+        rb_report_json_set(&object, "y", rb_report_json_number(d->y));
+        rb_report_json_set(&object, "residual", rb_report_json_number(d->residual));
+        rb_report_json_set(&object, "yield_shear", rb_report_json_number(s->yield_shear));
+        rb_report_json_set(root, "shakedown", object);
+    }
     if (s->nx > 0) {
         rb_report_json_set(&points, "nx", json_integer(s->nx));
         rb_report_json_set(&points, "ny", json_integer(s->ny));

@@ -248,19 +248,18 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     fputs("splot $grid using 1:2:(sin(pi*$5)**2) with pm3d\n", out);
 }
 
-/* A round number is easier to count with. */
-static double choose_fringe(const rb_report_stress *s)
-{
-    enum { ORDERS = 12 };
-    return rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
-}
-
 rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_stress *s,
                             double fringe, rb_message *why)
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;
     view v = make_view(s);
-    v.fringe = fringe > 0.0 ? fringe : choose_fringe(s);
+    if (fringe > 0.0)
+        v.fringe = fringe;
+    else {
+        /* A round number is easier to count with. */
+        enum { ORDERS = 12 };
+        v.fringe = rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
+    }
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_fringes, &v, why);
 }

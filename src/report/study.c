@@ -303,14 +303,6 @@ static int steps_between(int values)
     return values > FINE ? 1 : (FINE + values - 1) / values;
 }
 
-/* A contour has about as many points as it crosses lines of cases; its label stands near
- * the middle. */
-static int label_at(const view *v)
-{
-    const int lines = v->row + v->study->n / v->row;
-    return lines < 12 ? 3 : lines / 4;
-}
-
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
@@ -345,14 +337,17 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
         const double step =
             rb_report_round_step((most - least) / rb_report_labels_in(height));
         const double first = step * (floor(least / step + 1e-6) + 1.0);
+        /* A contour has about as many points as it crosses lines of cases; its label
+         * stands near the middle. */
+        const int lines = v->row + v->study->n / v->row;
         fprintf(
             out,
             "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
             "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, label_at(v), 0.7 * rb_report_key_font(canvas), first, step,
-            most - 1e-6 * (most - least));
+            least, most, step, (lines < 12 ? 3 : lines / 4),
+            0.7 * rb_report_key_font(canvas), first, step, most - 1e-6 * (most - least));
     }
     fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
             v->shown.flat

@@ -116,23 +116,19 @@ static rb_status field_create(const rb_rolling_model *model, field *f, rb_messag
     return s;
 }
 
-/* The element below x that runs towards +x: on the underside of the wheel. */
-static int element_below(const rb_bem_mesh *mesh, double x)
-{
-    int below = -1;
-    for (int j = 0; j < mesh->n; j++)
-        if (mesh->x0[j] < mesh->x1[j] && mesh->x0[j] <= x && x <= mesh->x1[j] &&
-            (below < 0 || mesh->y0[j] < mesh->y0[below]))
-            below = j;
-    return below;
-}
-
 /* A wheel's surface is a polygon: points between it and the circle, which the polygon
  * cuts off, are moved onto it. */
 static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
 {
     for (int k = 0; k < n; k++) {
-        const int j = element_below(mesh, xy[2 * k]);
+        /* The element below x that runs towards +x: on the underside of the wheel. */
+        const double x = xy[2 * k];
+        int below = -1;
+        for (int i = 0; i < mesh->n; i++)
+            if (mesh->x0[i] < mesh->x1[i] && mesh->x0[i] <= x && x <= mesh->x1[i] &&
+                (below < 0 || mesh->y0[i] < mesh->y0[below]))
+                below = i;
+        const int j = below;
         if (j < 0)
             continue;
         const double width = mesh->x1[j] - mesh->x0[j];
@@ -141,22 +137,6 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
         if (xy[2 * k + 1] < y && y - xy[2 * k + 1] < 0.1 * width)
             xy[2 * k + 1] = y;
     }
-}
-
-/* Far away the strips keep more digits. */
-static rb_status halfplane_stress(const field *f, int n, const double *xy, double *sigma)
-{
-    const rb_rolling_model *model = f->model;
-    const double *ends = model->mesh.ends;
-    const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
-    const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p, model->state.q};
-    rb_status s =
-        rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
-    for (int k = 0; k < n && s == RB_OK; k++)
-        if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
-            s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k},
-                                        sigma + 3 * k);
-    return s;
 }
 
 /* sxx, syy, sxy at each point. */
@@ -169,7 +149,18 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
                 return rb_fail(why, RB_EINVAL,
                                "point %d at (%g, %g) lies outside the body", k, xy[2 * k],
                                xy[2 * k + 1]);
-        const rb_status s = halfplane_stress(f, n, xy, sigma);
+        /* Far away the strips keep more digits. */
+        const rb_rolling_model *model = f->model;
+        const double *ends = model->mesh.ends;
+        const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
+        const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p,
+                                       model->state.q};
+        rb_status s =
+            rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
+        for (int k = 0; k < n && s == RB_OK; k++)
+            if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
+                s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k},
+                                            sigma + 3 * k);
         return s == RB_OK && f->layer
                    ? rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why)
                    : s;
@@ -473,30 +464,6 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
     return s;
 }
 
-/* Keeps the points inside the body, in their order. */
-static int gather(int n, const double *xy, const int *inside, double *kept)
-{
-    int m = 0;
-    for (int k = 0; k < n; k++)
-        if (inside[k]) {
-            kept[2 * m] = xy[2 * k];
-            kept[2 * m++ + 1] = xy[2 * k + 1];
-        }
-    return m;
-}
-
-/* From the m answers back to the places of the grid. */
-static void scatter(int n, const double *xy, const int *inside,
-                    const rb_rolling_stress *kept, rb_rolling_stress *at)
-{
-    for (int k = 0, m = 0; k < n; k++)
-        if (inside[k])
-            at[k] = kept[m++];
-        else
-            at[k] = (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
-                                        NAN,       NAN,           NAN, NAN, NAN};
-}
-
 /* The depth of the rows grows like a power. */
 static rb_status fill_grid(const field *f, const search *box, int power,
                            rb_rolling_stress_grid *grid, rb_message *why)
@@ -514,10 +481,26 @@ static rb_status fill_grid(const field *f, const search *box, int power,
     }
     if (s == RB_OK)
         s = rb_rolling_inside(f->model, n, xy, grid->inside);
-    if (s == RB_OK)
-        s = stress_of_field(f, gather(n, xy, grid->inside, kept), kept, at, why);
-    if (s == RB_OK)
-        scatter(n, xy, grid->inside, at, grid->at);
+    if (s == RB_OK) {
+        /* Keeps the points inside the body, in their order. */
+        int m = 0;
+        for (int k = 0; k < n; k++)
+            if (grid->inside[k]) {
+                kept[2 * m] = xy[2 * k];
+                kept[2 * m++ + 1] = xy[2 * k + 1];
+            }
+        s = stress_of_field(f, m, kept, at, why);
+    }
+    if (s == RB_OK) {
+        /* From the m answers back to the places of the grid. */
+        for (int k = 0, m = 0; k < n; k++)
+            if (grid->inside[k])
+                grid->at[k] = at[m++];
+            else
+                grid->at[k] =
+                    (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
+                                        NAN,       NAN,           NAN, NAN, NAN};
+    }
     free(xy);
     free(kept);
     free(at);
@@ -579,19 +562,6 @@ static rb_rolling_extremum *of_measure(rb_rolling_stress_maxima *m, int k)
     return all[k];
 }
 
-/* Each where it is larger than what was found so far. */
-static rb_status add_maxima(search *s, const rb_rolling_stress_grid *grid,
-                            rb_rolling_stress_maxima *maxima)
-{
-    rb_status status = RB_OK;
-
-    for (int k = 0; k < MEASURES && status == RB_OK; k++) {
-        s->of = measures[k];
-        status = maximum(s, grid, of_measure(maxima, k));
-    }
-    return status;
-}
-
 /* From a grid that is finer where the stress changes faster, and from two rows at the
  * surface, where friction that changes from element to element makes narrow peaks. */
 static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima,
@@ -608,8 +578,13 @@ static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima,
         box.depth = depth[k];
         status = make_grid(s->f, &box, 2, &grid, why);
         s->nearly = nearly[k];
-        if (status == RB_OK)
-            status = add_maxima(s, &grid, maxima);
+        if (status == RB_OK) {
+            /* Each where it is larger than what was found so far. */
+            for (int i = 0; i < MEASURES && status == RB_OK; i++) {
+                s->of = measures[i];
+                status = maximum(s, &grid, of_measure(maxima, i));
+            }
+        }
         rb_rolling_stress_grid_free(&grid);
     }
     return status;

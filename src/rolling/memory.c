@@ -12,16 +12,6 @@ static double newton_numbers(double n, double lu)
     return fmax(lu, n * n + 0.25 * lu) + PATH * n;
 }
 
-/* What the memory of a body adds to its flexibility is kept for the hysteresis of pairs
- * with a wheel. */
-static double kept_for_hysteresis(const rb_rolling_case *rc, double square)
-{
-    const int bodies = (rc->a.memory.n > 0) + (rc->elastic_b && rc->b.memory.n > 0);
-    return rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT)
-               ? sizeof(double) * 4.0 * bodies * square
-               : 0.0;
-}
-
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
 {
     const rb_rolling_mesh mesh = {.n = n};
@@ -40,8 +30,13 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
             ? (rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0) *
                   square
             : newton_numbers(n, (double)unknowns * unknowns);
+    /* What the memory of a body adds to its flexibility is kept for the hysteresis of
+     * pairs with a wheel. */
+    const int bodies = (rc->a.memory.n > 0) + (rc->elastic_b && rc->b.memory.n > 0);
     const double solution = sizeof(double) * (6.0 * square + lcp),
-                 kept = kept_for_hysteresis(rc, square);
+                 kept = (rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT)
+                             ? sizeof(double) * 4.0 * bodies * square
+                             : 0.0);
     if (!boundary)
         return kept + fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
     const double both = rb_bem_system_bytes(boundary, n),

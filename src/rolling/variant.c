@@ -144,14 +144,6 @@ static rb_status changed_displacement(const rb_rolling_model *of,
     return RB_OK;
 }
 
-/* 1: the formula knows how the flexibility changes.  kappa of a law asks for the matrix
- * itself. */
-static int has_formula(const rb_rolling_model *of, const rb_rolling_case *rc)
-{
-    return are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
-           rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM;
-}
-
 /* ---- Variants
  * -------------------------------------------------------------------------- */
 
@@ -185,10 +177,14 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
                         int by_formula, motion moved, rb_rolling_model *v,
                         rb_message *why)
 {
-    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 &&
-                         moved.shift == 0.0) ||
-                        (by_formula && has_formula(of, rc) &&
-                         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
+    /* The formula must know how the flexibility changes.  kappa of a law asks for the
+     * matrix itself. */
+    const int borrows =
+        (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 &&
+         moved.shift == 0.0) ||
+        (by_formula && are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
+         rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
+         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
 
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
