@@ -1,4 +1,5 @@
-/* Problems that a caller hands over whole: complementarity, friction, many cases. */
+/* Problems that the caller passes as arrays: complementarity problems, friction problems,
+ * sweeps of cases. */
 #include "api/internal.h"
 
 #include "rollbem/friction.h"

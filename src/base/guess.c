@@ -1,4 +1,4 @@
-/* The name that a misspelt word was meant to be. */
+/* Finds the name that is most similar to a misspelt word. */
 #include "rollbem/base.h"
 
 #include <stdio.h>

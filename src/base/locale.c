@@ -1,4 +1,5 @@
-/* Numbers as text in the C locale, whatever the host program has set for its own. */
+/* Reads and writes numbers in the C locale, whatever locale the calling program has
+ * set. */
 #include "rollbem/base.h"
 
 #include <locale.h>

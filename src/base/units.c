@@ -1,4 +1,4 @@
-/* The table of units: what a number in each of them is in mm, N, MPa, s. */
+/* The table of units with their factors to mm, N, MPa, s. */
 #include "rollbem/units.h"
 
 #include <ctype.h>

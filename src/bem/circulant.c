@@ -1,5 +1,5 @@
-/* A preconditioner: the inverse of a flexibility on an endless line of equal elements,
- * where Fourier modes are its eigenvectors, cut to the line at hand. */
+/* A preconditioner: the inverse of the flexibility of an infinite line of equal elements,
+ * whose eigenvectors are Fourier modes, restricted to the given line. */
 #include "bem/fourier.h"
 #include "bem/internal.h"
 

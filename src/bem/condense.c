@@ -1,5 +1,5 @@
 /* Condensation of a mixed system to its contact (B5), with the singular part of each load
- * solved in closed form where that is wanted (B10). */
+ * in closed form if required (B10). */
 #include "bem/system.h"
 #include "bem/assemble.h"
 #include "bem/given.h"

@@ -1,6 +1,6 @@
 /* Stress inside a loaded body (B8, B10): strips under the contact tractions, taken linear
- * between the midpoints, in closed form, and Somigliana's identity for the smooth rest.
- */
+ * between the midpoints, in closed form, and Somigliana's identity for the smooth
+ * remainder. */
 #include "bem/internal.h"
 #include "bem/strip.h"
 #include "bem/system.h"

@@ -1,5 +1,5 @@
-/* Skeletons: the rows and columns of a cluster that stand for all of them, seen from the
- * rest of the body. */
+/* Skeletons: rows and columns of a cluster that represent all its rows and columns for
+ * the rest of the body. */
 #include "bem/hierarchical_parts.h"
 #include "bem/skeleton.h"
 

@@ -1,5 +1,5 @@
-/* Displacements of a layer bonded to a rigid or elastic base (L3): what it adds to the
- * half-plane's element integrals, from the table of its kernel. */
+/* Displacements of a layer bonded to a rigid or elastic base (L3): the difference from
+ * the element integrals of the half-plane, computed from the table of its kernel. */
 #include "bem/layer.h"
 #include "bem/internal.h"
 

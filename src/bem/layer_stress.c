@@ -1,6 +1,6 @@
-/* Stress in a layer and in its base (L5): what the layer has over the half-plane, whose
- * stress is in closed form, and all of it below the bond, by Gauss's rule over wave
- * numbers. */
+/* Stress in a layer and in its base (L5).  In the layer the difference from the
+ * half-plane, whose stress is in closed form, is computed by Gauss quadrature over wave
+ * numbers; below the bond the whole stress is computed in this way. */
 #include "bem/internal.h"
 #include "bem/layer.h"
 

@@ -1,7 +1,7 @@
 /* The kernel of a layer (L3) as a table: smooth on the scale of max(1, X), because its
- * singularities lie where images of the load would, two thicknesses and more away.  So
- * pieces a quarter of that long take polynomials, the integrals over strips are those of
- * polynomials, and a table reaches as far as is asked in a few pieces per octave. */
+ * singularities lie where images of the load would, two thicknesses and more away.  So it
+ * is approximated by polynomials on pieces a quarter as long, integrals over strips are
+ * integrals of polynomials, and a table to any distance has a few pieces per octave. */
 #include "bem/layer.h"
 
 #include <gsl/gsl_integration.h>

@@ -1,6 +1,6 @@
-/* Element integrals of a viscoelastic half-plane (V2): the response of steady rolling is
- * the elastic one plus an exponential average over what the particle has passed upstream.
- */
+/* Element integrals of a viscoelastic half-plane (V2): in steady rolling the displacement
+ * is the elastic one plus exponential averages along the path of the particle
+ * upstream. */
 #include "bem/memory.h"
 
 #include <gsl/gsl_math.h>

@@ -1,6 +1,6 @@
-/* Displacement of bodies whose surface answers alike everywhere, over constant strips:
- * the half-plane of Flamant (B6), with fading memory (V2), and the layer on a base (L3).
- */
+/* Displacement of bodies whose influence function depends on the distance only, under
+ * constant strips: the half-plane of Flamant (B6), with fading memory (V2), and the layer
+ * on a base (L3). */
 #include "bem/internal.h"
 #include "bem/layer.h"
 #include "bem/memory.h"

@@ -1,6 +1,7 @@
 /* Flexibilities that depend on the distance between two elements alone: the half-plane
- * (B6) on equal elements, the disc on equal arcs.  They are Toeplitz, and a product takes
- * Fourier transforms, n log n work and memory of a few n. */
+ * (B6) on equal elements, the disc on equal arcs.  Their matrices are Toeplitz matrices,
+ * and a product by Fourier transforms takes n log n operations and memory for a few n
+ * numbers. */
 #include "bem/fourier.h"
 #include "bem/internal.h"
 

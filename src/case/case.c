@@ -1,4 +1,4 @@
-/* A case from its words: set by name, resolved, checked. */
+/* A case made from options: set by name, resolved, checked. */
 #include "case/internal.h"
 
 #include <stdio.h>

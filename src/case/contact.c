@@ -1,4 +1,4 @@
-/* What a case of CONTACT means here.  Signs: docs/contact.md. */
+/* Converts cases of CONTACT to cases of rollbem.  Signs: docs/contact.md. */
 #include "rollbem/case.h"
 
 #include <gsl/gsl_math.h>

@@ -1,4 +1,4 @@
-/* The numbers of a case that its results can be differentiated with respect to. */
+/* The numbers of a case with respect to which its results can be differentiated. */
 #include "case/internal.h"
 
 #include <stdio.h>

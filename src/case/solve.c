@@ -1,4 +1,5 @@
-/* A resolved case, solved: whatever its formulation, with what it asks for. */
+/* Solves a resolved case of any formulation, with error bars or to an accuracy if
+ * required. */
 #include "rollbem/case.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* The commands by name, and the command line.  The table is that of main.c, which knows
- * all commands; what is here knows none of them. */
+/* The commands by name, and the command line.  The table is in main.c; this file does not
+ * depend on the single commands. */
 #include "cli/cli.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* rollbem design: the least or the largest of a result over numbers of a case. */
+/* rollbem design: minimum or maximum of a result over numbers of a case. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
 #include "cli/wait.h"

@@ -1,4 +1,4 @@
-/* The case files of examples/, which the program carries along: --example NAME, also of
+/* The case files of examples/, which are built into the program: --example NAME, also
  * `rollbem example NAME`. */
 #include "cli/case.h"
 

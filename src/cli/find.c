@@ -1,5 +1,5 @@
-/* rollbem help WORD: the commands, options, results, units, words and questions that
- * speak of it. */
+/* rollbem help WORD: finds commands, options, results, units, words of the glossary and
+ * questions that contain it. */
 #include "cli/find.h"
 
 #include "rollbem/units.h"

@@ -1,4 +1,4 @@
-/* Control-C and its likes end a long run after the case or the step at hand. */
+/* Control-C and similar signals end a long run after the current case or step. */
 #include "cli/interrupt.h"
 
 #include <signal.h>

@@ -1,4 +1,4 @@
-/* rollbem: finds the command and sees that what it printed was written. */
+/* rollbem: finds the command, and checks that its output was written. */
 #include "cli/cli.h"
 #include "rollbem/blas.h"
 

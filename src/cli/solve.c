@@ -1,4 +1,4 @@
-/* rollbem [OPTION...] [CASE.ini]: solves one case and prints what came out. */
+/* rollbem [OPTION...] [CASE.ini]: solves one case and prints its results. */
 #include "cli/case.h"
 #include "cli/run.h"
 

@@ -1,4 +1,4 @@
-/* rollbem verify: references, wanted and got. */
+/* rollbem verify: reference values and computed values. */
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "rollbem/verify.h"

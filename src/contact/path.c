@@ -1,9 +1,9 @@
-/* The piecewise linear path (Katzenelson's method; theory.md 5).  As much is added to the
- * data of the problem as the zones of the state lack for a solution, and taken away
- * again: with share t of it p, q, slips and gaps move along straight lines in t, up to a
- * bend where the first element leaves its zone.  There that element alone changes its
- * zone.  Where it could stay in its new zone only with a larger share, the path turns to
- * larger t, as Lemke's does where the artificial variable grows. */
+/* The piecewise linear path (Katzenelson's method; theory.md 5).  Terms are added to the
+ * data of the problem such that the zones of the state solve it; they are multiplied by
+ * t, which goes from 1 to 0.  p, q, slips and gaps are linear in t up to the point where
+ * the first element leaves its zone; only this element then changes its zone.  If it
+ * could stay in its new zone only for larger t, the path turns to larger t, as in Lemke's
+ * method when the artificial variable grows. */
 #include "contact/internal.h"
 
 #include <cblas.h>

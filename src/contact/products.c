@@ -1,6 +1,6 @@
-/* The operator as products alone: zones are solved by GMRES.  On equal elements the
- * inverse of an endless line preconditions it: about ten products for any number of
- * elements. */
+/* The operator with products only: the linear problems for given zones are solved by
+ * GMRES. On equal elements the preconditioner is the inverse for an infinite line; about
+ * ten products are needed for any number of elements. */
 #include "contact/internal.h"
 
 #include <cblas.h>

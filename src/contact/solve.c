@@ -1,4 +1,4 @@
-/* The order of attempts: Lemke's three, Newton, and who comes first. */
+/* The order in which the attempts of Lemke's method and Newton's method are made. */
 #include "contact/internal.h"
 
 #include <math.h>

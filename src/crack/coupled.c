@@ -1,4 +1,4 @@
-/* A contact that feels the crack below it (C9): one problem for the pressures of the
+/* A contact that depends on the crack below it (C9): one problem for the pressures of the
  * wheel and the faces of the crack. */
 #include "crack/internal.h"
 

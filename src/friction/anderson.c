@@ -1,7 +1,7 @@
 /* Anderson's acceleration of a fixed-point iteration r -> g(r) (Walker and Ni 2011): the
- * last steps f = g(r) - r are combined so that they cancel as well as they can, and the
- * same combination of the g is the next r.  On a linear iteration this is GMRES.  u goes
- * along, being affine in r. */
+ * last steps f = g(r) - r are combined so that the sum is as small as possible, and the
+ * same combination of the g is the next r.  For a linear iteration this is GMRES.  u is
+ * combined in the same way, because it is affine in r. */
 #include "friction/internal.h"
 
 #include <math.h>

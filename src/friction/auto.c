@@ -1,10 +1,10 @@
-/* The portfolio: members that take turns until one meets the tolerance.
+/* The portfolio: methods that run in turns until one satisfies the tolerance.
  *
- * The first member has the first turn to itself, and what it used is the first allowance
- * L.  Then every member in turn goes on from where it stood until its own operations
- * reach its share of L, and L grows by GROWTH from round to round.  A member that
- * succeeds after T operations of its own was let go on because L < GROWTH T / share; the
- * others have then used at most that, which bounds the whole (docs/friction.md).
+ * The first member runs first, and the operations that it used are the first allowance L.
+ * Then the members continue in turns, each from its last iterate, until its own
+ * operations reach its share of L; L grows by the factor GROWTH from round to round.
+ * When a member succeeds after T operations, L < GROWTH T / share, and the other members
+ * have used at most their shares of this L, which bounds the total (docs/friction.md).
  * Operations are counted by formulas, so that the same problem always takes the same
  * path. */
 #include "friction/internal.h"

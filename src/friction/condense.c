@@ -1,7 +1,8 @@
-/* K v = H r + f, u = H' v + w  ->  u = W r + q, body (connected part of K) by body:
- * W = sum of H_b' K_b^-1 H_b over the bodies.  The bodies of a diagonal or block-diagonal
- * mass are small: K_b = L L', and W gets Y_b' Y_b with Y_b = L^-1 H_b.  Large ones go to
- * CHOLMOD.  W is then made column by column from the few bodies that a column touches. */
+/* K v = H r + f, u = H' v + w  ->  u = W r + q, body (connected part of K) by body: W =
+ * sum of H_b' K_b^-1 H_b over the bodies.  The bodies of a diagonal or block-diagonal
+ * mass are small: K_b = L L', and W gets Y_b' Y_b with Y_b = L^-1 H_b.  Large ones are
+ * factorised by CHOLMOD.  W is then computed column by column from the few bodies that a
+ * column belongs to. */
 #include "friction/internal.h"
 
 #include <lapacke.h>

@@ -1,9 +1,9 @@
-/* Gauss-Seidel for the rough state, Newton without line search for the digits, *Acary*.
+/* Gauss-Seidel for an approximate solution, then Newton without line search, *Acary*.
  *
- * How many sweeps: a few show what they are worth.  Where they lower the error well, the
- * contacts are mostly in their final states and Newton needs a step or two; where they do
- * not, the state that they leave is a worse start than the one given (wall-study.md), and
- * a hundred of them would be wasted. */
+ * Number of sweeps: a few show whether they help.  If they reduce the error well, most
+ * contacts are in their final states and Newton's method needs one or two steps.  If they
+ * do not, their result is a worse start than the given one (wall-study.md), and a hundred
+ * sweeps would be wasted. */
 #include "friction/internal.h"
 
 #include <stdlib.h>

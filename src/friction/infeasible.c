@@ -1,5 +1,5 @@
-/* A proof that a problem has no solution: reactions of any size leave a contact closing.
- */
+/* A proof that a problem has no solution: no reactions of any size prevent penetration at
+ * all contacts. */
 #include "friction/internal.h"
 
 #include <math.h>

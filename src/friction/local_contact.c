@@ -1,4 +1,4 @@
-/* One contact alone: u = W r + q with its own block W (d x d).
+/* The problem of one contact: u = W r + q with its diagonal block W (d x d).
  *
  * Where W_NN > 0 the normal is eliminated: u_N = 0 gives r_N = -(q_N + W_NT r_T) / W_NN,
  * and sliding, u_T = -lambda r_T with lambda > 0, becomes

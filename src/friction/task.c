@@ -1,4 +1,5 @@
-/* One solve in progress: what the methods ask, and how they are run. */
+/* The state of one solve: functions that the methods call, and the functions that run
+ * methods. */
 #include "friction/internal.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* What particles carry from step to step (theory.md 4.2, 4.10, 4.11, V5): a row each, so
- * that another memory is another row. */
+/* State variables that particles carry from step to step (theory.md 4.2, 4.10, 4.11, V5):
+ * one row of functions for each kind. */
 #include "history/internal.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* The program of a history: its columns, and the case that each step of it is. */
+/* The program of a history: its columns, and the case of each of its steps. */
 #include "history/internal.h"
 
 #include <gsl/gsl_interp.h>

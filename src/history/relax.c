@@ -1,7 +1,8 @@
-/* Bodies that relax, step by step (theory.md V5, V6).  In a step each of them is an
- * elastic body, softer than the glassy one, which brings along a displacement from its
- * past.  What is kept of the past are tractions, because those of an element that has
- * left the contact move with the material, while displacements reach everywhere. */
+/* Viscoelastic bodies, step by step (theory.md V5, V6).  In a step each of them behaves
+ * like an elastic body that is softer than the glassy one and has an initial displacement
+ * from earlier loads.  Filtered tractions are stored, not displacements: tractions move
+ * with the material and are zero where there was no load, while displacements are nonzero
+ * everywhere. */
 #include "history/internal.h"
 
 #include <cblas.h>

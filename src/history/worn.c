@@ -1,5 +1,5 @@
-/* Wear: a loop around contact problems, each of which takes off what it wears itself
- * (theory.md 4.9). */
+/* Wear: a sequence of contact problems, each of which includes the wear of its own step
+ * implicitly (theory.md 4.9). */
 #include "history/internal.h"
 
 #include <gsl/gsl_math.h>

@@ -1,6 +1,5 @@
-/* What the rounding errors of the pivots have done, measured against the original matrix:
- * the residual, the refreshing of the constants on the path, and the answer made exact.
- */
+/* Corrects rounding errors of the pivots with the original matrix: the residual, the
+ * refinement of the constants along the path, and the refinement of the solution. */
 #include "lcp/lemke.h"
 
 #include <cblas.h>

@@ -1,10 +1,11 @@
-/* One call for all methods by name, and the portfolio: the structure of M says which
- * method goes first, and where that does not end soon all take turns.
+/* One call for all methods by name, and the portfolio: the structure of M determines the
+ * first method; if it does not finish soon, all methods run in turns.
  *
- * In its first turn the first one may use what it needs where it is the right one.  Then
- * every method in turn goes on from where it stood until its own operations reach its
- * share of an allowance, which grows from round to round.  Operations are counted by
- * formulas, so that the same problem always takes the same path. */
+ * In its first turn the first method may use as many operations as it needs on suitable
+ * problems.  Then the methods continue in turns, each from its last iterate, until its
+ * own operations reach its share of an allowance, which grows from round to round.
+ * Operations are counted by formulas, so that the same problem is always solved in the
+ * same way. */
 #include "lcp/coarse.h"
 #include "lcp/game.h"
 #include "lcp/lemke.h"

@@ -1,4 +1,4 @@
-/* What is refused before anything is solved. */
+/* Checks of the input. */
 #include "lcp/lemke.h"
 
 #include <cblas.h>

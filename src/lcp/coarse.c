@@ -1,7 +1,6 @@
 /* A start for Newton's method on large sparse problems, which needs no grid: neighbours
- * are joined to aggregates, and the zones of the coarser problem, which starts from a
- * coarser one in turn, are those that the finer one begins with.  So they are found where
- * steps are cheap. */
+ * are joined to aggregates, and the basic variables of the coarser problem, which itself
+ * starts from a coarser one, are the first basic variables of the finer problem. */
 #include "lcp/coarse.h"
 
 #include <math.h>

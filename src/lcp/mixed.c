@@ -1,7 +1,8 @@
-/* Lemke's method for boxes on sparse matrices: w = M z + q + t d with z in its box and w
- * complementary to it, followed from a t that makes it true for a simple basis down to t
- * = 0 (Cottle, Pang, Stone, sections 4.4 and 4.5; Dirkse and Ferris, Optimization Methods
- * and Software 5, 1995, for boxes and for starts from a given point). */
+/* Lemke's method for sparse matrices and variables with bounds: w = M z + q + t d with z
+ * within its bounds and w complementary to it, from a t for which a simple basis is a
+ * solution down to t = 0 (Cottle, Pang, Stone, sections 4.4 and 4.5; Dirkse and Ferris,
+ * Optimization Methods and Software 5, 1995, for bounds and for starts from a given
+ * point). */
 #include "lcp/basis.h"
 #include "lcp/lemke.h"
 

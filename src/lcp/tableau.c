@@ -1,5 +1,5 @@
-/* The tableau of Lemke's method: pivots are collected, and each column is brought up to
- * date when it is asked for; or all of it is formed anew from the data and the basis. */
+/* The tableau of Lemke's method: pivots are collected, and a column is updated when it is
+ * needed; the whole tableau can be computed again from the data and the basis. */
 #include "lcp/tableau.h"
 
 #include <cblas.h>

@@ -1,5 +1,5 @@
-/* A certificate of a history: each step is judged with the past that the states before it
- * leave, so that the slip is that from the step before. */
+/* A certificate of a history: each step is checked with the past that follows from the
+ * earlier states, so that the slip is relative to the step before. */
 #include "report/certificate.h"
 
 #include <math.h>

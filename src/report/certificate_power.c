@@ -1,6 +1,7 @@
-/* Hysteresis by a way of its own (theory.md V4, V8): the tractions as waves, each of
- * which loses by the imaginary part of what answers it.  The library takes the loss from
- * matrices and from differences along the contact; nothing of that is used here. */
+/* Hysteresis computed independently (theory.md V4, V8): the tractions are decomposed into
+ * waves, and the loss of each wave follows from the imaginary part of its compliance.
+ * The library computes the loss from matrices and from differences along the contact,
+ * which are not used here. */
 #include "report/certificate.h"
 
 #include <complex.h>

@@ -1,5 +1,5 @@
-/* The certificate of a result of --all-solutions: each solution is judged by itself, as
- * the result of a case with the same inputs, and they must differ. */
+/* The certificate of a result of --all-solutions: each solution is checked separately, as
+ * the result of a case with the same inputs, and the solutions must differ. */
 #include "report/internal.h"
 
 #include "rollbem/case.h"

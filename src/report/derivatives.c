@@ -1,4 +1,5 @@
-/* Derivatives of the results of a case, and what uncertain inputs make of them. */
+/* Derivatives of the results of a case, and standard deviations of the results for
+ * uncertain inputs. */
 #include "report/internal.h"
 #include "rollbem/case.h"
 

@@ -1,4 +1,4 @@
-/* The matrices behind a solution. */
+/* Writes the matrices of a solution to files. */
 #include "report/internal.h"
 
 #include "rollbem/io.h"

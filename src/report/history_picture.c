@@ -1,5 +1,5 @@
-/* Picture of a history: creepage or shift, force, stick over the way or the increments;
- * half-width, load and approach over the time of static contact. */
+/* Picture of a history: creepage or shift, force, stick over the distance or the
+ * increments; half-width, load and approach over the time of static contact. */
 #include "report/internal.h"
 
 #include <math.h>

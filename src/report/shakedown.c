@@ -1,4 +1,5 @@
-/* The shakedown map: how hard a contact may press that is passed again and again. */
+/* The shakedown map: the largest pressure for elastic behaviour under repeated
+ * rolling. */
 #include "report/internal.h"
 
 #include "rollbem/closed_forms.h"

@@ -1,4 +1,4 @@
-/* Subsurface stress: table, JSON, lines for people. */
+/* Subsurface stress: table, JSON, summary. */
 #include "report/internal.h"
 
 #include <jansson.h>

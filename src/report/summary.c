@@ -1,4 +1,4 @@
-/* A solution in a few lines for people, and the notes on how to read it. */
+/* Summary of a solution in a few lines, and the notes on how to read it. */
 #include "report/internal.h"
 #include "rollbem/case.h"
 #include "rollbem/blas.h"

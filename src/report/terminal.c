@@ -1,5 +1,4 @@
-/* A table with tabs as a person wants it on a terminal: few digits, few rows, few
- * columns. */
+/* A table with tabs, abbreviated for a terminal: few digits, few rows, few columns. */
 #include "rollbem/report.h"
 #include "rollbem/units.h"
 

@@ -1,4 +1,4 @@
-/* Lemke's pivots of a solved model, in the words of contact. */
+/* Lemke's pivots of a solved model, with the names of contact variables. */
 #include "report/internal.h"
 
 #include "rollbem/io.h"

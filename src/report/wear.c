@@ -1,4 +1,4 @@
-/* Wear: table of the steps, JSON, lines for people, picture of pressure and depth. */
+/* Wear: table of the steps, JSON, summary, picture of pressure and depth. */
 #include "report/internal.h"
 
 #include <jansson.h>

@@ -1,4 +1,4 @@
-/* The words that all formats share. */
+/* Words used by all formats. */
 #include "report/internal.h"
 #include "rollbem/case.h"
 

@@ -1,5 +1,4 @@
-/* What must be known to read a result rightly; the notes that change its meaning first.
- */
+/* Notes on how to read a result; notes that change its meaning come first. */
 #include "rollbem/rolling.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Shakedown of a body that is rolled over again and again (theory.md S1), from the
- * elastic stress below the contact. */
+/* Shakedown of a body under repeated rolling (theory.md S1), from the elastic stress
+ * below the contact. */
 #include "results/internal.h"
 
 #include <stdlib.h>

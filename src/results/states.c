@@ -1,4 +1,4 @@
-/* The states of the steps of a history, kept to follow it again. */
+/* The states of the steps of a history, stored for rb_rolling_history_follow. */
 #include "results/internal.h"
 
 #include <stdlib.h>

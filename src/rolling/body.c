@@ -1,4 +1,4 @@
-/* The table of bodies, and what every body is asked. */
+/* The table of bodies, and functions for all bodies. */
 #include "rolling/internal.h"
 
 const rb_choice rb_rolling_supports[] = {

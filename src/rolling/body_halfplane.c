@@ -1,5 +1,5 @@
-/* Half-planes, which answer alike at every place: of one material, with a layer of it on
- * a base, and with fading memory. */
+/* Half-planes, which have translation symmetry: of one material, as a layer on a base,
+ * and viscoelastic. */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

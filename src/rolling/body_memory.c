@@ -1,4 +1,5 @@
-/* What memory adds to the flexibility of one body, of which its hysteresis is made. */
+/* The viscoelastic part of the flexibility of one body, from which its hysteresis is
+ * computed. */
 #include "rolling/internal.h"
 
 rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory)

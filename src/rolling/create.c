@@ -1,5 +1,5 @@
-/* From a case to its solved contact problem, on the mesh that it asks for, and the
- * creepage at which it rolls freely. */
+/* From a case to its solved contact problem on the given kind of mesh, and the
+ * free-rolling creepage. */
 #include "rolling/internal.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* The formulation of a case as a contact problem (theory.md 4.2): the kinematic operator
- * A, what moves the surfaces, what is given.  The solvers do not know which it is. */
+ * A, the motion of the surfaces, the given quantities.  The solvers are the same for all
+ * formulations. */
 #include "rolling/internal.h"
 
 #include <float.h>

@@ -1,7 +1,8 @@
-/* Newton's method for friction that depends on the state (theory.md F1): bounds b with
- * b = T(b), T(b) the coefficients that the law gives the contact with these bounds.  The
- * derivative of T along a direction is a difference of two solved contacts, so that every
- * law, coupled bodies and operators without a matrix are served alike. */
+/* Newton's method for friction that depends on the state (theory.md F1): it solves b =
+ * T(b), where T(b) are the coefficients of the law for the contact solved with the bounds
+ * b.  The derivative of T along a direction is a difference of two solved contacts, so
+ * that the method works for all laws, for coupled bodies and for operators without a
+ * matrix. */
 #include "rolling/internal.h"
 
 #include <cblas.h>

@@ -1,4 +1,4 @@
-/* What bodies are made of, by the plane problem of the case. */
+/* Elastic constants of the bodies for the plane problem of the case. */
 #include "rolling/internal.h"
 
 rb_bem_material rb_rolling_material(const rb_rolling_case *rc,

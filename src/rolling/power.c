@@ -1,4 +1,4 @@
-/* The power that friction dissipates and that bodies lose. */
+/* The power dissipated by friction and by viscoelastic bodies. */
 #include "rolling/internal.h"
 
 #include <cblas.h>

@@ -1,5 +1,5 @@
-/* The potential contact: where elements must stand so that every place where the bodies
- * touch has some (theory.md 5.1). */
+/* The potential contact: the interval with elements, which must enclose the whole contact
+ * (theory.md 5.1). */
 #include "rolling/internal.h"
 
 #include <stdlib.h>

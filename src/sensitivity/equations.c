@@ -1,5 +1,5 @@
-/* The equations of a contact whose zones are known (theory.md, D1), and how the friction
- * law answers to slips and tractions. */
+/* The equations of a contact whose zones are known (theory.md, D1), and the derivatives
+ * of the friction law with respect to slips and tractions. */
 #include "sensitivity/internal.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Tangents of a solved contact (theory.md, D2), also where elements stand between two
+/* Tangents of a solved contact (theory.md, D2), also if elements are at the border of two
  * zones. */
 #include "sensitivity/internal.h"
 

@@ -1,5 +1,5 @@
-/* Steady states that differ, where friction depends on the state so strongly that there
- * are several (theory.md F5). */
+/* Several steady solutions of one case, which may exist if friction depends strongly on
+ * the state (theory.md F5). */
 #include "study/internal.h"
 
 #include <stdlib.h>

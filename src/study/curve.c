@@ -1,5 +1,5 @@
 /* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
- * the speed of bodies that relax (V4). */
+ * the speed of viscoelastic bodies (V4). */
 #include "study/internal.h"
 
 #include <cblas.h>

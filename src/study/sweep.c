@@ -1,5 +1,5 @@
-/* Parameter studies: cases handed out one by one to a pool of processes, rows seen in
- * order. */
+/* Parameter studies: cases are distributed one by one to a pool of processes, and rows
+ * are passed on in order. */
 #include "study/internal.h"
 
 #include <stdlib.h>

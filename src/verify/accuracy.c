@@ -1,5 +1,5 @@
-/* How near elements fitted to the contact come to the closed forms, and pairs of cases
- * that must give the same. */
+/* Errors of fitted elements compared with closed forms, and pairs of cases that must give
+ * the same result. */
 #include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"

@@ -1,4 +1,4 @@
-/* The elastic body alone, and the stress below a contact. */
+/* References for the elastic body alone and for the stress below a contact. */
 #include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"

@@ -1,4 +1,4 @@
-/* What every reference of `verify` does: compare, solve, begin with a common case. */
+/* Functions for all references of `verify`: compare, solve, make a common case. */
 #include "verify/internal.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* What happens between the bodies: friction that falls, a third body, heat, wear. */
+/* References for the interface between the bodies: falling friction, a third body, heat,
+ * wear. */
 #include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"

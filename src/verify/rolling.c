@@ -1,4 +1,4 @@
-/* Rolling in time, and what it costs. */
+/* References for transient rolling and for rolling resistance. */
 #include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"

@@ -1,4 +1,4 @@
-/* `verify`: every reference against what the program computes. */
+/* `verify`: compares all references with the values that the program computes. */
 #include "verify/internal.h"
 
 int rb_verify_run(rb_verify_each_check *each, void *context)
