@@ -764,11 +764,11 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
-/* A variant with another case on elements whose ends x are moved to scale x.  The
- * flexibility is computed again if scale is not 1 or the bodies differ. */
-rb_status rb_rolling_variant_stretch(const rb_rolling_model *of,
-                                     const rb_rolling_case *rc, double scale,
-                                     rb_rolling_model *variant, rb_message *why);
+/* A variant with another case on elements whose ends x are moved to shift + scale x.  The
+ * flexibility is computed again if they move or the bodies differ. */
+rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   double shift, double scale, rb_rolling_model *variant,
+                                   rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */

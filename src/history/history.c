@@ -356,7 +356,7 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     if (!r->found)
         return rb_rolling_model_create(&widest, r->model, why);
     if (r->like)
-        return rb_rolling_variant_stretch(r->like, &widest, r->scale, r->model, why);
+        return rb_rolling_variant_place(r->like, &widest, 0.0, r->scale, r->model, why);
     const size_t n = (size_t)r->found->n;
     double *x = rb_alloc(n, 2), *h = x + n;
     const rb_rolling_elements elements = {

@@ -218,11 +218,11 @@ rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, doub
     return create(of, of->rc, 2, (motion){shift, scale}, v, why);
 }
 
-rb_status rb_rolling_variant_stretch(const rb_rolling_model *of,
-                                     const rb_rolling_case *rc, double scale,
-                                     rb_rolling_model *v, rb_message *why)
+rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   double shift, double scale, rb_rolling_model *v,
+                                   rb_message *why)
 {
-    return create(of, rc, 0, (motion){0.0, scale}, v, why);
+    return create(of, rc, 0, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,

@@ -453,7 +453,11 @@ static void add_motions(const rb_sensitivity *s, const variants *v,
         d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
         d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
         d->nip_width = d->contact_to - d->contact_from;
+        const double radius = rb_rolling_derive(s->model->rc).radius,
+                     before = d->half_width;
         d->half_width = 0.5 * d->nip_width;
+        if (s->solution.max_strain == 0.5 * s->solution.half_width / radius)
+            d->max_strain += 0.5 * (d->half_width - before) / radius;
     }
 }
 

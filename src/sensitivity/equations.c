@@ -44,7 +44,7 @@ void rb_sensitivity_residual(const rb_rolling_model *base,
     if (p->yield) {
         rb_contact_yielded(p, state->plastic, left->yield);
         for (int i = 0; i < left->n; i++)
-            left->yield[i] = p->yield[i] + p->hardening * left->yield[i];
+            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
     }
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;

@@ -58,6 +58,9 @@ typedef struct rb_sensitivity_factors {
 rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
                                 rb_sensitivity_factors **factors);
 void rb_sensitivity_factors_free(rb_sensitivity_factors *factors);
+/* Returns what the creepage changes by with the load, where a creepage ratio is given
+ * under an approach (the ratio is one of Hertz's half-width); otherwise 0. */
+double rb_sensitivity_xi_by_load(const rb_rolling_model *model);
 /* Solves J y' = -R'. */
 rb_status rb_sensitivity_forward(const rb_sensitivity *s,
                                  const rb_sensitivity_factors *factors,

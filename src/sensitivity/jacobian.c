@@ -80,7 +80,9 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
             force[j] =
                 moves && s->law_force ? -friction * s->law_force[(size_t)i + j * n] : 0.0;
         }
-    if (!yields(zone[i]) || p->hardening == 0.0)
+    /* what has softened away carries nothing, whatever it yields further */
+    const int carries = fabs(s->model->state.q[i]) > 1e-9 * rb_contact_friction_scale(p);
+    if (!yields(zone[i]) || p->hardening == 0.0 || !carries)
         return;
     double now = -sign_of(zone[i]) * p->hardening, next = 0.0;
     for (int j = i; j < s->n; j++) { /* u_i in those upstream of it */
@@ -141,6 +143,18 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
         tangential[(size_t)(m + k) * ld] += force[f->contact[k]];
 }
 
+double rb_sensitivity_xi_by_load(const rb_rolling_model *model)
+{
+    const rb_rolling_case *rc = model->rc;
+    const rb_contact_problem *p = &model->problem;
+    const double P = rb_contact_load(p, &model->state);
+
+    return !p->force_given && !p->load_given && rc->formulation != RB_STATIC &&
+                   !isnan(rc->creep_ratio) && P > 0.0
+               ? 0.5 * p->xi / P
+               : 0.0;
+}
+
 /* The two controls: P or delta, Q (less what friction carries, and the axle's moment) or
  * xi, which under a given approach may be a ratio that asks for the load. */
 static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
@@ -151,14 +165,10 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     const int m = f->contacts, law = rb_rolling_law_depends_on_state(rc);
     const size_t ld = (size_t)f->size;
     double *normal = f->J + 2 * m, *tangential = normal + 1;
-    const int ratio_of_load = !p->force_given && !p->load_given &&
-                              rc->formulation != RB_STATIC && !isnan(rc->creep_ratio);
-    const double P = rb_contact_load(p, &model->state);
     const double share =
         p->force_given && law && p->axle == 0.0 && !isnan(rc->force_ratio)
             ? rc->force_ratio * p->mu
-        : ratio_of_load && P > 0.0 ? 0.5 * p->xi / P
-                                   : 0.0;
+            : rb_sensitivity_xi_by_load(model);
 
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c];

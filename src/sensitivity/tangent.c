@@ -120,7 +120,10 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
     return status;
 }
 
-/* A part that moves the data by about as much as they are. */
+/* A part that moves the data by far more than they are: the products are solved to so
+ * much, and the change is what counts. */
+static const double FAR = 1e4;
+
 static double long_part(const rb_sensitivity *s, const rb_sensitivity_rate *rate)
 {
     const rb_contact_problem *p = &s->model->problem;
@@ -131,10 +134,11 @@ static double long_part(const rb_sensitivity *s, const rb_sensitivity_rate *rate
              fmax(rb_norm_inf(n, rate->bound) / fmax(p->mu, 1e-3),
                   fmax(fabs(rate->normal), fabs(rate->tangential) / s->n)));
 
-    return size > 0.0 ? 1.0 / size : 1.0;
+    return size > 0.0 ? FAR / size : FAR;
 }
 
-static rb_status tangent_by_products(const rb_sensitivity *s,
+/* At the creepage that the rate says. */
+static rb_status tangent_at_creepage(const rb_sensitivity *s,
                                      const rb_sensitivity_rate *rate, rb_contact_state *y)
 {
     rb_contact_state x;
@@ -152,6 +156,39 @@ static rb_status tangent_by_products(const rb_sensitivity *s,
     y->delta = (y->delta - x.delta) / part;
     y->xi = (y->xi - x.xi) / part;
     rb_contact_state_free(&x);
+    return status;
+}
+
+/* A creepage that follows the load brings its own tangent, as often as the load that it
+ * changes asks for. */
+static rb_status tangent_by_products(const rb_sensitivity *s,
+                                     const rb_sensitivity_rate *rate, rb_contact_state *y)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const double share = rb_sensitivity_xi_by_load(s->model);
+    rb_contact_state by_xi = {0};
+    rb_sensitivity_rate unit = {0};
+    rb_status status = tangent_at_creepage(s, rate, y);
+
+    if (status != RB_OK || share == 0.0)
+        return status;
+    status = rb_contact_state_alloc(s->n, &by_xi);
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(s->n, &unit);
+    unit.tangential = -p->e_T[0] / p->slip_length;
+    if (status == RB_OK)
+        status = tangent_at_creepage(s, &unit, &by_xi);
+    const double more = status == RB_OK ? share * rb_contact_load(p, y) /
+                                              (1.0 - share * rb_contact_load(p, &by_xi))
+                                        : 0.0;
+    for (int i = 0; i < s->n && status == RB_OK; i++) {
+        y->p[i] += more * by_xi.p[i];
+        y->q[i] += more * by_xi.q[i];
+    }
+    y->delta += more * by_xi.delta;
+    y->xi += more * by_xi.xi;
+    rb_sensitivity_rate_free(&unit);
+    rb_contact_state_free(&by_xi);
     return status;
 }
 

@@ -1,0 +1,409 @@
+/* Derivatives compared with central differences of solved problems: of single cases on
+ * the same elements, moved as the derivative says that they move; of histories that are
+ * solved anew. */
+#ifndef DIFFERENCES_H
+#define DIFFERENCES_H
+
+#include "check.h"
+
+#include "rollbem/rollbem.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What a comparison found. */
+typedef struct {
+    double off;     /* the largest deviation, of the value or of what is usual for it */
+    int compared;   /* inputs; 0: zones change near all of them */
+    char text[240]; /* where that is */
+} differences;
+
+static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
+                    difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0,
+                                           -1.0 / 12.0};
+
+/* size: of the value, for a change of the input by all of its own; NAN: both NAN. */
+static void difference_note(differences *d, double got, double want, double size,
+                            const char *format, ...)
+{
+    va_list args;
+    const double off = fabs(got - want) / fmax(fabs(want), size);
+
+    if (got == want || (isnan(got) && isnan(want)) || off <= d->off)
+        return;
+    d->off = isnan(off) ? INFINITY : off;
+    va_start(args, format);
+    const int n = vsnprintf(d->text, sizeof d->text, format, args);
+    va_end(args);
+    snprintf(d->text + n, sizeof d->text - (size_t)n, ": %.10g, differences %.10g", got,
+             want);
+}
+
+/* ---- Single cases ------------------------------------------------------------------ */
+
+/* Where p^2 through the second and third element in contact is 0 (theory.md D6). */
+static double difference_edge(const rb_rolling_model *m, int side)
+{
+    const double *p = m->state.p, *x = m->mesh.ends;
+    int j = side > 0 ? m->mesh.n - 1 : 0;
+    while (m->state.zone[j] == RB_ZONE_SEPARATED)
+        j -= side;
+    j -= side;
+    const int i = j - side;
+    const double at = 0.5 * (x[j] + x[j + 1]), before = 0.5 * (x[i] + x[i + 1]),
+                 fall = pow(p[j] / p[i], 2.0);
+    return at + (at - before) * fall / (1.0 - fall);
+}
+
+typedef struct {
+    const rb_rolling_model *base;
+    rb_sensitivity_elements elements;
+    double half, centre; /* of the contact on the elements of the base */
+    double gain[4];      /* of the motion by what is found; of fitted elements */
+} difference_frame;
+
+/* Solves rc on elements that are stretched to the half-width half + by[0] about a centre
+ * shifted by by[1]; found: what these are afterwards less what they were. */
+static rb_status difference_solve(const difference_frame *f, const rb_rolling_case *rc,
+                                  const double by[2], rb_rolling_model *v,
+                                  double found[2], rb_message *why)
+{
+    const double scale = 1.0 + by[0] / f->half;
+    rb_rolling_case at = *rc;
+
+    at.mesh = f->base->rc->mesh;
+    at.slip_operator = f->base->rc->slip_operator;
+    at.outer_refinement = f->base->rc->outer_refinement;
+    at.outer_elements = f->base->rc->outer_elements;
+    at.contact_elements =
+        at.mesh == RB_MESH_UNIFORM ? f->base->mesh.n : f->base->rc->contact_elements;
+    rb_status s = rb_rolling_variant_place(
+        f->base, &at, by[1] + f->centre * (1.0 - scale), scale, v, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_control(v, why);
+    if (s == RB_OK && memcmp(v->state.zone, f->base->state.zone,
+                             (size_t)v->mesh.n * sizeof *v->state.zone) != 0)
+        s = RB_ZONE;
+    if (s == RB_OK && f->elements == RB_SENSITIVITY_EDGES) {
+        const double from = difference_edge(v, -1), to = difference_edge(v, 1);
+        found[0] = 0.5 * (to - from) - f->half;
+        found[1] = 0.5 * (to + from) - f->centre;
+    }
+    return s;
+}
+
+static rb_status difference_begin(const rb_rolling_model *base,
+                                  rb_sensitivity_elements elements, difference_frame *f,
+                                  rb_message *why)
+{
+    *f = (difference_frame){
+        base, elements, rb_rolling_derive(base->rc).half_width, 0.0, {0}};
+    if (elements != RB_SENSITIVITY_EDGES)
+        return RB_OK;
+    const double from = difference_edge(base, -1), to = difference_edge(base, 1);
+    f->half = 0.5 * (to - from);
+    f->centre = 0.5 * (to + from);
+    double J[4]; /* 1 - found_e */
+    for (int k = 0; k < 2; k++) {
+        const double step = 1e-6 * f->half, by[2] = {k ? 0.0 : step, k ? step : 0.0};
+        rb_rolling_model v;
+        double found[2];
+        const rb_status s = difference_solve(f, base->rc, by, &v, found, why);
+        rb_rolling_variant_free(base, &v);
+        if (s != RB_OK)
+            return s;
+        J[k] = (k == 0) - found[0] / step;
+        J[2 + k] = (k == 1) - found[1] / step;
+    }
+    const double det = J[0] * J[3] - J[1] * J[2];
+    f->gain[0] = J[3] / det;
+    f->gain[1] = -J[1] / det;
+    f->gain[2] = -J[2] / det;
+    f->gain[3] = J[0] / det;
+    return RB_OK;
+}
+
+static int difference_is_edge(const rb_rolling_result *r)
+{
+    static const char *const edges[] = {"contact_from", "contact_to", "half_width",
+                                        "nip_width"};
+    for (size_t k = 0; k < sizeof edges / sizeof *edges; k++)
+        if (strcmp(r->name, edges[k]) == 0)
+            return 1;
+    return 0;
+}
+
+/* The solution of rc, on elements that move as those of the base do, and with them the
+ * edges that they are fitted to; at: of the base. */
+static rb_status difference_at(const difference_frame *f, const rb_rolling_case *rc,
+                               const rb_rolling_solution *at,
+                               rb_rolling_solution *solution, rb_message *why)
+{
+    const double strain = 0.5 * at->half_width / rb_rolling_derive(f->base->rc).radius;
+    double by[2] = {f->elements == RB_SENSITIVITY_HERTZ
+                        ? rb_rolling_derive(rc).half_width - f->half
+                        : 0.0,
+                    0.0},
+           found[2];
+    rb_rolling_model v;
+    rb_status s;
+
+    for (int round = 0;; round++) {
+        s = difference_solve(f, rc, by, &v, found, why);
+        if (s != RB_OK || f->elements != RB_SENSITIVITY_EDGES || round == 12)
+            break;
+        const double left[2] = {found[0] - by[0], found[1] - by[1]};
+        if (fabs(left[0]) + fabs(left[1]) < 1e-15 * f->half)
+            break;
+        by[0] += f->gain[0] * left[0] + f->gain[1] * left[1];
+        by[1] += f->gain[2] * left[0] + f->gain[3] * left[1];
+        rb_rolling_variant_free(f->base, &v);
+    }
+    if (s == RB_OK)
+        s = rb_rolling_model_solution(&v, solution, why);
+    if (s == RB_OK && f->elements == RB_SENSITIVITY_EDGES) {
+        solution->contact_from =
+            at->contact_from + by[1] + by[0] * (at->contact_from - f->centre) / f->half;
+        solution->contact_to =
+            at->contact_to + by[1] + by[0] * (at->contact_to - f->centre) / f->half;
+        solution->nip_width = solution->contact_to - solution->contact_from;
+        solution->half_width =
+            at->half_width + 0.5 * (solution->nip_width - at->nip_width);
+    }
+    if (s == RB_OK && at->max_strain == strain) /* no layer: a/(2R) */
+        solution->max_strain = 0.5 * solution->half_width / rb_rolling_derive(rc).radius;
+    rb_rolling_variant_free(f->base, &v);
+    return s;
+}
+
+/* Two elements share the largest pressure: what asks which one it is has a kink. */
+static int difference_has_tie(const rb_rolling_solution *at)
+{
+    double most = 0.0, second = 0.0;
+    for (int i = 0; i < at->n; i++) {
+        second = fmax(second, fmin(most, at->p[i]));
+        most = fmax(most, at->p[i]);
+    }
+    return second > 0.99 * most;
+}
+
+/* Edges of elements that do not follow them end at midpoints, which has kinks; the
+ * creepage of free rolling is a solution of its own. */
+static int difference_is_left_out(const rb_rolling_result *r,
+                                  const rb_rolling_solution *at,
+                                  rb_sensitivity_elements elements)
+{
+    const int strain = strcmp(r->name, "max_strain") == 0,
+              peak =
+                  strcmp(r->name, "max_pressure") == 0 || strcmp(r->name, "kappa") == 0;
+    return !rb_sensitivity_has(r) || strcmp(r->name, "free_creepage") == 0 ||
+           (elements != RB_SENSITIVITY_EDGES && (difference_is_edge(r) || strain)) ||
+           ((peak || strain) && difference_has_tie(at));
+}
+
+/* All results by one input, with steps of that part of its scale. */
+static void difference_of_input(const difference_frame *f, const rb_case_number *number,
+                                const rb_case_derivative *of,
+                                const rb_rolling_solution *at, double part,
+                                differences *d)
+{
+    rb_rolling_solution near[4] = {{0}};
+    const double step = part * number->input.scale;
+    rb_status s = RB_OK;
+
+    for (int j = 0; j < 4 && s == RB_OK; j++) {
+        rb_message why = {""};
+        rb_rolling_case rc;
+        s = number->input.vary(number->input.context,
+                               number->input.value + difference_place[j] * step, &rc,
+                               &why);
+        if (s == RB_OK)
+            s = difference_at(f, &rc, at, &near[j], &why);
+    }
+    d->compared += s == RB_OK;
+    for (int k = 0; k < rb_rolling_solution_scalars.n && s == RB_OK; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        double want = 0.0;
+        if (difference_is_left_out(r, at, f->elements))
+            continue;
+        for (int j = 0; j < 4; j++)
+            want += difference_weight[j] / step * rb_rolling_number(r, &near[j]);
+        const double usual =
+            1e11 * rb_sensitivity_rounding(f->base->rc, r, rb_rolling_number(r, at));
+        difference_note(d, rb_rolling_number(r, &of->d.value[0]), want,
+                        usual / number->input.scale, "%s by %s", r->name, number->name);
+    }
+    for (int i = 0; i < at->n && s == RB_OK; i++) {
+        double p = 0.0, q = 0.0;
+        const double usual = at->max_pressure / number->input.scale;
+        for (int j = 0; j < 4; j++) {
+            p += difference_weight[j] / step * near[j].p[i];
+            q += difference_weight[j] / step * near[j].q[i];
+        }
+        difference_note(d, of->d.value[0].p[i], p, usual, "p[%d] by %s", i, number->name);
+        difference_note(d, of->d.value[0].q[i], q, usual, "q[%d] by %s", i, number->name);
+    }
+    for (int j = 0; j < 4; j++)
+        rb_rolling_solution_free(&near[j]);
+}
+
+/* Every `every`-th input of a solved case, beginning with number `first`. */
+static rb_status compare_single(const rb_case *c, int first, int every, differences *d,
+                                rb_message *why)
+{
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    rb_case_derivatives all = {0};
+    rb_rolling_solution at = {0};
+    rb_rolling_model model = {0};
+    difference_frame f;
+    int numbers = 0;
+
+    *d = (differences){0};
+    rb_status s = number
+                      ? rb_rolling_solve_model(&rb_case_resolved(c)->rc, &model, &at, why)
+                      : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_case_differentiate(c, &model, 0, NULL, &all, why);
+    if (s == RB_OK)
+        s = rb_case_numbers(c, number, &numbers, why);
+    if (s == RB_OK && difference_begin(&model, all.elements, &f, why) == RB_OK)
+        for (int k = first; k < numbers; k += every) {
+            const rb_case_derivative *of = &all.of[k];
+            if (of->status != RB_OK || of->d.sides != 1 || number[k].input.value == 0.0)
+                continue;
+            const int before = d->compared;
+            for (double part = 1e-3; part > 1e-6 && d->compared == before; part *= 0.1)
+                difference_of_input(&f, &number[k], of, &at, part, d);
+        }
+    rb_case_derivatives_free(&all);
+    rb_rolling_solution_free(&at);
+    rb_rolling_model_free(&model);
+    free(number);
+    return s;
+}
+
+/* ---- Histories --------------------------------------------------------------------- */
+
+typedef struct {
+    rb_rolling_model model;
+    rb_rolling_history history;
+    rb_rolling_states states;
+} difference_run;
+
+static int difference_keep(const rb_rolling_model *model,
+                           const rb_rolling_history *history, int step, int steps,
+                           void *context)
+{
+    rb_rolling_states *states = context;
+    (void)history;
+    if (step == 0) {
+        rb_rolling_states_free(states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
+            return 1;
+    }
+    rb_rolling_states_set(model, step, states);
+    return 0;
+}
+
+static rb_status difference_history(const rb_resolved_case *c, const rb_rolling_case *rc,
+                                    difference_run *run, rb_message *why)
+{
+    const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
+    const rb_rolling_observer observer = {difference_keep, &run->states};
+    const rb_status s =
+        rb_rolling_history_run(rc, program, &observer, &run->model, &run->history, why);
+    run->states.program = program;
+    run->states.half_width = run->history.half_width;
+    return s;
+}
+
+static void difference_run_free(difference_run *run)
+{
+    rb_rolling_model_free(&run->model);
+    rb_rolling_history_free(&run->history);
+    rb_rolling_states_free(&run->states);
+}
+
+/* What is usual for a column: the largest of its values, or by its unit. */
+static double difference_usual(const rb_rolling_result *r, const difference_run *at)
+{
+    double usual = 0.0;
+    for (int row = 0; row < at->history.n; row++) {
+        const double x = rb_rolling_entry(r, &at->history, row);
+        usual = fmax(usual,
+                     1e11 * rb_sensitivity_rounding(at->model.rc, r, isnan(x) ? 0.0 : x));
+    }
+    return usual;
+}
+
+static void difference_of_steps(const rb_resolved_case *c, const rb_case_number *number,
+                                const difference_run *at, const rb_case_slopes *s,
+                                double part, differences *d)
+{
+    const double step = part * number->input.scale;
+    const size_t zones = (size_t)at->states.n * (size_t)at->states.steps;
+    difference_run near[4] = {{.states = {0}}};
+    int same = 1;
+
+    for (int j = 0; j < 4 && same; j++) {
+        rb_message why = {""};
+        rb_rolling_case rc;
+        same = number->input.vary(number->input.context,
+                                  number->input.value + difference_place[j] * step, &rc,
+                                  &why) == RB_OK &&
+               difference_history(c, &rc, &near[j], &why) == RB_OK &&
+               near[j].states.n == at->states.n &&
+               near[j].states.steps == at->states.steps &&
+               memcmp(near[j].states.zone, at->states.zone, zones * sizeof(int)) == 0;
+    }
+    d->compared += same;
+    for (int k = 0; k < s->n && same; k++)
+        for (int row = 0; row < s->rows && strcmp(s->of[k].input, number->name) == 0;
+             row++) {
+            double want = 0.0;
+            for (int j = 0; j < 4; j++)
+                want += difference_weight[j] / step *
+                        rb_rolling_entry(s->of[k].result, &near[j].history, row);
+            difference_note(d, rb_case_slope_value(s, row, k), want,
+                            difference_usual(s->of[k].result, at) / number->input.scale,
+                            "%s by %s, step %d", s->of[k].result->name, number->name,
+                            row + 1);
+        }
+    for (int j = 0; j < 4; j++)
+        difference_run_free(&near[j]);
+}
+
+/* Every `every`-th input of a case of steps, beginning with number `first`. */
+static rb_status compare_steps(const rb_case *c, int first, int every, differences *d,
+                               rb_message *why)
+{
+    const rb_resolved_case *resolved = rb_case_resolved(c);
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    difference_run at = {.states = {0}};
+    rb_case_slopes slopes = {0};
+    int numbers = 0;
+
+    *d = (differences){0};
+    rb_status s =
+        number ? difference_history(resolved, &resolved->rc, &at, why) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_case_slopes_choose(c, &rb_rolling_history_columns, "all",
+                                  RB_CASE_SLOPES_MAX, &slopes, why);
+    if (s == RB_OK)
+        s = rb_case_slopes_of_steps(c, &at.states, &slopes, why);
+    if (s == RB_OK)
+        s = rb_case_numbers(c, number, &numbers, why);
+    for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {
+        const int before = d->compared;
+        for (double part = 1e-3;
+             part > 1e-6 && d->compared == before && number[k].input.value != 0.0;
+             part *= 0.1)
+            difference_of_steps(resolved, &number[k], &at, &slopes, part, d);
+    }
+    rb_case_slopes_free(&slopes);
+    difference_run_free(&at);
+    free(number);
+    return s;
+}
+
+#endif
