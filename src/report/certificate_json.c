@@ -10,10 +10,13 @@
 /* Results of `rollbem` itself, in mm, N, MPa. */
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {"schema",  "version", "command",    "conventions",
-                                        "notes",   "units",   "input_hash", "inputs",
-                                        "summary", "table",   "history",    "depth",
-                                        "maxima",  "grid",    "points",     "shakedown"};
+    static const char *const known[] = {
+        "schema", "version", "command", "conventions", "notes", "units", "input_hash",
+        "inputs", "summary", "table", "history", "depth", "maxima", "grid", "points",
+        "shakedown",
+        /* not judged; the result beside them is */
+        "derivatives", "without_derivatives", "derivatives_over_x", "derivatives_are",
+        "tolerances"};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *summary = json_object_get(root, "summary");
