@@ -1047,7 +1047,7 @@ static void check_certificate(void)
 static int has_no_derivatives(const char *errors)
 {
     static const char *const reasons[] = {
-        "needs matrices", "not of friction that depends", "give a load",
+        "needs matrices", "not for friction that depends", "give a load",
         "the interface yields while the surfaces slide"};
     for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++)
         if (strstr(errors, reasons[k]))
