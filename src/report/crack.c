@@ -146,6 +146,26 @@ static const char *colour_of(int zone)
     return rb_report_zone_colour(zone, zone == RB_ZONE_SEPARATED);
 }
 
+/* What the colours mean, in one line at the bottom of the picture; open: 1, where there
+ * is something to be seen of it. */
+static void write_zone_key(FILE *out, rb_report_canvas canvas, int open)
+{
+    static const struct {
+        int zone;
+        double x;
+        const char *name;
+    } zones[] = {{RB_ZONE_SEPARATED, 0.14, "□ open"},
+                 {RB_ZONE_STICK, 0.3, "■ stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, 0.46, "■ slip to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, 0.78, "■ slip back"}};
+    for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++)
+        fprintf(out,
+                "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font "
+                "',%.3g'\n",
+                (int)k + 3, zones[k].name, zones[k].x,
+                rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
+}
+
 /* Steps of the last pass. */
 static int first_of(const rb_case_crack_result *r)
 {
@@ -253,7 +273,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
             "0.08\nset zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
             "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
-            "',%.3g'\nset label 2 '%s  [%s]' at screen 0.03, %g center "
+            "',%.3g'\nset label 2 'K  [%s]' at screen 0.03, %g center "
             "rotate\n",
             0.14 + place.right,
             !wet           ? 0.965
@@ -261,7 +281,6 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
                            : 0.83,
             0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
             0.925 + 1.4 * place.up, rb_report_key_font(canvas),
-            place.titled ? "stress intensity" : "K",
             rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), unit), 0.68);
     if (wet)
         fprintf(out,
@@ -286,20 +305,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set label 2 'along%s / a' at screen 0.03, %g center rotate\n",
             0.16 + place.up, rb_report_round_step(along / 4.0),
             place.titled ? " the crack" : "", 0.3 + 0.5 * place.up);
-    static const struct {
-        int zone;
-        double x;
-        const char *name;
-    } zones[] = {{RB_ZONE_SEPARATED, 0.14, "□ open"},
-                 {RB_ZONE_STICK, 0.3, "■ stick"},
-                 {RB_ZONE_SLIP_NEGATIVE, 0.46, "■ slip to the tip"},
-                 {RB_ZONE_SLIP_POSITIVE, 0.78, "■ slip back"}};
-    for (size_t k = 0; k < sizeof zones / sizeof *zones; k++)
-        fprintf(out,
-                "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font "
-                "',%.3g'\n",
-                (int)k + 3, zones[k].name, zones[k].x,
-                rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
+    write_zone_key(out, canvas, 1);
     fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
           "linecolor rgb variable notitle",
           out);
@@ -392,16 +398,16 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         const double factor = 0.5 * side * times / r->half_width;
         fprintf(out, "$face%d << EOD\n", (side + 1) / 2);
         if (path->y[0] < 0.0)
-            fprintf(out, "%.9g %.9g 0\n", path->x[0] / unit, path->y[0] / unit);
+            fprintf(out, "%.9g %.9g 0 0\n", path->x[0] / unit, path->y[0] / unit);
         for (int j = 0; j < n; j++) {
             const double dx = -v->t_y[j] * D[j] + v->t_x[j] * D[n + j],
                          dy = v->t_x[j] * D[j] + v->t_y[j] * D[n + j];
-            fprintf(out, "%.9g %.9g %ld\n", v->x[j] / unit + factor * dx,
-                    v->y[j] / unit + factor * dy,
-                    strtol(colour_of(h->zone[(size_t)k * (size_t)n + (size_t)j]) + 1,
-                           NULL, 16));
+            const int zone = h->zone[(size_t)k * (size_t)n + (size_t)j];
+            fprintf(out, "%.9g %.9g %ld %d\n", v->x[j] / unit + factor * dx,
+                    v->y[j] / unit + factor * dy, strtol(colour_of(zone) + 1, NULL, 16),
+                    zone != RB_ZONE_SEPARATED);
         }
-        fprintf(out, "%.9g %.9g 0\nEOD\n", path->x[path->pieces] / unit,
+        fprintf(out, "%.9g %.9g 0 0\nEOD\n", path->x[path->pieces] / unit,
                 path->y[path->pieces] / unit);
     }
     if (place.titled)
@@ -413,18 +419,24 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
                 "center\n",
                 h->x[k] / r->half_width, times, h->K_I[k], h->K_II[k],
                 rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), name));
-    const double margin = 0.25 * size;
-    fprintf(out,
-            "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
-            "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\n"
-            "set key at screen 0.965, 0.045 right horizontal maxrows 1 samplen 2 font "
-            "',%.3g'\n"
-            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
-            "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
-            0.12 + place.right, 0.17 + place.up, 0.89 + place.up, from - margin,
-            to + margin, -deepest - margin, 0.6 * margin, rb_report_key_font(canvas),
-            -deepest - margin);
+    write_zone_key(out, canvas, 0);
+    const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
+    const double narrow = fmax(0.5 * (1.2 * (deepest + margin) - (to - from)), 0.0);
+    from -= narrow; /* of a steep crack; else the picture would be a strip */
+    to += narrow;
+    fprintf(
+        out,
+        "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+        "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
+        "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
+        "set ytics %g\n"
+        "set key at screen 0.965, 0.085 right horizontal maxrows 1 samplen 2 font "
+        "',%.3g'\n"
+        "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
+        "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
+        0.12 + place.right, 0.21 + place.up, 0.89 + place.up, from - margin, to + margin,
+        -deepest - margin, 0.6 * margin, step, step, rb_report_key_font(canvas),
+        -deepest - margin);
     /* the contact above, where it is within the picture */
     fprintf(out,
             "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "
@@ -438,7 +450,8 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     for (int side = 0; side < 2; side++)
         fprintf(out,
                 ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s "
-                "face', $face%d using 1:2:3 with points pointtype 7 pointsize 1 "
+                "face', $face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 "
+                "pointsize 1 "
                 "linecolor rgb variable notitle",
                 side, side ? "#c0392b" : "#1f4e79", side ? "+" : "−", side);
     fputc('\n', out);
