@@ -209,27 +209,65 @@ static void pictures(void **state)
                      0);
 }
 
+/* Supports, laws, meshes, heat, bores, gap tables, force control, steps and histories,
+ * and every example that is a case: solved, or refused in one line. */
 static void loads_of_every_kind(void **state)
 {
+#define STEADY "--mu 0.3 --formulation steady --creep-ratio 0.5 "
     static const char *const through[] = {
-        "crack --example rail",
-        "crack --example roll --radius-b 100",
         "crack",
+        HERTZ "--mu 0.3",
+        HERTZ "--mu 0.3 --shift 1e-4",
+        HERTZ "--mu 0.3 --force-ratio 0.5",
         HERTZ "--mu 0.3 --formulation steady --force-ratio 0.5",
-        HERTZ
-        "--mu 0.3 --mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed "
-        "1000 --formulation steady --creep-ratio 0.5",
+        HERTZ "--mu 0.3 --formulation steady --creep 5e-4 --support hub",
+        HERTZ STEADY "--support arc",
+        HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed "
+                     "1000",
+        HERTZ STEADY
+        "--mu-fall 0.1 --slip-scale 100 --friction-law rational --speed 1000",
+        HERTZ STEADY "--conductivity 50 --heat-capacity 3.8 --speed 1000",
+        HERTZ STEADY "--plane stress",
+        HERTZ STEADY "--radius-b -1200",
+        HERTZ STEADY "--mesh uniform --contact-elements 300",
+        HERTZ STEADY "--mesh fitted",
+        HERTZ STEADY "--mesh aligned",
+        HERTZ "--mu 0.3 --formulation steady --creep-ratio 0.4 --gap gap.txt",
+        HERTZ "--mu 0.3 --formulation transient --distance 8 --creep 5e-4 --steps 48",
+        HERTZ "--mu 0.3 --formulation transient --history way.txt --steps 48",
         HERTZ "--fluid pressure --passes 2",
-        HERTZ "--support hub",
-        HERTZ
-        "--relaxation-time 0.1 --relaxation-ratio 1 --formulation steady --speed 100 "
-        "--young-b 1e5"};
+        "crack --similar --support halfplane --radius 1000 --mu 0.3 --history shift.txt",
+        "crack --example rail",
+        "crack --example roll",
+        "crack --example heat",
+        "crack --example falling-friction",
+        "crack --example wear",
+        "crack --example two-bodies",
+        "crack --example hertz",
+        "crack --example paper",
+        "crack --example by-hand",
+        "crack --example carter",
+        "crack --example cattaneo-to-carter"};
+    static const char *const refused[][2] = {
+        {HERTZ STEADY "--layer-thickness 2", "homogeneous and elastic only"},
+        {HERTZ STEADY "--relaxation-time 0.1 --relaxation-ratio 1 --speed 100",
+         "homogeneous and elastic only"},
+        {HERTZ "--mu 0.3 --history shift.txt", "the history has a column load"},
+        {HERTZ "--mu 0.3 --over creep", "unknown option '--over'"}};
     (void)state;
-    for (size_t k = 0; k + 1 < sizeof through / sizeof *through; k++) {
+    write_file("gap.txt", "x gap\n-4 0.008\n-2 0.002\n0 0\n2 0.002\n4 0.008\n");
+    write_file("way.txt", "distance creep\n0 0\n4 1e-3\n");
+    write_file("shift.txt", "load shift\n20 0\n40 1e-4\n40 -1e-4\n");
+    for (size_t k = 0; k < sizeof through / sizeof *through; k++) {
         json_t *root = run_json(through[k]);
         CHECK_MAX(in_summary(root, "residual"), 1e-8, "%s", through[k]);
+        CHECK_MAX(-in_summary(root, "K_I_min"), 1e-12, "%s", through[k]);
+        CHECK_MAX(1e-3, in_summary(root, "delta_K_II"), "%s", through[k]);
         json_decref(root);
     }
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++)
+        check_refused(refused[k][0], 64, refused[k][1]);
+    check_refused("crack --example layer", 65, "homogeneous and elastic only");
 }
 
 /* Under a stiff wheel K_II falls by a sixth, between similar bodies by less; where the
