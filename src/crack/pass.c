@@ -319,10 +319,12 @@ static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int 
 }
 
 /* What is trapped is the volume at the place where the mouth closes, and near it the
- * crack closes fast: the state becomes that just before this place, by bisection. */
+ * crack closes fast: the state becomes that just before this place, by bisection.
+ * *solved: 1: the mouth stays open in the whole step, and the state is that at its end.
+ */
 static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
                                   double scale, double *T, rb_crack_state *state,
-                                  rb_message *why)
+                                  int *solved, rb_message *why)
 {
     rb_crack_state trial;
     double open = 0.0, closed = 1.0;
@@ -345,6 +347,7 @@ static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
         }
     }
     rb_crack_state_free(&trial);
+    *solved = open == 1.0;
     return s;
 }
 
@@ -379,16 +382,17 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         const double at_mouth =
             load ? pressure_at(load, c->shape.path.x[0] - p->x[step]) : 0.0;
         double max_pressure = 0.0;
+        int solved = 0;
         rb_message reason = {""};
         if (p->fluid == RB_CRACK_TRAPPED && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
-            s = approach_closing(c, p, step, scale, T, &state, &reason);
-        if (s == RB_OK)
+            s = approach_closing(c, p, step, scale, T, &state, &solved, &reason);
+        if (s == RB_OK && !solved)
             s = rb_crack_load(c, p->wheel ? NULL : load, p->x[step], p->tension, T);
         if (s == RB_OK && p->wheel)
             s = rb_crack_step_coupled(c, p->wheel, p->x[step], T, scale, &state,
                                       &max_pressure, &reason);
-        else if (s == RB_OK)
+        else if (s == RB_OK && !solved)
             s = rb_crack_step(c, T, p->fluid, at_mouth, scale, &state, &reason);
         if (s == RB_OK && p->wheel)
             h->max_pressure[h->n] = max_pressure;
