@@ -346,8 +346,8 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
             "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, (lines < 12 ? 3 : lines / 4),
-            0.7 * rb_report_key_font(canvas), first, step, most - 1e-6 * (most - least));
+            least, most, step, (lines < 12 ? 3 : lines / 4), rb_report_key_font(canvas),
+            first, step, most - 1e-6 * (most - least));
     }
     fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
             v->shown.flat
