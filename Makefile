@@ -55,7 +55,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
+.PHONY: journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -84,6 +84,7 @@ help:
 	@echo "make site       the documentation as a site, $(B)/site/index.html"
 	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
 	@echo "make deb        Debian packages, $(B)/deb"
+	@echo "make release    all archives and packages of the last commit, each installed and run, $(B)/release"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR; make uninstall takes it away"
 	@echo "make clean      remove $(B)"
 
@@ -364,6 +365,9 @@ dist:
 	@mkdir -p $(B)
 	git archive --prefix=rollbem-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
 	@echo "  DIST $(DIST)"
+
+# a release is these: scripts/release
+release: ; @scripts/packages --install deb && scripts/release $(B)
 
 # Debian packages in $(B)/deb, from what make dist packs
 deb: dist
