@@ -373,7 +373,8 @@ release: ; @scripts/packages --install deb && scripts/release $(B)
 deb: dist
 	@scripts/packages --install deb
 	rm -rf $(B)/deb && mkdir $(B)/deb && tar -xzf $(DIST) -C $(B)/deb
-	cd $(B)/deb/rollbem-$(VERSION) && dpkg-buildpackage -us -uc -b >&2
+	# without what this make was told: its B is another folder there, and the rules clean it
+	cd $(B)/deb/rollbem-$(VERSION) && env -u MAKEFLAGS -u B dpkg-buildpackage -us -uc -b >&2
 	@ls $(B)/deb/*.deb
 
 # the pictures of docs/course
