@@ -31,18 +31,15 @@ static const rb_option pictures[] = {
 enum { PICTURES = sizeof pictures / sizeof pictures[0] };
 
 static const char about[] =
-    "Solves a case and passes its contact over a crack in body B, position by position:\n"
-    "the faces of the crack open, stick and slip with friction. Prints K_I and K_II at "
-    "its\n"
-    "tip, the lengths that are open and that stick, and the pressure of a fluid, a row "
-    "per\n"
-    "position. Lengths of the crack and positions count in half-widths of the contact\n"
-    "(Hertz's of its load). The body of the crack is a half-plane; the contact does not\n"
-    "feel the crack unless --coupled says so. A static or steady case passes as it is, "
-    "a\n"
-    "transient stands at --from plus what it has rolled, a static history stays where "
-    "it\n"
-    "is.\n"
+    "Solves a case and moves its contact over a crack in body B, position by\n"
+    "position; the faces of the crack open, stick and slip with friction. Prints one\n"
+    "row per position: K_I and K_II at the tip, the open and the sticking length,\n"
+    "and the pressure of a fluid. The unit of lengths of the crack and of positions\n"
+    "is the half-width of the contact (Hertz's for its load). The body of the crack\n"
+    "is a half-plane; the crack does not change the contact unless --coupled is\n"
+    "given. The contact of a static or steady case moves over the crack unchanged;\n"
+    "that of a transient is at --from plus the rolled distance; that of a static\n"
+    "history stays at --from.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES

@@ -51,15 +51,15 @@ _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
 static const char about[] =
     "Computes a creep curve, the tangential force of steady rolling over the\n"
-    "creepage, on one mesh with warm starts, and prints a row per creepage. --mu\n"
-    "takes several values with commas between: a curve each.\n"
-    "The picture shows -Q/(mu P), or -Q/P over xi where there are several mu, and\n"
-    "Carter's law (similar bodies) beside it.\n"
-    "Where friction depends on the slip or the temperature the creepage goes back "
-    "again:\n"
-    "the column branch, and a second line in the picture.\n"
-    "--over speed shows the resistance to rolling, M/(P R), of bodies that relax;\n"
-    "--creep, --force or --free-axle then drive the wheel as in a single case.\n"
+    "creepage, on one mesh with warm starts, and prints a row per creepage. --mu accepts "
+    "several values separated by commas and gives one curve for each.\n"
+    "The picture shows -Q/(mu P), or for several mu -Q/P over xi, and Carter's law\n"
+    "for similar bodies.\n"
+    "If friction depends on the slip or the temperature, the curve is also computed\n"
+    "for decreasing creepage: column branch, and a second line in the picture.\n"
+    "--over speed shows the rolling resistance M/(P R) of viscoelastic bodies;\n"
+    "creepage or force is then given by --creep, --force or --free-axle as in a\n"
+    "single case.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES

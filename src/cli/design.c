@@ -44,13 +44,11 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-static const char about[] = "Finds the least or the largest of a result over numbers of "
-                            "a case within bounds, under\n"
-                            "constraints on other results, by sequential quadratic "
-                            "programming with exact gradients\n"
-                            "(NLopt's SLSQP). It begins at the values of the case and "
-                            "finds an optimum near them;\n"
-                            "others may exist. Prints a row per variable.\n";
+static const char about[] =
+    "Minimises or maximises a result over numbers of a case within bounds, with\n"
+    "constraints on other results, by sequential quadratic programming with exact\n"
+    "gradients (NLopt's SLSQP). The search starts at the values of the case and\n"
+    "finds a local optimum; others may exist. Prints one row per variable.\n";
 
 static const char notes[] =
     "Example: rollbem design --support halfplane --similar --load 500 \\\n"

@@ -50,12 +50,11 @@ static const char about[] =
     "derivatives, and prints them with intervals, correlations and the fitted curve.\n"
     "DATA has a row per point and named columns: creep or creep_ratio (xi R/(mu a));\n"
     "force, force_ratio (Q/(mu P), mu the largest coefficient of the law) or\n"
-    "force_over_load (Q/P); and, where they vary, load, speed, temperature, sigma.\n"
-    "Several tests stand in one file, one below the other. Signs as everywhere: a "
-    "braked\n"
-    "wheel has xi > 0 and Q < 0.\n"
-    "Refused is a fit whose model has several solutions (kappa > 1). What the data\n"
-    "cannot tell is said and not printed as a number.\n";
+    "force_over_load (Q/P); and load, speed, temperature, sigma if they vary.\n"
+    "Several tests can be written in one file, one below the other. As everywhere, a\n"
+    "braked wheel has xi > 0 and Q < 0.\n"
+    "A fit is refused if its model has several solutions (kappa > 1). A number that\n"
+    "the data do not determine is reported as not identified, without a value.\n";
 
 static const char notes[] =
     "Example: rollbem fit creep.tsv --fit mu,creep-offset --similar --support halfplane "

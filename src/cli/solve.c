@@ -96,12 +96,14 @@ static const char notes[] = CLI_CASE_NOTES
     "touch late have already moved: use --increments N. --history takes any other\n"
     "sequence.\n"
     "\n"
-    "Distances, of --distance and of a history, count in half-widths a: Hertz's of the\n"
-    "load, the largest one of a history (under a given approach, of the load that the\n"
-    "largest approach brings at rest). Its length stands above --history-table's rows.\n"
+    "The unit of distances, in --distance and in a history, is the half-width a of\n"
+    "Hertz for the load; in a history for its largest load (under a given approach,\n"
+    "for the static load at the largest approach). The head of --history-table\n"
+    "prints its length.\n"
     "\n"
-    "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values\n"
-    "on the command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
+    "Exit codes: 0 solved; 1 not solved (the last iterate is printed); 64 wrong\n"
+    "values on the command line, 65 in a file; 66 no such file; 70 internal; 73\n"
+    "cannot write.\n";
 
 /* ---- Output ----------------------------------------------------------------------- */
 

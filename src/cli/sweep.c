@@ -86,12 +86,11 @@ _Static_assert(OPTIONS <= 32, "given");
 static const char about[] =
     "Solves many cases that differ in some options, one process per processor, and\n"
     "prints a row per case, in order. STUDY.ini is a case file with a section [sweep].\n"
-    "Every combination of the values of vary-1 ... vary-4, with every row of the cases,\n"
-    "is a case; the last one varies fastest.  Under mpirun its processes share the\n"
-    "work, each with its part of its machine's processors.  Where an option of a crack "
-    "is\n"
-    "given or varies, the contact of each case passes over it, as `rollbem crack` does,\n"
-    "and the results are those of the crack.\n"
+    "The cases are all combinations of the values of vary-1 ... vary-4 and of the\n"
+    "rows of --cases; the last one varies fastest. Under mpirun its processes share\n"
+    "the work, each with a part of the processors of its machine. If an option of a\n"
+    "crack is given or varies, the contact of each case moves over the crack as in\n"
+    "`rollbem crack`, and the results are those of the crack.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES

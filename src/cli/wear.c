@@ -64,11 +64,12 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
 static const char about[] =
-    "Wears body A, and B by --wear-share: sliding over B (--slide), fretting between\n"
-    "--shift or --force and its opposite (--cycles), or rolling steadily\n"
-    "(--formulation steady, --cycles turns), where round bodies stay round and their\n"
-    "radii change. Prints a row per step: way, worn volume, depth, contact. The gap is\n"
-    "updated implicitly: the pressure at the end of a step is the one that wears it.\n"
+    "Computes the wear of body A, and of B according to --wear-share: sliding over B\n"
+    "(--slide), fretting between --shift or --force and its opposite (--cycles), or\n"
+    "steady rolling (--formulation steady, --cycles turns), in which round bodies\n"
+    "stay round and their radii change. Prints one row per step: distance or cycles,\n"
+    "worn volume, depth, contact. The gap is updated implicitly: the wear of a step\n"
+    "is computed from the pressure at its end.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
