@@ -256,7 +256,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     if (a->stopped || !model) /* no model: a run for error bars */
         return a->stopped;
     const int n = model->mesh.n;
-    if (step == 0) /* a run may begin anew on a wider zone */
+    if (step == 0) /* a run may start again on a wider zone */
         rb_api_forget_arrays(a, "step.");
     double *row = rb_alloc((size_t)n, 1);
     rb_status s = row ? RB_OK : RB_ENOMEM;

@@ -55,7 +55,7 @@ struct rb_api {
     int arrays;
 };
 
-/* NULL: nobody has made one of that name. */
+/* NULL: there is none of this name. */
 api_array *rb_api_find_array(rb_api *a, const char *name);
 /* A new array of zeros.  NULL: no memory. */
 api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns);

@@ -68,7 +68,7 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
 struct rb_bem_layer_field {
     rb_bem_surface body;   /* what it and the load borrow stays the caller's */
     rb_bem_edge_load load; /* of nodes */
-    double reach;          /* of the waves at hand */
+    double reach;          /* of the present waves */
     int n;
     wave *wave; /* n, k increasing; owned */
 };

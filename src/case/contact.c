@@ -218,8 +218,8 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     }
     set_friction(in, c);
     set_loading(in, c->width, c->sign, &c->rc);
-    /* M = 4: a layer that gives way by LAYTHK/GG3 and yields at TAU_C0, which neither 0
-     * nor more than 1e10 does. */
+    /* M = 4: a layer of compliance LAYTHK/GG3 and yields at TAU_C0, which neither 0 nor
+     * more than 1e10 does. */
     if (in->digit.M == 4) {
         if (in->layer != 0.0)
             c->rc.interlayer_tangential = in->layer / in->layer_shear;

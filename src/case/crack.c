@@ -344,7 +344,7 @@ static void track_free(load_track *t)
     rb_rolling_states_free(&t->states);
 }
 
-/* A run that begins anew on a wider zone comes with step 0 again. */
+/* A run that starts again on a wider zone calls this with step 0 again. */
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
                      int step, int steps, void *context)
 {

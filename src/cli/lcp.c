@@ -119,7 +119,7 @@ static const char notes[] =
 typedef struct {
     cli_problems files;
     const lcp_options *o;
-    const char *file; /* at hand */
+    const char *file; /* the current file */
     json_t *pivots;   /* of it; JSON only, NULL without memory */
 } lcp_run;
 

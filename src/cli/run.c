@@ -52,7 +52,7 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
     return s;
 }
 
-/* A run that begins anew, on a wider zone, has other steps. */
+/* A run that starts again on a wider zone has other steps. */
 static void remove_snapshots(watch *w)
 {
     for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
@@ -64,7 +64,7 @@ static void remove_snapshots(watch *w)
     w->written = 0;
 }
 
-/* Of this step; a run that begins anew may have other elements. */
+/* Of this step; a run that starts again may have other elements. */
 static rb_status keep_state(const rb_rolling_model *model, int step, int steps,
                             rb_rolling_states *states, rb_message *why)
 {
@@ -136,7 +136,7 @@ rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
         return rb_case_solve_again(c, NULL, NULL, r, why);
     rb_status s = w.steps->snapshots ? rb_io_make_folder(w.steps->snapshots, why) : RB_OK;
     if (s == RB_OK) {
-        /* An interrupt ends the run after the step at hand. */
+        /* An interrupt ends the run after the current step. */
         cli_interrupts_catch();
         s = rb_case_solve(c, after_step, &w, r, why);
         cli_interrupts_leave();

@@ -22,8 +22,8 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
                              const rb_report_style *style, rb_message *why);
 
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
- * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case.
- */
+ * after the current one.  steps NULL: nothing on the way.  Free the result in any
+ * case. */
 rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why);
 

@@ -40,14 +40,14 @@ typedef struct {
 
 typedef struct {
     const rb_case *base;
-    rb_case *one; /* the case at hand: a copy of base with its own numbers */
+    rb_case *one; /* the current case: a copy of base with other numbers */
     const study_options *o;
     const rb_option_set *own;    /* the options of a study, whose values are in o */
     const rb_option_set *cracks; /* those of a crack, whose values are in crack */
     rb_case_crack crack;         /* as typed */
     int has_crack; /* 1: one of them is given or varies: the contact passes over a crack
                     */
-    rb_case_crack one_crack; /* of the case at hand, in mm, N, MPa */
+    rb_case_crack one_crack; /* of the current case, in mm, N, MPa */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */

@@ -403,7 +403,8 @@ static rb_status solve_by_friction(rb_contact_problem *problem,
 /* ---- The order of attempts --------------------------------------------------------- */
 
 /* The order of solvers: the wanted one first; where it ends without a solution, the other
- * one.  A warm start is Newton's: it costs a few steps where Lemke would begin anew. */
+ * one.  A warm start is Newton's: it costs a few steps where Lemke would start from the
+ * beginning. */
 typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
 enum { METHODS = 3 };
 
@@ -677,8 +678,8 @@ static rb_status solve_cone(rb_contact_problem *problem,
     if (t < 0)
         return t;
     /* the case's residual decides, whatever the cone solver thinks of its own */
-    const rb_status judged = proven(RB_OK, problem, options, state);
-    return judged == RB_OK || s == RB_OK ? judged : s;
+    const rb_status checked = proven(RB_OK, problem, options, state);
+    return checked == RB_OK || s == RB_OK ? checked : s;
 }
 
 rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,

@@ -155,7 +155,7 @@ static double sweep(sweeper *s)
 /* What rounding of the velocities kept up cannot reach. */
 #define SAFE_TOLERANCE 1e-12
 
-/* The measure with the velocities at hand; recomputed where `refresh` or a close call
+/* The measure with the current velocities; recomputed where `refresh` or a close call
  * asks for it. */
 static double look(sweeper *s, int refresh)
 {

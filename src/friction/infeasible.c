@@ -66,7 +66,7 @@ static double step_length(search *s, double *y)
     return most > 0.0 ? 0.8 / most : 0.0;
 }
 
-/* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), begun anew where
+/* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), restarted where
  * |y| grows. */
 static void minimise(search *s, double *y)
 {

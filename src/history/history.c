@@ -36,7 +36,7 @@ typedef struct {
     double *q;    /* n: friction before the step */
     rb_rolling_particles particles;
     int row, part;            /* of the program: steps towards this row that are done */
-    rb_rolling_stride stride; /* the step at hand */
+    rb_rolling_stride stride; /* the current step */
     double to;                /* [half-widths]: where it ends */
 } history_state;
 
@@ -451,7 +451,7 @@ static void run_free(history_state *r)
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of
- * the largest load at rest: *wider is the zone to begin anew with, or 0. */
+ * the largest load at rest: *wider is the zone with which to start again, or 0. */
 static rb_status run_on_zone(history_state *r, double zone, double *wider,
                              rb_message *why)
 {

@@ -16,7 +16,7 @@ void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
 
 typedef struct {
     const rb_rolling_wear *wear;
-    rb_rolling_case rc;     /* on the mesh at hand, with what is worn off so far */
+    rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
     rb_rolling_model model; /* mesh, bodies and the contact after the last step */
     int n;
     double *x, *depth;  /* n: midpoints, and what is worn off there [length] */

@@ -10,7 +10,7 @@ static const char blanks[] = " \t\r\n,";
 
 typedef struct {
     const char *path;
-    int line, room;
+    int line, capacity;
     const char *comment; /* last one before the first row: it may name the columns */
     rb_io_table *t;      /* x row by row until the end */
     rb_message *why;
@@ -126,20 +126,21 @@ static int is_names(const reading *r, const char *text)
 static rb_status make_room(reading *r)
 {
     rb_io_table *t = r->t;
-    if (t->rows < r->room)
+    if (t->rows < r->capacity)
         return RB_OK;
-    if (r->room > INT_MAX / 2)
+    if (r->capacity > INT_MAX / 2)
         return rb_fail(r->why, RB_EFORMAT, "%s:%d: more than %d rows", r->path, r->line,
-                       r->room);
-    const int room = r->room ? 2 * r->room : 64;
-    double *x = realloc(t->x, sizeof(double) * (size_t)room * (size_t)(t->columns + 1));
+                       r->capacity);
+    const int capacity = r->capacity ? 2 * r->capacity : 64;
+    double *x =
+        realloc(t->x, sizeof(double) * (size_t)capacity * (size_t)(t->columns + 1));
     if (x)
         t->x = x;
-    int *line = x ? realloc(t->line, sizeof(int) * (size_t)room) : NULL;
+    int *line = x ? realloc(t->line, sizeof(int) * (size_t)capacity) : NULL;
     if (!line)
         return no_memory(r);
     t->line = line;
-    r->room = room;
+    r->capacity = capacity;
     return RB_OK;
 }
 

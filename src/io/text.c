@@ -15,20 +15,20 @@ static const size_t largest_file = (size_t)1 << 31, largest_from_pipe = (size_t)
 
 char *rb_io_read_all(FILE *file, size_t most, size_t *size)
 {
-    size_t room = 0, got;
+    size_t capacity = 0, got;
     char *text = NULL;
     *size = 0;
     do {
-        if (*size + 1 >= room) {
-            room = room ? 2 * room : 1 << 12;
-            char *larger = realloc(text, room);
+        if (*size + 1 >= capacity) {
+            capacity = capacity ? 2 * capacity : 1 << 12;
+            char *larger = realloc(text, capacity);
             if (!larger) {
                 free(text);
                 return NULL;
             }
             text = larger;
         }
-        got = fread(text + *size, 1, room - *size - 1, file);
+        got = fread(text + *size, 1, capacity - *size - 1, file);
         *size += got;
     } while (got && *size <= most);
     if (ferror(file) || *size > most) {

@@ -18,7 +18,8 @@ static const double CLOSE = 1.5;
 enum { SWEEPS = 30, BALANCING = 20 };
 
 /* A row whose terms are smaller than this part of those of the rows that share unknowns
- * with it is judged by that part of them: it may hold nothing but their rounding. */
+ * with it is divided by this part of them, because it may contain only their rounding
+ * errors. */
 static const double FAINT = 1e-4;
 /* A residual above this part of max |q| is no rounding of rows whose entries are
  * negligible here. */

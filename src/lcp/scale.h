@@ -1,4 +1,4 @@
-/* Equilibration, and the residual that is judged row by row.  Private to src/lcp. */
+/* Equilibration, and the residual relative to each row.  Private to src/lcp. */
 #ifndef LCP_SCALE_H
 #define LCP_SCALE_H
 

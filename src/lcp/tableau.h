@@ -78,8 +78,8 @@ void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratc
                             double *x);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
-/* T and q anew from the data and the basis.  RB_SINGULAR: a pivot is zero (one that is
- * rounding shows in the residual), t is as before; RB_ENOMEM. */
+/* Computes T and q again from the data and the basis.  RB_SINGULAR: a pivot is zero (one
+ * that is rounding shows in the residual), t is as before; RB_ENOMEM. */
 rb_status rb_lcp_tableau_rebuild(lcp_tableau *t);
 
 #endif

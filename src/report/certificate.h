@@ -13,7 +13,7 @@ typedef struct {
     rb_report_certificate *found;
     const json_t *summary; /* NULL: of a table, which has none */
     const json_t *table;
-    int step; /* of a history, from 1 on, while it is judged; 0: the result */
+    int step; /* step of a history that is checked, from 1 on; 0: the result */
     rb_rolling_model model;
     rb_rolling_solution again; /* computed from the state */
     int hierarchical;          /* a matrix that approximates */
@@ -42,7 +42,7 @@ rb_status rb_certificate_list(const char *name, const json_t *list, const char *
 rb_status rb_certificate_column(const char *name, const json_t *table,
                                 const char *heading, int n, double *x, rb_message *why);
 
-/* Sizes of what a result has, which rounding is judged by. */
+/* Typical sizes of the numbers of a result; rounding errors are compared with them. */
 typedef struct {
     double half_width, load, pressure;
     double number; /* of unit 1 */
@@ -62,7 +62,7 @@ void rb_certificate_compare(rb_certificate *c, const char *name, int element,
                             const json_t *printed, const json_t *again,
                             rb_certificate_slack *slack);
 
-/* From the residual that is printed for the state at hand. */
+/* From the residual that is printed for the current state. */
 void rb_certificate_tolerances(rb_certificate *c, double residual);
 /* The given load or approach, creepage or shift against the model's. */
 void rb_certificate_given(rb_certificate *c, double load);
@@ -80,7 +80,7 @@ rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 
 /* ---- certificate_history.c --------------------------------------------------------- */
 
-/* Follows the steps of a history by its states, judges each of them and leaves the model
+/* Follows the steps of a history by its states, checks each of them and leaves the model
  * at the last one.  h: overwritten; free it in any case. */
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
                                 const rb_resolved_case *resolved, int n,
@@ -91,7 +91,7 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
 
 /* ---- certificate_power.c ----------------------------------------------------------- */
 
-/* Power per unit speed that the bodies lose in steady rolling, from the state at hand;
+/* Power per unit speed that the bodies lose in steady rolling, from the current state;
  * allowed: what elements of this size may make of it. */
 rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power,
                                     double *allowed);

@@ -72,12 +72,12 @@ typedef struct {
     rb_certificate *c;
     const json_t *residual; /* printed, an entry per step */
     rb_status status;
-} judge;
+} step_check;
 
 static int assess_step(const rb_rolling_model *model, const rb_rolling_history *h,
                        int step, int steps, void *context)
 {
-    judge *j = context;
+    step_check *j = context;
     rb_certificate *c = j->c;
 
     (void)model; /* it is the certificate's own */
@@ -97,7 +97,7 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
                                 rb_rolling_history *h, rb_message *why)
 {
     const int steps = (int)json_array_size(json_object_get(printed, "approach"));
-    judge j = {c, json_object_get(printed, "residual"), RB_OK};
+    step_check j = {c, json_object_get(printed, "residual"), RB_OK};
     const rb_rolling_observer observer = {assess_step, &j};
     rb_rolling_states states = {0};
 

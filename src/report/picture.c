@@ -102,8 +102,8 @@ static void write_exponent(FILE *out, int exponent, const char *unit)
         fprintf(out, "  [%s]", unit);
 }
 
-/* Without what rounding leaves of it, which is judged by the strains under the pressure:
- * in free rolling nothing else would be drawn. */
+/* Without rounding errors, which are compared with the strains under the pressure: in
+ * free rolling nothing else would be drawn. */
 static double slip_of(const view *v, int i)
 {
     const double p0 = rb_unit_stored(v->s->units, "MPa", v->s->max_pressure);

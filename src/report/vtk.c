@@ -70,7 +70,7 @@ typedef struct {
     const rb_report_stress *s;
     int n;         /* points inside the body */
     int *number;   /* s->n: their new numbers, -1 outside */
-    double *room;  /* 6 n: for one array at a time */
+    double *work;  /* 6 n: for one array at a time */
     int32_t *cell; /* 4 per cell */
     int cells, per_cell;
 } selection;
@@ -78,7 +78,7 @@ typedef struct {
 static void selection_free(selection *v)
 {
     free(v->number);
-    free(v->room);
+    free(v->work);
     free(v->cell);
 }
 
@@ -108,9 +108,9 @@ static rb_status select_points(const rb_report_stress *s, selection *v)
 {
     *v = (selection){.s = s, .per_cell = s->nx > 0 ? 4 : 1};
     v->number = rb_alloc_int((size_t)s->n);
-    v->room = rb_alloc((size_t)s->n, 6);
+    v->work = rb_alloc((size_t)s->n, 6);
     v->cell = calloc((size_t)s->n * 4, sizeof *v->cell);
-    if (!v->number || !v->room || !v->cell)
+    if (!v->number || !v->work || !v->cell)
         return RB_ENOMEM;
     for (int k = 0; k < s->n; k++)
         v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
@@ -128,11 +128,11 @@ static void write_point_data(FILE *out, selection *v)
         const rb_rolling_result *r = &rb_rolling_stress_scalars.row[j];
         for (int k = 0, m = 0; k < v->s->n; k++)
             if (v->number[k] >= 0)
-                v->room[m++] = rb_rolling_number(r, &v->s->at[k]);
-        write_array(out, "Float64", r->name, 1, sizeof(double) * (size_t)v->n, v->room);
+                v->work[m++] = rb_rolling_number(r, &v->s->at[k]);
+        write_array(out, "Float64", r->name, 1, sizeof(double) * (size_t)v->n, v->work);
     }
     /* ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
-    double *to = v->room;
+    double *to = v->work;
     for (int k = 0; k < v->s->n; k++) {
         const rb_rolling_stress *at = &v->s->at[k];
         if (v->number[k] < 0)
@@ -141,7 +141,7 @@ static void write_point_data(FILE *out, selection *v)
         memcpy(to, six, sizeof six);
         to += 6;
     }
-    write_array(out, "Float64", "stress", 6, sizeof(double) * 6 * (size_t)v->n, v->room);
+    write_array(out, "Float64", "stress", 6, sizeof(double) * 6 * (size_t)v->n, v->work);
     fputs("</PointData>\n", out);
 }
 
@@ -186,7 +186,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
             "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
             v.n, v.cells);
         write_point_data(out, &v);
-        double *to = v.room;
+        double *to = v.work;
         for (int k = 0; k < v.s->n; k++)
             if (v.number[k] >= 0) {
                 *to++ = v.s->at[k].x;
@@ -195,7 +195,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
             }
         fputs("<Points>\n", out);
         write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v.n,
-                    v.room);
+                    v.work);
         fputs("</Points>\n", out);
         enum { VERTEX = 1, QUADRILATERAL = 9 };
         const size_t n = (size_t)v.cells;

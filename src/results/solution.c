@@ -219,7 +219,7 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
     return status;
 }
 
-/* Steady rolling heats by the solution at hand; of a transient the steps have followed
+/* Steady rolling heats by the current solution; of a transient the steps have followed
  * the heat. */
 static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
                                  rb_message *why)

@@ -28,8 +28,8 @@ static double length_of(const rb_rolling_mesh *mesh, int i)
 
 /* An edge is known to the distance of the two midpoints around it; where no open element
  * stands beyond it, to a part of the patch. */
-static double room_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run,
-                          int outer, int open)
+static double margin_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run,
+                            int outer, int open)
 {
     if (open < 0 || open >= mesh->n)
         return 0.1 * (run->to - run->from);
@@ -41,7 +41,7 @@ static void join(patches *found, int k)
     const size_t behind = (size_t)(--found->count - k);
 
     found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
-    found->span[k - 1].room_right = found->span[k].room_right;
+    found->span[k - 1].margin_right = found->span[k].margin_right;
     found->span[k - 1].h_right = found->span[k].h_right;
     memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
 }
@@ -82,8 +82,8 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
         const rb_rolling_span span = {
             .from = run.from,
             .to = run.to,
-            .room_left = room_beyond(mesh, &run, run.first, run.first - 1),
-            .room_right = room_beyond(mesh, &run, run.last, run.last + 1),
+            .margin_left = margin_beyond(mesh, &run, run.first, run.first - 1),
+            .margin_right = margin_beyond(mesh, &run, run.last, run.last + 1),
             .h_left = length_of(mesh, run.first),
             .h_right = length_of(mesh, run.last)};
         complete = add_patch(&span, found);
@@ -201,8 +201,8 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
                 moved = fmax(moved,
                              refine(now->to, now->h_right, &span->to, &known[k].right));
                 span->from = -left;
-                span->room_left = now->room_left;
-                span->room_right = now->room_right;
+                span->margin_left = now->margin_left;
+                span->margin_right = now->margin_right;
             }
             *rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
         } else {

@@ -30,7 +30,7 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
 
 /* ---- body_wheel.c ------------------------------------------------------------------ */
 
-/* The factored boundary elements of A, a wheel, anew; owned by the caller. */
+/* Factorises the boundary elements of A, a wheel, again; owned by the caller. */
 rb_status rb_rolling_boundary_system(const rb_rolling_model *model,
                                      rb_bem_system **system, rb_message *why);
 /* A wheel on a hub or a cover; borrows length and the body. */
@@ -366,7 +366,7 @@ void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
 
 /* A patch for fitted elements, and how far the elements must extend beyond its edges. */
 typedef struct {
-    double from, to, room_left, room_right;
+    double from, to, margin_left, margin_right;
     double h_left,
         h_right; /* lengths of the elements from which the edges were computed; fit.c */
 } rb_rolling_span;

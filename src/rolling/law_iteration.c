@@ -365,8 +365,8 @@ static rb_status find_force(search *s, double x[2], double f[2], double small)
                    s->side * x[1]);
 }
 
-/* The iteration with the force given, from the state at hand.  A force that refers to the
- * load is set anew until the load does not change any more.  RB_MAXITER: its creepage is
+/* The iteration with a given force, from the current state.  A force that refers to the
+ * load is set again until the load does not change any more.  RB_MAXITER: its creepage is
  * not one of those between which the force is reached. */
 static rb_status solve_between(search *s, double from, double to, double small)
 {

@@ -26,7 +26,7 @@ typedef struct {
     rb_message *why;
 } newton;
 
-/* r at the bounds `trial`; the weights are those at hand in a derivative. */
+/* r at the bounds `trial`; in a derivative the present weights are used. */
 static rb_status residual_of(newton *w, int new_weights, double *r)
 {
     rb_rolling_model *model = w->model;

@@ -292,7 +292,7 @@ static int put_ends(const rb_rolling_case *rc, int all, int count,
 
     rb_rolling_extent(rc, &from, &to);
     double step = edge_step(span, elements_across(all, count, span, 0));
-    const int left = distances(step, span->room_left, span->from - from, distance);
+    const int left = distances(step, span->margin_left, span->from - from, distance);
     for (int k = left - 1; k >= 0; k--)
         *end++ = span->from - distance[k];
     *end = span->from;
@@ -305,7 +305,7 @@ static int put_ends(const rb_rolling_case *rc, int all, int count,
                 span[k].to, span[k + 1].from, step,
                 edge_step(span + k + 1, elements_across(all, count, span, k + 1)), end);
     }
-    const int right = distances(step, last->room_right, to - last->to, distance);
+    const int right = distances(step, last->margin_right, to - last->to, distance);
     for (int k = 0; k < right; k++)
         *++end = last->to + distance[k];
     const int n = (int)(end - ends);

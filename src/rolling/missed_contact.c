@@ -260,7 +260,8 @@ static rb_status displacement(const rb_rolling_model *model,
     return status;
 }
 
-/* ---- Where nobody has looked ------------------------------------------------------- */
+/* ---- Overlaps between the elements
+ * ------------------------------------------------------- */
 
 /* Element of the mesh that x lies in; -1, n: before and behind all. */
 static int element_at(const rb_rolling_mesh *mesh, double x)

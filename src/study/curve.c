@@ -28,7 +28,7 @@ static rb_status record_heat(const rb_rolling_model *model, double *max_temperat
     return status;
 }
 
-/* Who looks at the points; point NULL: nobody. */
+/* Function called for each point; point NULL: none. */
 typedef struct {
     rb_rolling_point *point;
     void *context;
@@ -100,8 +100,8 @@ static rb_status start_anew(rb_rolling_model *model, rb_message *why)
     return s;
 }
 
-/* A fitted mesh whose contact has moved is fitted again; a potential contact that is
- * full is chosen anew. */
+/* A fitted mesh whose contact has moved is fitted again; a potential contact that is full
+ * is chosen again. */
 static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[2],
                                 rb_message *why)
 {

@@ -56,7 +56,7 @@ static void wear(rb_verify *v, int steps)
     rb_rolling_solution_free(&last);
 }
 
-/* Bodies so stiff that the third body alone gives way. */
+/* Bodies so stiff that only the third body deforms. */
 static rb_rolling_case stiff_bodies(int elements)
 {
     rb_rolling_case rc = rb_verify_uncoupled();

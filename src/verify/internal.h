@@ -9,7 +9,7 @@ typedef struct {
     rb_verify_each_check *each;
     void *context;
     int failed;
-    const char *why; /* of the solution at hand; NULL: it is one */
+    const char *why; /* reason why there is no solution; NULL: solved */
     rb_message said; /* what `why` points to */
 } rb_verify;
 
