@@ -102,7 +102,6 @@ static inline double entry(const json_t *object, const char *list, size_t i)
 
 static inline int enter_folder(void **state)
 {
-    (void)state;
     const char *build = getenv("B") ? getenv("B") : "build";
     char here[400];
     assert_non_null(getcwd(here, sizeof here));
@@ -115,7 +114,6 @@ static inline int enter_folder(void **state)
 
 static inline int leave_folder(void **state)
 {
-    (void)state;
     char command[100];
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return chdir("/") == 0 ? system(command) : -1;

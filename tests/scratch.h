@@ -11,7 +11,6 @@ static char path[40];
 /* For cmocka, before and behind a test or a group. */
 static inline int make_path(void **state)
 {
-    (void)state;
     snprintf(path, sizeof path, "/tmp/rollbem-test-XXXXXX");
     const int fd = mkstemp(path);
     return fd < 0 || close(fd) != 0;
@@ -19,7 +18,6 @@ static inline int make_path(void **state)
 
 static inline int remove_path(void **state)
 {
-    (void)state;
     return remove(path);
 }
 

@@ -48,7 +48,6 @@ static void descriptions_are_complete(void **state)
                                          "word",     "default", "excludes", "help"};
     char text[400];
     int n, k;
-    (void)state;
     rb_case_describe(&n);
     for (k = 0; k < n; k++)
         for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
@@ -69,7 +68,6 @@ static void descriptions_are_complete(void **state)
 /* A caller that does not look at the status of each call must not get another case. */
 static void what_was_refused_is_not_solved(void **state)
 {
-    (void)state;
     rb_api *a = rb_api_create();
     const char *const wrong[][2] = {
         {"load", "1,5"}, {"radius", "x"}, {"mu", "-1"}, {"load", "2,5"}};
@@ -107,7 +105,6 @@ static void refusals_are_those_of_the_case(void **state)
 {
     rb_api *a = rb_api_create();
     char text[40];
-    (void)state;
     assert_true(rb_api_set(a, "mu", "-1") < 0);
     assert_string_equal(rb_api_message(a), "--mu: expected a number >= 0, got '-1'");
     assert_true(rb_api_set(a, "nu", "1") < 0);
@@ -130,7 +127,6 @@ static void numbers_are_the_solution(void **state)
     const int n = 60;
     double P = 0.0, Q = 0.0;
     char text[40];
-    (void)state;
     const double *p = array(a, "p", n, 1), *q = array(a, "q", n, 1),
                  *h = array(a, "h", n, 1);
     for (int i = 0; i < n; i++) {
@@ -164,7 +160,6 @@ static void the_next_case_is_solved_as_the_first_one(void **state)
         {"zone", "40"},     {"mu", "0.5"},      {"approach", "21"}};
     const char *words[40];
     int n = 0;
-    (void)state;
     for (; wheel[n]; n++)
         words[n] = wheel[n];
     rb_api *a = solved(wheel);
@@ -194,7 +189,6 @@ static void pivots_keep_the_ratio_test(void **state)
     rb_api *a = solved(wheel);
     int size, pivots, r;
     char name[32];
-    (void)state;
     assert_int_equal(rb_api_pivots(a), RB_OK);
     const double *value = rb_api_array(a, "pivot.value", &size, &pivots);
     assert_non_null(value);
@@ -236,7 +230,6 @@ static void newton_ends_in_the_solution(void **state)
 {
     rb_api *a = solved(wheel);
     int rows, steps;
-    (void)state;
     assert_int_equal(rb_api_newton(a), RB_OK);
     const double *zone = rb_api_array(a, "newton.zone", &rows, &steps);
     assert_non_null(zone);
@@ -262,7 +255,6 @@ static void matrices_satisfy_their_equations(void **state)
 {
     rb_api *a = solved(wheel);
     int m, columns;
-    (void)state;
     const double *H = rb_api_array(a, "H", &m, &columns);
     assert_non_null(H);
     assert_int_equal(m, columns);
@@ -291,7 +283,6 @@ static void guesses_are_judged(void **state)
 {
     rb_api *a = solved(wheel);
     int zone[12];
-    (void)state;
     const double *is = array(a, "zone", 12, 1);
     for (int i = 0; i < 12; i++)
         zone[i] = (int)is[i];
@@ -328,7 +319,6 @@ static void steps_are_kept(void **state)
         "distance", "1",         "contact-elements", "20",  NULL};
     rb_api *a = solved(words);
     int n, steps;
-    (void)state;
     const double *p = rb_api_array(a, "step.p", &n, &steps);
     assert_non_null(p);
     const double *load = array(a, "history.normal_load", steps, 1),
@@ -355,7 +345,6 @@ static void steps_have_error_bars(void **state)
         "16",          "error",     "yes",      NULL};
     rb_api *a = solved(words);
     int n, steps;
-    (void)state;
     assert_non_null(rb_api_array(a, "step.p", &n, &steps));
     const double *bar = array(a, "history.error.tangential_load", steps, 1);
     assert_true(bar[steps - 1] > 0.0);
@@ -366,7 +355,6 @@ static void steps_have_error_bars(void **state)
 /* The notes of the program, one by one, and Carter's tractions where his law holds. */
 static void notes_and_closed_forms(void **state)
 {
-    (void)state;
     char text[200];
     int rows, columns;
     rb_api *a = rb_api_create();
@@ -403,7 +391,6 @@ static void notes_and_closed_forms(void **state)
 static void results_of_every_table_are_there(void **state)
 {
     rb_api *a = rb_api_create_for("solve");
-    (void)state;
     assert_null(rb_api_create_for("nothing"));
     assert_string_equal(rb_version(), RB_VERSION);
     for (const char *const *w = steady; *w; w += 2)
@@ -454,7 +441,6 @@ static void every_name_has_its_value(void **state)
     rb_api *a = solved(rolls);
     const double R = 50.0, E = 94500.0 / (1.0 - 0.1 * 0.1), P = 500.0;
     const double width = sqrt(4.0 * P * R / (3.14159265358979323846 * E));
-    (void)state;
     CHECK_REL(rb_api_number(a, "radius"), R, 1e-14, "radius");
     CHECK_REL(rb_api_number(a, "modulus"), E, 1e-12, "modulus");
     CHECK_REL(rb_api_number(a, "hertz_load"), P, 1e-12, "load");
@@ -502,7 +488,6 @@ static void zones_of_a_yielding_interface_are_no_guess(void **state)
                                         NULL};
     rb_api *a = solved(words);
     const int zone[12] = {0};
-    (void)state;
     assert_true(rb_api_guess(a, 12, zone) < 0);
     assert_non_null(strstr(rb_api_message(a), "--yield-stress"));
     assert_int_equal(rb_api_set(a, "mu", "0.1"), RB_OK);
@@ -513,7 +498,6 @@ static void zones_of_a_yielding_interface_are_no_guess(void **state)
 static void stress_is_known_at_points(void **state)
 {
     rb_api *a = solved(steady);
-    (void)state;
     assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
     const double x = array(a, "stress.x", 9, 7)[30], y = array(a, "stress.y", 9, 7)[30],
                  shear = array(a, "stress.max_shear", 9, 7)[30], xy[] = {x, y};
@@ -532,7 +516,6 @@ static void problems_by_themselves_are_solved(void **state)
     static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
     static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
     rb_api *a = rb_api_create();
-    (void)state;
     for (int k = 0; k < 2; k++) {
         assert_int_equal(rb_api_lcp(a, 2, M, q, k ? "newton" : "lemke", 0), RB_OK);
         const double *z = array(a, "lcp.z", 2, 1), *w = array(a, "lcp.w", 2, 1);
@@ -562,7 +545,6 @@ static void a_sweep_is_its_cases(void **state)
 {
     static const char *const mu[] = {"0.1", "0.2", "0.4"};
     rb_api *study = rb_api_create_for("sweep"), *one[3];
-    (void)state;
     for (int k = 0; k < 3; k++) {
         one[k] = rb_api_create_for("sweep");
         for (const char *const *w = steady; *w; w += 2)
@@ -593,7 +575,6 @@ static void descriptions_have_their_ends(void **state)
 {
     char text[400];
     int n, group = 0, k = 0;
-    (void)state;
     const rb_option *o = rb_case_describe(&n);
     while (o[group].kind != RB_OPTION_GROUP)
         group++;
@@ -645,7 +626,6 @@ static void what_is_not_there_is_none(void **state)
     const int zone[1] = {0};
     char text[40];
     int r, c;
-    (void)state;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
         assert_null(rb_api_array(a, names[k], &r, &c));
     assert_true(rb_api_lcp(a, 0, NULL, NULL, "lemke", 0) < 0);
@@ -686,7 +666,6 @@ static void solvers_have_their_names(void **state)
                                        "solver",  "nsn-ac",    NULL};
     static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
     rb_api *a = solved(cone);
-    (void)state;
     assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &mu, "nsn-ac", 1e-10, 0), RB_OK);
     assert_string_equal(rb_api_word(a, "task.solver"), "nsn-ac");
@@ -706,7 +685,6 @@ static void calls_leave_the_threads_alone(void **state)
 {
     const char *given = getenv("OPENBLAS_NUM_THREADS");
     char before[20];
-    (void)state;
     snprintf(before, sizeof before, "%s", given ? given : "");
     for (int forced = 0; forced < 2; forced++) {
         if (forced)
@@ -758,7 +736,6 @@ static void arrays_of_every_name_fit(void **state)
     rb_api *a = rb_api_create();
     char name[20];
     int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
-    (void)state;
     for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
         names +=
             t->results->n *
@@ -786,7 +763,6 @@ static void matrices_are_at_hand_or_refused(void **state)
         "support", "halfplane", "load", "500", "mesh", "uniform", "contact-elements",
         "1500",    "zone",      "2",    "mu",  "0",    NULL};
     int r, c;
-    (void)state;
     rb_api *a = solved(large);
     assert_int_equal(rb_api_pivots(a), RB_EINVAL);
     assert_string_equal(rb_api_message(a),
@@ -823,7 +799,6 @@ static void a_stopped_run_is_interrupted(void **state)
     const struct itimerval soon = {{0, 1000}, {0, 1000}}, never = {{0, 0}, {0, 0}};
     /* stays when called; signal() may go back to the default, which ends the test */
     const struct sigaction stops = {.sa_handler = stop};
-    (void)state;
     stopped = rb_api_create();
     for (const char *const *w = words; *w; w += 2)
         assert_int_equal(rb_api_set(stopped, w[0], w[1]), RB_OK);
@@ -957,7 +932,6 @@ static void short_memory_is_reported(void **state)
                                {bars, look_around},
                                {rolls, look_below},
                                {small, solve_problems}};
-    (void)state;
     for (size_t k = 0; k < sizeof jobs / sizeof *jobs; k++) {
         const int n = alloc_fail_every_call(by_handle, (void *)&jobs[k]);
         print_message("# job %d: %d failures of memory\n", (int)k, n);
@@ -969,7 +943,6 @@ static void short_memory_is_reported(void **state)
 static void wear(void **state)
 {
     int rows = 0, columns = 0, n = 0;
-    (void)state;
     rb_api *a = rb_api_create_for("wear");
     rb_api_set(a, "support", "halfplane");
     rb_api_set(a, "similar", "yes");
@@ -1000,7 +973,6 @@ static void cracks(void **state)
     static const char *const names[] = {"crack-angle", "unloaded", "remote-stress"},
                              *const values[] = {"45", "yes", "2"};
     int rows = 0, columns = 0;
-    (void)state;
     rb_api *a = rb_api_create_for("crack");
     rb_api_set(a, "half-width", "1");
     assert_int_equal(rb_api_crack(a, 3, names, values), RB_OK);
@@ -1041,8 +1013,6 @@ static void derivatives(void **state)
     rb_api *a = rb_api_create();
     char name[40], unit[20], why[200];
     int rows, columns, mu = -1, layer = -1;
-    (void)state;
-
     assert_true(rb_api_derivatives(a) < 0);
     assert_null(rb_api_array(a, "derivative.tangential_load", &rows, &columns));
 

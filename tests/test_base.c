@@ -5,7 +5,6 @@
 
 static void refusals_write_their_line(void **state)
 {
-    (void)state;
     rb_message why = {""};
     CHECK_STATUS(rb_fail(&why, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);
     assert_string_equal(why.text, "mu = -1: expected >= 0");
@@ -14,7 +13,6 @@ static void refusals_write_their_line(void **state)
 
 static void arrays_are_zeroed_and_overflow_is_refused(void **state)
 {
-    (void)state;
     double *a = rb_alloc(3, 5);
     assert_non_null(a);
     for (int i = 0; i < 15; i++)
@@ -28,7 +26,6 @@ static void arrays_are_zeroed_and_overflow_is_refused(void **state)
 
 static void a_copy_is_an_array_of_its_own(void **state)
 {
-    (void)state;
     const double x[] = {1.0, -2.5};
     double *copy = rb_copy(2, x);
     CHECK_ABS(copy[0], 1.0, 0.0, "entry 0");
@@ -44,7 +41,6 @@ static void a_copy_is_an_array_of_its_own(void **state)
 
 static void absurd_sizes_are_refused_by_name(void **state)
 {
-    (void)state;
     rb_message why = {""};
     CHECK_STATUS(rb_memory_check(1e3, "a small thing", &why), RB_OK);
     CHECK_STATUS(rb_memory_check(1e18, "a contact of 9 elements", &why), RB_EINVAL);
@@ -53,7 +49,6 @@ static void absurd_sizes_are_refused_by_name(void **state)
 
 static void the_norm_does_not_lose_a_nan(void **state)
 {
-    (void)state;
     const double x[] = {1.0, -3.0, 2.0}, y[] = {1.0, NAN, 2.0};
     CHECK_ABS(rb_norm_inf(3, x), 3.0, 0.0, "norm");
     assert_true(isnan(rb_norm_inf(3, y)));
@@ -62,7 +57,6 @@ static void the_norm_does_not_lose_a_nan(void **state)
 /* cblas_dasum of OpenBLAS on AVX-512 differs here from 64 entries or so on. */
 static void the_sum_does_not_depend_on_the_address(void **state)
 {
-    (void)state;
     enum { N = 1000 };
     double room[N + 8];
     for (int shift = 0; shift < 8; shift++) {
@@ -80,7 +74,6 @@ static void the_sum_does_not_depend_on_the_address(void **state)
 
 static void every_status_has_its_own_words(void **state)
 {
-    (void)state;
     for (int i = RB_EHELPER; i <= RB_INTERRUPTED; i++)
         for (int j = RB_EHELPER; j < i; j++)
             assert_string_not_equal(rb_status_text((rb_status)i),
@@ -91,7 +84,6 @@ static void what_went_wrong_has_its_words(void **state)
 {
     const rb_message said = {"why"}, nothing = {""};
     char room[6];
-    (void)state;
     assert_string_equal(rb_status_text((rb_status)99), "unknown status");
     assert_string_equal(rb_status_reason(RB_ENOMEM, &nothing), "out of memory");
     assert_string_equal(rb_status_reason(RB_ENOMEM, &said), "why");
@@ -138,7 +130,6 @@ static void only_characters_are_printed(void **state)
                {"\xe2\x82\xac", "\xe2\x82\xac", 4},
                {"\x01z", "", 4},
                {"\x01z", "\\x01", 5}};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char room[40];
         memset(room, 'x', sizeof room);
@@ -173,7 +164,6 @@ static void misspelt_words_are_guessed(void **state)
                {"creeeeep", "creep"},
                {"creeeeeep", ""},
                {"a-word-that-is-longer-than-any-name-of-an-option", ""}};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_guess guess = {.word = all[k].word};
         char wanted[60] = "";

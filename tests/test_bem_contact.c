@@ -64,7 +64,6 @@ static double grading(const rb_bem_mesh *mesh)
 
 static void neighbours_differ_by_a_fifth_at_most(void **state)
 {
-    (void)state;
     for (double a = 0.5; a > 1e-9; a *= 0.1)
         for (int k = 0; k < 8; k++) {
             const rb_bem_cylinder cylinder = {.radius = 1.0,
@@ -81,7 +80,6 @@ static void neighbours_differ_by_a_fifth_at_most(void **state)
 
 static void the_arc_ends_at_element_ends(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh = mesh_of(&on_arc, 40, 2.0);
     double clamped = 0.0;
     for (int j = 0; j < mesh.n; j++) {
@@ -99,7 +97,6 @@ static void the_arc_ends_at_element_ends(void **state)
 /* y = x^2/(R + sqrt(R^2 - x^2)) with all digits, at x = 1e-8 R and 1e-10 R apart. */
 static void small_contacts_keep_their_digits(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh = mesh_of(&on_hub, 200, 50.0 * 1e-8);
     for (int j = 0; j <= 200; j++) {
         const double x = mesh.x1[j];
@@ -129,7 +126,6 @@ static void check_mirrored(const rb_bem_mesh *mesh, int j, int k, double R)
  * where that is chosen. */
 static void refinement_multiplies_what_is_outside(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_bem_cylinder cylinder = k % 2 ? on_arc : on_hub;
         double largest[2] = {0.0, 0.0};
@@ -152,7 +148,6 @@ static void refinement_multiplies_what_is_outside(void **state)
 
 static void symmetric_ends_make_a_symmetric_mesh(void **state)
 {
-    (void)state;
     const int outer[] = {0, 8, 11, 60, 61, 700};
     for (double a = 30.0; a > 1e-6; a *= 0.03)
         for (int k = 0; k < 12; k++) {
@@ -174,7 +169,6 @@ static void symmetric_ends_make_a_symmetric_mesh(void **state)
 /* Contact or not, to the last one; an odd number gets one more to stay symmetric. */
 static void outer_elements_are_as_many_as_asked_for(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++)
         for (int wanted = k ? 8 : 40; wanted < 3000; wanted += 1 + wanted / 3) {
             rb_bem_cylinder cylinder = k ? on_arc : on_hub;
@@ -190,7 +184,6 @@ static void outer_elements_are_as_many_as_asked_for(void **state)
 
 static void bad_cylinders_are_refused(void **state)
 {
-    (void)state;
     const double ends[] = {-1.0, 0.0, 1.0, 2.0}, wide[] = {-1.0, 0.0, 1.0, 50.0},
                  back[] = {-1.0, 0.0, -0.5, 2.0}, most[] = {-49.99, 0.0, 1.0, 49.99};
     const struct {
@@ -231,7 +224,6 @@ static void bad_cylinders_are_refused(void **state)
  * arc, on either side. */
 static void the_zone_ends_before_the_clamped_arc(void **state)
 {
-    (void)state;
     const rb_bem_cylinder half = {.radius = 50.0, .support = RB_BEM_ARC, .arc = M_PI_2};
     for (int k = 0; k < 4; k++) {
         const double reach = (0.95 + (k % 2 ? 1e-6 : -1e-6)) * M_PI_2, arc = 0.2;
@@ -308,7 +300,6 @@ static void contact_backwards(rb_bem_mesh *m)
 
 static void spoilt_meshes_are_refused(void **state)
 {
-    (void)state;
     const struct {
         spoil *how;
         const char *text;
@@ -467,7 +458,6 @@ static void check_schur(rb_bem_normals normals)
 
 static void flexibility_is_the_papers_schur_complement(void **state)
 {
-    (void)state;
     check_schur(RB_BEM_NORMALS_OBSTACLE);
     check_schur(RB_BEM_NORMALS_SURFACE);
 }
@@ -475,7 +465,6 @@ static void flexibility_is_the_papers_schur_complement(void **state)
 /* The upstream row and w0 agree with full solutions of the system. */
 static void every_row_is_a_displacement_of_the_full_solution(void **state)
 {
-    (void)state;
     enum { n_c = 6 };
     rb_bem_mesh mesh = mesh_of(&on_hub, n_c, 5.0);
     give(&mesh, 30, RB_BEM_TRACTION, 1.0, 3.0);
@@ -528,7 +517,6 @@ static double asymmetry(const rb_bem_flexibility *f, int a, int b)
  * which is 2 % of theirs. */
 static void flexibility_is_symmetric_up_to_discretisation(void **state)
 {
-    (void)state;
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++) {
         rb_bem_flexibility f = condensed(bodies[k], 40, 0.05, RB_BEM_NORMALS_OBSTACLE);
@@ -583,7 +571,6 @@ static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, dou
  * support; at 100 elements the wheel's own share is below this from a/R = 1e-4 on. */
 static void small_contacts_are_on_a_half_plane(void **state)
 {
-    (void)state;
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++)
         for (int friction = 0; friction < 2; friction++) {
@@ -601,7 +588,6 @@ static void small_contacts_are_on_a_half_plane(void **state)
 /* The wheel's share of the difference falls with a/R (normal load, 100 elements). */
 static void the_wheel_shows_less_and_less(void **state)
 {
-    (void)state;
     const double limit = halfplane_difference(&on_hub, 100, 5e-7, 0);
     const double large = halfplane_difference(&on_hub, 100, 5.0, 0) - limit,
                  middle = halfplane_difference(&on_hub, 100, 0.5, 0) - limit,
@@ -639,7 +625,6 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
 
 static void the_support_carries_the_load(void **state)
 {
-    (void)state;
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++) {
         const double coarse = fabs(balance(bodies[k], 20, 80)),
@@ -670,7 +655,6 @@ static double hertz_mean(double x, double y)
 
 static void the_default_datum_is_the_half_cylinder(void **state)
 {
-    (void)state;
     enum { n = 200 };
     const double R = 50.0, a = 0.1;
     double *ends = equal_ends(n, a), r[2 * n] = {0}, w[2 * (n + 1)];
@@ -726,7 +710,6 @@ static double disc_compression_error(int m, double a)
 
 static void the_disc_is_compressed_as_two_half_cylinders(void **state)
 {
-    (void)state;
     const double coarse = disc_compression_error(101, 0.01),
                  fine = disc_compression_error(201, 0.01),
                  finest = disc_compression_error(401, 0.01);
@@ -744,7 +727,6 @@ static void memory_without_length_doubles_the_flexibility(void **state)
     static const double ratio[] = {0.25, 0.75}, length[] = {1e-9, 1e-8};
     double ends[n + 2], F[4 * m * n], soft[4 * m * n], most = 0.0;
 
-    (void)state;
     for (int i = 0; i < n + 2; i++)
         ends[i] = 0.5 * (i - n / 2);
     const rb_bem_cylinder cylinder = {

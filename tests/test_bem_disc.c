@@ -34,7 +34,6 @@ static double complex series(double h, double angle, double complex p)
 
 static void the_closed_form_is_the_series(void **state)
 {
-    (void)state;
     const double h[] = {0.3, 1.0}, angle[] = {0.0, 0.2, -1.0, 3.1};
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 4; j++)
@@ -56,7 +55,6 @@ static void the_closed_form_is_the_series(void **state)
  * the sum of its halves. */
 static void arcs_add_up_at_any_width(void **state)
 {
-    (void)state;
     for (double h = 1e-1; h > 1e-9; h *= 0.1)
         for (double place = 0.25; place < 2.0 / h && place < 1e4; place *= 7.0) {
             double whole[4], left[4], right[4];
@@ -103,7 +101,6 @@ static double element_error(int n, double alpha)
 
 static void elements_converge_to_the_disc(void **state)
 {
-    (void)state;
     const double coarse = element_error(60, M_PI / 20),
                  fine = element_error(180, M_PI / 20),
                  finest = element_error(540, M_PI / 20);
@@ -115,7 +112,6 @@ static void elements_converge_to_the_disc(void **state)
 /* The first of the contact elements that is not of the others' arc is named. */
 static void every_element_is_of_the_same_arc(void **state)
 {
-    (void)state;
     enum { n = 4 };
     const rb_bem_disc disc = {2.0, material};
     for (int k = 0; k <= n; k++) {
@@ -143,7 +139,6 @@ static void every_element_is_of_the_same_arc(void **state)
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     double response[4];
     CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){0.0, material}, 0.1, 0.0, response),
                  RB_EINVAL);

@@ -16,7 +16,6 @@ static double ends[N + 2];
 
 static int equal_ends(void **state)
 {
-    (void)state;
     for (int i = 0; i < N + 2; i++)
         ends[i] = 0.1 * (i - 0.5 * N);
     return 0;
@@ -94,7 +93,6 @@ static void check_pair(int kind_a, int kind_b)
 
 static void two_of_any_kind_are_their_sum(void **state)
 {
-    (void)state;
     for (int a = 0; a < KINDS; a++)
         for (int b = 0; b < KINDS; b++)
             check_pair(a, b);
@@ -105,7 +103,6 @@ static void interfaces_yield_under_their_own_traction(void **state)
 {
     double c[2 * N], bad[N], F[4 * M * N], G[4 * M * N], r[2 * N], w[2 * M];
 
-    (void)state;
     for (int i = 0; i < 2 * N; i++) {
         c[i] = 0.1 * (i + 1);
         r[i] = sin(2.0 + i);
@@ -190,7 +187,6 @@ static void pairs_tell_of_missing_memory(void **state)
 {
     static const int kinds[][2] = {
         {FLAT, SOFT}, {LAYER, DENSE}, {DENSE, REMEMBERS}, {DISC_TURNED, DISC}};
-    (void)state;
     for (int k = 0; k < 4; k++)
         check_memory(make_pair, kinds[k]);
 }
@@ -265,7 +261,6 @@ static rb_status make_wheel(const void *of)
 
 static void wheels_tell_of_missing_memory(void **state)
 {
-    (void)state;
     const rb_bem_cylinder wheel = {
         .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.5};
     rb_bem_mesh mesh;
@@ -310,7 +305,6 @@ static void clusters_tell_of_missing_memory(void **state)
     rb_bem_cylinder cylinder = cylinder_of(0);
     solid b = {.material = steel};
 
-    (void)state;
     cylinder.outer_elements = 150;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &b.mesh, NULL), RB_OK);
     assert_in_range(b.mesh.n, 128, 250);
@@ -322,7 +316,6 @@ static void clusters_tell_of_missing_memory(void **state)
 
 static void absurd_sizes_have_no_room(void **state)
 {
-    (void)state;
     assert_null(rb_large_alloc(SIZE_MAX / sizeof(double), 2));
     free(rb_large_alloc(3, 0));
 }
@@ -340,7 +333,6 @@ static void ends_of_strips_are_limits(void **state)
     const double strip[2] = {-0.2, 0.3}, xy[4] = {-0.2, 0.0, 0.3, 0.0};
     double W[4], beside[4], stress[6];
 
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const double near = strip[k] + 1e-9;
         CHECK_STATUS(rb_bem_surface_displacement(&body, 1, strip, 1, &strip[k], W),
@@ -372,7 +364,6 @@ static void fields_may_be_asked_for_alone(void **state)
     rb_bem_mesh mesh;
     rb_bem_system *system;
 
-    (void)state;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_solve(system, t_contact, u, t), RB_OK);
@@ -400,7 +391,6 @@ static void clusters_are_cut_across_their_longer_side(void **state)
     rb_element e[COUNT];
     int order[COUNT];
 
-    (void)state;
     for (int along = 0; along < 2; along++) {
         for (int i = 0; i < COUNT; i++) {
             const double s = 10.0 * ((i * 37) % COUNT) + 100.0, t = -50.0 - i % 2;
@@ -468,7 +458,6 @@ static void absurd_cylinders_are_refused(void **state)
         {{.radius = 2.0, .support = RB_BEM_ARC, .arc = 0.5}, lopsided, "the clamped arc"},
         {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4}, lopsided, "no room"}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_bem_mesh mesh;
         rb_message why = {""};
@@ -517,7 +506,6 @@ static void absurd_surfaces_are_refused(void **state)
         {{.material = rubber, .datum = 1.0}, endless_left, "expected increasing ends"}};
     double W[4], w[1] = {0.0};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_bem_flexibility f;
         rb_message why = {""};
@@ -544,7 +532,6 @@ static void absurd_operators_are_refused(void **state)
     rb_bem_flexibility f, a, b, none = {0}, other = {0};
     rb_message why = {""};
 
-    (void)state;
     CHECK_STATUS(rb_bem_flexibility_toeplitz((1 << 28) + 1, NULL, &good, &f, &why),
                  RB_EINVAL);
     assert_non_null(strstr(why.text, "expected at most 268435456"));
@@ -575,7 +562,6 @@ static void absurd_discs_are_refused(void **state)
         {INFINITY, steel}, {NAN, steel}, {1.05, steel}, {0.5, steel}, {5.0, {-1.0, 0.3}}};
     double response[4];
 
-    (void)state;
     for (int k = 0; k < 5; k++) {
         rb_bem_flexibility f;
         CHECK_STATUS(
@@ -605,7 +591,6 @@ static void absurd_wheels_are_refused(void **state)
                {2.0, 1.0, 0.0, &one, &endless, "length inf"}};
     rb_bem_flexibility f;
 
-    (void)state;
     CHECK_STATUS(make(FLAT, &f), RB_OK);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const rb_bem_wheel wheel = {.radius = all[k].radius,
@@ -644,7 +629,6 @@ static void absurd_meshes_are_refused(void **state)
         {3, 0.0, RB_BEM_TRACTION, 16, 1, "contact elements 16 to 16"},
         {3, 0.0, RB_BEM_TRACTION, 15, 1, NULL}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_bem_mesh mesh = circle(16, 1.0);
         rb_message why = {""};
@@ -682,7 +666,6 @@ static void covers_need_their_core(void **state)
     rb_bem_system *system;
     rb_message why = {""};
 
-    (void)state;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &core, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_create_bonded(&mesh, jelly, &core, steel, &system, &why),

@@ -34,7 +34,6 @@ static double quadrature(double s1, double s2, double x, double d)
 
 static void halfplane_is_flamants_integral(void **state)
 {
-    (void)state;
     enum { n = n_uneven, m = n + 1 };
     const double datum = 30.0, K = (1.0 - steel.poisson) / (M_PI * steel.shear),
                  c = (1.0 - 2.0 * steel.poisson) / (4.0 * steel.shear);
@@ -60,7 +59,6 @@ static void halfplane_is_flamants_integral(void **state)
  * the primitive agree in their first seven digits. */
 static void distant_strips_lose_no_digits(void **state)
 {
-    (void)state;
     const int n = 1000000;
     const double h = 1e-9, X = h * (n - 1),
                  K = (1.0 - steel.poisson) / (M_PI * steel.shear);
@@ -76,7 +74,6 @@ static void distant_strips_lose_no_digits(void **state)
 
 static void apply_is_the_matrix_and_ldf_is_kept(void **state)
 {
-    (void)state;
     enum { n = n_uneven, m = n + 1, ld = 2 * m + 3 };
     double F[ld * 2 * n], r[2 * n], w[2 * m];
     rb_bem_flexibility a, b, f;
@@ -107,7 +104,6 @@ static void apply_is_the_matrix_and_ldf_is_kept(void **state)
  */
 static void identical_bodies_lose_their_coupling(void **state)
 {
-    (void)state;
     enum { n = n_uneven, m = n + 1 };
     double A[2 * m * 2 * n], F[2 * m * 2 * n];
     rb_bem_flexibility a, b, f;
@@ -140,7 +136,6 @@ static void transforms_have_lengths_that_are_quick(void **state)
                                  {13, 16}, {21, 24}, {26, 30}, {31, 32},   {41, 48},
                                  {51, 54}, {61, 64}, {91, 96}, {961, 972}, {2501, 2560}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_fourier f;
         assert_true(rb_fourier_make(all[k][0], &f));
@@ -167,7 +162,6 @@ static void a_line_is_nearly_inverted_by_its_waves(void **state)
     static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
     double ends[m + 1], r[2 * n] = {0.0}, w[2 * m], line[n], loose[n], stiff[n];
 
-    (void)state;
     for (int i = 0; i <= m; i++)
         ends[i] = i / 64.0;
     for (int i = 0; i < n; i++) {
@@ -223,7 +217,6 @@ static void every_wave_has_its_own_inverse(void **state)
     rb_bem_circulant *c;
     rb_fourier transform;
 
-    (void)state;
     for (int i = 0; i <= m; i++)
         ends[i] = i;
     CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
@@ -275,7 +268,6 @@ static void every_wave_has_its_own_inverse(void **state)
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     rb_bem_flexibility a, b, f;
     rb_message why;
     const double flat[] = {0.0, 1.0, 1.0}, two[] = {0.0, 1.0, 2.0},
@@ -333,7 +325,6 @@ static void bad_input_is_refused(void **state)
 /* Every allocation refused in its turn: no leak (asan), nothing left behind. */
 static void failing_memory_is_reported(void **state)
 {
-    (void)state;
     for (int count = 0, failed = 1; failed; count++) {
         rb_bem_flexibility a = {0}, b = {0}, f = {0};
         double F[2 * (n_uneven + 1) * 2 * n_uneven];

@@ -77,7 +77,6 @@ static double shear_xy(const double s[3])
 
 static void hertz_maxima_are_those_of_the_books(void **state)
 {
-    (void)state;
     const load l = hertz(0.0);
     const maximum tau = largest(&l, max_shear, (maximum){0, 0, 0.7}, 0.1),
                   mises = largest(&l, von_mises, (maximum){0, 0, 0.7}, 0.1),
@@ -94,7 +93,6 @@ static void hertz_maxima_are_those_of_the_books(void **state)
 /* Friction towards +x on the body. */
 static void full_sliding_moves_the_maximum(void **state)
 {
-    (void)state;
     const load l = hertz(0.2);
     const maximum tau = largest(&l, max_shear, (maximum){0, 0.6, 0.6}, 0.1);
     CHECK_REL(tau.value, 0.31899, 3e-4, "max shear");
@@ -106,7 +104,6 @@ static void full_sliding_moves_the_maximum(void **state)
  * sqrt(1 + y^2). */
 static void the_axis_is_in_closed_form(void **state)
 {
-    (void)state;
     const load l = hertz(0.0);
     for (double y = 0.01; y < 100.0; y *= 2.0) {
         double s[3];
@@ -120,7 +117,6 @@ static void the_axis_is_in_closed_form(void **state)
 
 static void the_surface_carries_the_tractions(void **state)
 {
-    (void)state;
     const load l = hertz(0.3);
     for (int i = 0; i < n_strips; i += 7) {
         double s[3], near[3];
@@ -144,7 +140,6 @@ static void the_surface_carries_the_tractions(void **state)
  * both sides, sxx = syy = -p/2. */
 static void the_end_of_a_strip_sees_half_of_it(void **state)
 {
-    (void)state;
     const double ends[] = {-1.0, 2.0}, p[] = {3.0}, q[] = {0.0};
     for (int k = 0; k < 2; k++) {
         const double at[2] = {ends[k], 0.0};
@@ -161,7 +156,6 @@ static void the_end_of_a_strip_sees_half_of_it(void **state)
 /* div s = 0 by central differences of order h^2 */
 static void the_field_is_in_equilibrium(void **state)
 {
-    (void)state;
     const load l = hertz(0.3);
     for (int k = 0; k < 40; k++) {
         const double x = -1.5 + 0.07 * k, y = 0.002 + 0.01 * k, h = 1e-4 * y;
@@ -194,7 +188,6 @@ static double of_half_space(int tangential, double from, double to, double c)
  * 2 c exp(nu/(1 - nu)). */
 static void a_long_strip_has_two_datums(void **state)
 {
-    (void)state;
     const double c = 500.0, ends[2] = {1.0, 3.0}, x = 0.0;
     rb_bem_surface body =
         rb_bem_halfplane(rb_bem_material_from_young(210000.0, 0.28), 2.0 * c);
@@ -207,7 +200,6 @@ static void a_long_strip_has_two_datums(void **state)
 
 static void bad_input_and_short_memory(void **state)
 {
-    (void)state;
     const double ends[] = {0, 1, 2}, back[] = {0, 1, 1}, one[] = {1, 1}, xy[] = {0.5, 1},
                  above[] = {0.5, -1}, nan[] = {0.5, NAN};
     double s[3];

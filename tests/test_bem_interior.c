@@ -74,7 +74,6 @@ static errors error_at_depth(int n, double depth)
  * one element inwards; closer, the constant tractions of neighbours jump: first order. */
 static void a_known_field_is_reproduced(void **state)
 {
-    (void)state;
     const struct {
         double depth, u, s, order_s;
     } row[] = {{0.0, 1e-5, 0.12, 0.95},
@@ -101,7 +100,6 @@ static void a_known_field_is_reproduced(void **state)
  * because it is linear along the contour. */
 static void rigid_motions_have_no_stress(void **state)
 {
-    (void)state;
     enum { n = 64 };
     rb_bem_mesh mesh = circle(n, 2.0);
     double u[2 * n], t[2 * n] = {0}, got[2], s[3];
@@ -150,7 +148,6 @@ static errors compression_error(int n, double alpha)
 
 static void diametral_compression_at_the_centre(void **state)
 {
-    (void)state;
     const double alpha = M_PI / 20.0;
     /* n alpha/pi odd */
     const double coarse = compression_error(60, alpha).s,
@@ -165,7 +162,6 @@ static void diametral_compression_at_the_centre(void **state)
  * stresses stay, displacements become as many times as long. */
 static void no_unit_of_length_is_preferred(void **state)
 {
-    (void)state;
     enum { n = 24, P = 3 };
     static const double inside[2 * P] = {0.1, 0.2, -0.5, 0.3, 0.0, -0.93};
     double u[2][2 * P], s[2][3 * P];
@@ -197,7 +193,6 @@ static void no_unit_of_length_is_preferred(void **state)
 
 static void the_field_is_in_equilibrium(void **state)
 {
-    (void)state;
     enum { n = 60 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
     double u[4 * n], t[4 * n];
@@ -225,7 +220,6 @@ static void the_field_is_in_equilibrium(void **state)
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     enum { n = 20 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
     double u[4 * n] = {0}, t[4 * n] = {0}, s[9];
@@ -260,7 +254,6 @@ static void bad_input_is_refused(void **state)
 
 static void failing_memory_is_reported(void **state)
 {
-    (void)state;
     enum { n = 20 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
     double u[4 * n] = {0}, t[4 * n] = {0}, s[3];

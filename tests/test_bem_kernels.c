@@ -84,7 +84,6 @@ static integrand_data random_element(void)
 /* Points at 0.003 to 300 element lengths: half of them nearer than the far series. */
 static void closed_form_equals_quadrature(void **state)
 {
-    (void)state;
     gsl_set_error_handler_off();
     srand(1);
     for (int k = 0; k < 300; k++) {
@@ -105,7 +104,6 @@ static void closed_form_equals_quadrature(void **state)
 /* The principal value of T vanishes: its even part by symmetry, r,n by r.n = 0. */
 static void self_terms_equal_quadrature(void **state)
 {
-    (void)state;
     gsl_set_error_handler_off();
     srand(2);
     for (int k = 0; k < 50; k++) {
@@ -126,7 +124,6 @@ static void self_terms_equal_quadrature(void **state)
  * of the identity, and to +1/2 from outside; to rounding at any distance. */
 static void nearly_singular_points_are_right(void **state)
 {
-    (void)state;
     for (int k = 1; k < 15; k++)
         for (int side = -1; side <= 1; side += 2) {
             const double d = side * pow(10.0, -k);
@@ -309,7 +306,6 @@ static void check_differences(const differences *of, double mean, double largest
 
 static void every_instruction_set_gives_the_same(void **state)
 {
-    (void)state;
     static columns_of_H_and_G single, exact, got;
     static column_case c;
     const rb_column_variant *variant;
@@ -340,7 +336,6 @@ static void every_instruction_set_gives_the_same(void **state)
 
 static void the_series_meet_at_the_ends_of_their_ranges(void **state)
 {
-    (void)state;
     const rb_far_range *const range[] = {&rb_far, &rb_farther, &rb_farthest};
     const rb_element e = rb_element_make(-1.0, 0.0, 1.0, 0.0, 1.0);
     for (int k = 0; k < 3; k++)
@@ -361,7 +356,6 @@ static void the_series_meet_at_the_ends_of_their_ranges(void **state)
 
 static void H_alone_is_H_to_rounding(void **state)
 {
-    (void)state;
     static columns_of_H_and_G both, alone;
     static column_case c;
     srand(5);
@@ -444,7 +438,6 @@ static rb_bem_mesh irregular(int n)
 
 static void translations_are_annihilated(void **state)
 {
-    (void)state;
     rb_bem_mesh shapes[] = {circle(200, 3.0), ring(90, 2.0, 0.7), irregular(60)};
     for (int k = 0; k < 3; k++) {
         for (int direction = 0; direction < 2; direction++)
@@ -457,7 +450,6 @@ static void translations_are_annihilated(void **state)
 /* A rotation is not constant on an element: first order (2.3e-3 on 100 elements). */
 static void rotations_are_annihilated_to_first_order(void **state)
 {
-    (void)state;
     double error[4];
     for (int k = 0; k < 4; k++) {
         rb_bem_mesh mesh = circle(100 << k, 1.0);
@@ -475,7 +467,6 @@ static void rotations_are_annihilated_to_first_order(void **state)
  * scaled by the unit. */
 static void the_unit_of_length_does_not_matter(void **state)
 {
-    (void)state;
     enum { n = 12, dofs = 2 * n };
     static double H[2][dofs * dofs], G[2][dofs * dofs];
     const rb_bem_material m = {80.0, 0.3};

@@ -79,7 +79,6 @@ static void integral_over_waves(const rb_bem_surface *body, double X, double b,
  * softer and stiffer. */
 static void kernels_are_integrals_over_waves(void **state)
 {
-    (void)state;
     uint64_t seed = 7;
     for (int k = 0; k < 90; k++) {
         layer l;
@@ -108,7 +107,6 @@ static void kernels_are_integrals_over_waves(void **state)
  * the half-plane's logarithm and its coupling, with the other sign. */
 static void far_away_the_base_holds(void **state)
 {
-    (void)state;
     static const double poisson[] = {0.5, 0.4, 0.0, -0.5};
     for (int k = 0; k < 4; k++) {
         const rb_bem_surface body = {.material = {1.0, poisson[k]}, .thickness = 3.0};
@@ -132,7 +130,6 @@ static void far_away_the_base_holds(void **state)
  * others, of which eight are kept; strips and their halves agree. */
 static void tables_are_alike_however_they_are_made(void **state)
 {
-    (void)state;
     enum { PLACES = 30 };
     const double ratio = 2.0, length = 0.7;
     const rb_bem_surface body = {.material = {1.0, 0.3},
@@ -167,7 +164,6 @@ static void tables_are_alike_however_they_are_made(void **state)
 
 static void short_memory_leaves_no_table(void **state)
 {
-    (void)state;
     const double ratio = 2.0;
     for (int i = 0, done = 0; !done; i++) {
         const double length = 0.5 + 0.01 * i;

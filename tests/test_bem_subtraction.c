@@ -19,7 +19,6 @@ static rb_strip flat_strip(rb_bem_mesh *mesh)
 
 static void the_strip_is_flamants_on_the_surface(void **state)
 {
-    (void)state;
     const double ends[] = {-0.3, 0.5}, x[] = {-3.0, -0.31, -0.1, 0.1, 0.49, 40.0};
     double W[4 * 6];
     rb_bem_mesh mesh;
@@ -42,7 +41,6 @@ static void the_strip_is_flamants_on_the_surface(void **state)
 
 static void its_tractions_are_those_of_the_stress(void **state)
 {
-    (void)state;
     const double ends[] = {-0.3, 0.5}, p = 2.0, q = -0.7;
     const double xy[] = {0.1, 0.0, 0.2, 0.3, -1.0, 0.01, 5.0, 7.0};
     double sigma[12];
@@ -66,7 +64,6 @@ static void its_tractions_are_those_of_the_stress(void **state)
 /* Far away the strip is a force: no digit is lost there. */
 static void far_away_it_keeps_its_digits(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(1, &mesh), RB_OK);
     mesh.x0[0] = -5e-11;
@@ -86,7 +83,6 @@ static void far_away_it_keeps_its_digits(void **state)
  * the tent of the half-plane; the end itself included. */
 static void linear_strips_make_a_tent(void **state)
 {
-    (void)state;
     const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0},
                  q[] = {0.0, -0.7, 0.0};
     const double xy[] = {0.0, 0.3, 0.1, 0.2, 0.1, 0.0, -1.0, 0.01, 0.3, 0.0, 2.0, 1.0};
@@ -110,7 +106,6 @@ static void linear_strips_make_a_tent(void **state)
 /* Turning strip and point together turns the stress: its invariants stay. */
 static void linear_strips_do_not_know_their_direction(void **state)
 {
-    (void)state;
     const double complex turn = cos(0.7) + sin(0.7) * I, z = 0.2 + 0.1 * I;
     const rb_strip flat = rb_strip_between(-0.3, 0.5, steel, 1.0),
                    turned = rb_strip_between(-0.3 * turn, 0.5 * turn, steel, 1.0);
@@ -177,7 +172,6 @@ static double distance_from_halfplane(int n, int subtracted)
 
 static void the_near_field_is_the_half_planes(void **state)
 {
-    (void)state;
     CHECK_MAX(distance_from_halfplane(20, 1), 2e-3, "a/R = 1e-3, subtracted");
     assert_true(distance_from_halfplane(20, 0) > 5.0 * distance_from_halfplane(20, 1));
 }
@@ -238,7 +232,6 @@ static double distance_on_gliding_sides(int side)
 
 static void sides_may_glide(void **state)
 {
-    (void)state;
     const double coarse = distance_on_gliding_sides(10),
                  fine = distance_on_gliding_sides(20);
     CHECK_MAX(fine, 0.03, "20 elements a side");
@@ -247,7 +240,6 @@ static void sides_may_glide(void **state)
 
 static void a_hollow_contact_is_refused(void **state)
 {
-    (void)state;
     /* a square whose lower side is bent inwards */
     static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
     rb_bem_mesh mesh;
@@ -279,7 +271,6 @@ static void a_hollow_contact_is_refused(void **state)
 /* Every contact element alone has the field of its mirror image, mirrored. */
 static void fields_have_their_mirror_images(void **state)
 {
-    (void)state;
     enum { n = 4, P = 3 };
     static const double depth[P] = {0.1, 0.6, 40.0}, aside[P] = {0.2, -0.9, 30.0};
     for (int support = 0; support < 2; support++) {
@@ -320,7 +311,6 @@ static void fields_have_their_mirror_images(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     rb_bem_system *system = wheel_system(4);
     int refused = 1;
     for (int count = 0; refused; count++) {

@@ -73,7 +73,6 @@ static double average_of(average *a)
 /* (V1) w = w_e + sum f_k E_k w_e, entry by entry. */
 static void memory_averages_what_lies_upstream(void **state)
 {
-    (void)state;
     const double ratio[2] = {1.5, 4.0}, b = 0.5;
     const rb_bem_surface elastic = rb_bem_halfplane(rubber, 20.0);
     for (int trial = 0; trial < 14; trial++) {
@@ -100,7 +99,6 @@ static void memory_averages_what_lies_upstream(void **state)
  * to a constant; strips that are tiny against it keep their digits. */
 static void memory_has_its_limits(void **state)
 {
-    (void)state;
     const double ratio = 3.0, none = 0.0, tiny = 1e-9, long_ = 1e9;
     const rb_bem_surface elastic = rb_bem_halfplane(rubber, 20.0);
     double e[4], got[4], other[4], e2[4];
@@ -174,7 +172,6 @@ static double integral_over_waves(layer_entry *e, double last)
 
 static void layers_are_integrals_over_their_waves(void **state)
 {
-    (void)state;
     const rb_bem_material material[3] = {rubber, soft, {3.0, 0.1}};
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 5; j++) {
@@ -194,7 +191,6 @@ static void layers_are_integrals_over_their_waves(void **state)
 /* A layer on a base of its own material is the half-plane, whatever its thickness. */
 static void equal_materials_are_the_half_plane(void **state)
 {
-    (void)state;
     const rb_bem_surface plane = rb_bem_halfplane(rubber, 20.0);
     for (int j = 0; j < 12; j++) {
         const double x = 0.5 * j - 2.0;
@@ -215,7 +211,6 @@ static void equal_materials_are_the_half_plane(void **state)
  * that is far stiffer like a rigid one. */
 static void layers_have_their_limits(void **state)
 {
-    (void)state;
     const rb_bem_surface own = rb_bem_halfplane(rubber, 20.0),
                          under = rb_bem_halfplane(core, 20.0);
     rb_bem_surface body = {
@@ -245,7 +240,6 @@ static void layers_have_their_limits(void **state)
 /* Under a wide uniform pressure a thin compressible layer is a mattress: w = p d/M. */
 static void thin_layers_are_mattresses(void **state)
 {
-    (void)state;
     const rb_bem_surface body = {.material = rubber, .thickness = 0.01};
     const double nu = rubber.poisson,
                  M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
@@ -258,7 +252,6 @@ static void thin_layers_are_mattresses(void **state)
 /* So is a film, as far as the half-plane's digits reach: it has as few waves as any. */
 static void films_are_mattresses(void **state)
 {
-    (void)state;
     const double nu = rubber.poisson,
                  M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
     for (double d = 1e-3; d > 1e-9; d *= 0.1) {
@@ -276,7 +269,6 @@ static void films_are_mattresses(void **state)
  * reaches a hundred thousand thicknesses. */
 static void layers_remember(void **state)
 {
-    (void)state;
     const double ratio = 2.0, length[2] = {0.8, 6e4};
     const rb_bem_surface elastic = {.material = rubber, .thickness = 0.6};
     rb_bem_surface body = elastic;
@@ -299,7 +291,6 @@ static void layers_remember(void **state)
 /* What is seen alone is what is seen together with what lies farther away. */
 static void what_lies_far_away_is_met(void **state)
 {
-    (void)state;
     const rb_bem_surface body = {.material = rubber, .thickness = 0.6};
     const double ends[2] = {-0.25, 0.25}, at = 18.0, x[2] = {at, 3.0 * at};
     double under[4], alone[4], together[8];
@@ -316,7 +307,6 @@ static void what_lies_far_away_is_met(void **state)
  * layers. */
 static void transforms_are_the_dense_matrix(void **state)
 {
-    (void)state;
     enum { n = 37, m = n + 1, ld = 2 * m };
     const double ratio[2] = {1.0, 4.0}, length[2] = {0.1, 2.0};
     const rb_bem_surface bodies[3] = {
@@ -357,7 +347,6 @@ static void transforms_are_the_dense_matrix(void **state)
  * nothing. */
 static void tractions_are_summed_as_by_the_matrix(void **state)
 {
-    (void)state;
     enum { n = 3, many = 1100 };
     const double ratio[2] = {1.0, 4.0}, length[2] = {0.1, 2.0};
     const double ends[n + 1] = {-0.5, -0.2, 0.1, 0.7}, p[n] = {1.0, 3.0, -2.0},
@@ -400,7 +389,6 @@ static void tractions_are_summed_as_by_the_matrix(void **state)
 
 static void bad_surfaces_are_refused(void **state)
 {
-    (void)state;
     const double minus = -1.0, one = 1.0;
     const double ends[3] = {0.0, 1.0, 2.0};
     const struct {
@@ -434,7 +422,6 @@ static void bad_surfaces_are_refused(void **state)
 
 static void short_memory_is_told(void **state)
 {
-    (void)state;
     rb_bem_surface body = {.material = rubber, .thickness = 0.5};
     const double ends[5] = {0.0, 1.0, 2.0, 3.0, 4.0};
     for (int i = 0;; i++) {

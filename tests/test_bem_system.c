@@ -99,20 +99,17 @@ static void check_first_order(double (*error)(int), int n, double bound, const c
 
 static void disc_under_pressure(void **state)
 {
-    (void)state;
     check_first_order(disc_error, 80, 1e-3, "disc");
 }
 
 /* Columns of a power of two of numbers are set further apart in memory. */
 static void discs_of_any_size_are_solved(void **state)
 {
-    (void)state;
     CHECK_REL(256.0 * disc_error(256), 252.0 * disc_error(252), 0.01, "n error");
 }
 
 static void thick_ring_under_internal_pressure(void **state)
 {
-    (void)state;
     check_first_order(thick_ring_error, 40, 5.5e-3, "ring");
 }
 
@@ -141,7 +138,6 @@ static double dirichlet_error(int n)
 
 static void given_displacements_give_the_tractions(void **state)
 {
-    (void)state;
     check_first_order(dirichlet_error, 40, 5.5e-3, "tractions");
 }
 
@@ -150,7 +146,6 @@ static void given_displacements_give_the_tractions(void **state)
 /* H u = G t holds for what solve() returns, and what was given is returned. */
 static void the_solution_satisfies_the_equations(void **state)
 {
-    (void)state;
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
     const rb_bem_cylinder cylinder = {.radius = 50.0, .support = RB_BEM_ARC, .arc = 0.5};
     rb_bem_mesh mesh;
@@ -225,7 +220,6 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
  * which is held all around leaves open: there its mean is zero. */
 static void incompressible_bodies_are_a_limit(void **state)
 {
-    (void)state;
     enum { n = 80 };
     for (int all = 0; all < 2; all++) {
         double u[2][2 * n], t[2][2 * n];
@@ -252,7 +246,6 @@ static void expect_free(rb_bem_mesh *mesh, const char *motions)
 
 static void a_body_without_support_is_refused(void **state)
 {
-    (void)state;
     enum { n = 16 };
     rb_bem_mesh mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
@@ -277,7 +270,6 @@ static void a_body_without_support_is_refused(void **state)
 /* Which places are one place is a question of the body's size. */
 static void supports_are_judged_in_any_unit(void **state)
 {
-    (void)state;
     enum { n = 16 };
     static const double radii[] = {1e-9, 1e-3, 1.0, 1e6};
     for (size_t k = 0; k < sizeof radii / sizeof *radii; k++) {
@@ -297,7 +289,6 @@ static void supports_are_judged_in_any_unit(void **state)
 /* Two bodies, one of them held: the count sees a support, the matrix does not. */
 static void a_second_body_without_support_is_singular(void **state)
 {
-    (void)state;
     enum { n = 16 };
     rb_bem_mesh mesh;
     rb_bem_system *system;
@@ -329,7 +320,6 @@ static void materials_have_their_limits(void **state)
         {1.0, 0.5 + 1e-15, RB_EINVAL}, {1.0, NAN, RB_EINVAL},      {0.0, 0.3, RB_EINVAL},
         {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_message why = {""};
         CHECK_STATUS(
@@ -341,7 +331,6 @@ static void materials_have_their_limits(void **state)
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     enum { n = 16 };
     rb_bem_mesh mesh = circle(n, 1.0);
     rb_bem_system *system;
@@ -369,7 +358,6 @@ static void bad_input_is_refused(void **state)
 
 static void failing_memory_is_reported(void **state)
 {
-    (void)state;
     const double ends[] = {-0.2, -0.1, 0.1, 0.2};
     const rb_bem_cylinder cylinder = {
         .radius = 1.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .outer_elements = 20};

@@ -28,7 +28,6 @@ static cplx falling_sum(double d, double x)
 /* Covers of half a radius to a millionth of it, whose sums have 50 to 2e7 waves. */
 static void the_table_is_the_sum(void **state)
 {
-    (void)state;
     for (double thickness = 0.5; thickness > 5e-7; thickness *= 0.03) {
         const rb_bem_wheel wheel = {.radius = 1.0, .inner = 1.0 - thickness};
         const double d = -log(wheel.inner), reach = fmin(1.0, 1e3 * thickness);
@@ -96,7 +95,6 @@ static void arcs(double radius, double *ends)
  * its inner contour; all are summed one by one. */
 static void the_flexibility_is_the_sum_of_its_waves(void **state)
 {
-    (void)state;
     enum { LAST = 400, EXACT = 60 };
     static cplx C[LAST + 1][4];
     for (int k = 0; k < WHEELS; k++) {
@@ -165,7 +163,6 @@ static void the_flexibility_is_the_sum_of_its_waves(void **state)
  * turned. */
 static void uneven_arcs_and_frames(void **state)
 {
-    (void)state;
     enum { FEW = N / 2, m = FEW + 1 };
     for (int k = 0; k < WHEELS; k++) {
         double ends[N + 2], few[FEW + 2], largest = 0.0;
@@ -272,7 +269,6 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
 
 static void boundary_elements_come_to_it(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++)
         for (int normals = 0; normals < 2; normals++) {
             const double coarse = boundary_error(kind, (rb_bem_normals)normals, 20),
@@ -285,7 +281,6 @@ static void boundary_elements_come_to_it(void **state)
 /* The thinner the cover, the less its roundness matters. */
 static void a_thin_cover_is_a_layer(void **state)
 {
-    (void)state;
     for (int elastic = 0; elastic < 2; elastic++) {
         const rb_bem_material rubber = {3.0, 0.45}, steel = {30.0, 0.3};
         for (double d = 1e-2; d > 1e-6; d *= 1e-2) {
@@ -324,7 +319,6 @@ static void a_thin_cover_is_a_layer(void **state)
 
 static void displacement_anywhere(void **state)
 {
-    (void)state;
     for (int k = 0; k < WHEELS; k++) {
         double ends[N + 2], x[M], p[N], q[N], w[M], largest = 0.0;
         const rb_bem_edge_load load = {N, ends, p, q};
@@ -354,7 +348,6 @@ static void displacement_anywhere(void **state)
 
 static void bad_wheels_are_refused(void **state)
 {
-    (void)state;
     rb_bem_wheel wheel = wheels[3];
     double ends[4] = {-0.1, 0.0, 0.1, 0.2};
     rb_bem_flexibility f;

@@ -13,7 +13,6 @@
 
 static void a_better_core_is_another_one(void **state)
 {
-    (void)state;
     const char *core = rb_blas_core(), *better = rb_blas_better_core();
     assert_true(strlen(core) > 0);
     if (better)
@@ -22,7 +21,6 @@ static void a_better_core_is_another_one(void **state)
 
 static void the_caller_sets_the_number_of_threads(void **state)
 {
-    (void)state;
     unsetenv("OPENBLAS_NUM_THREADS");
     const int at_first = rb_blas_threads(1);
     assert_int_equal(rb_blas_threads(0), 1); /* 0: one for each processor */
@@ -75,7 +73,6 @@ static int room_with(rlim_t megabytes, int threads)
  * with one buffer, several cannot. */
 static void memory_for_the_buffers_is_asked_for_first(void **state)
 {
-    (void)state;
 #ifdef _OPENMP
     const int alone = 11;
 #else

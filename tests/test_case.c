@@ -102,7 +102,6 @@ static void compare(const char *file, const char *words)
  */
 static void the_same_words_give_the_same_answer(void **state)
 {
-    (void)state;
     static const struct {
         const char *file, *words;
     } cases[] = {
@@ -130,7 +129,6 @@ static void the_same_words_give_the_same_answer(void **state)
 /* -0.6438 where nobody chooses the fitted mesh; the exact ratio is -0.64. */
 static void carter_by_names_is_on_the_fitted_mesh(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case_result r;
     rb_case *c =
@@ -147,7 +145,6 @@ static void carter_by_names_is_on_the_fitted_mesh(void **state)
 
 static void every_option_describes_itself(void **state)
 {
-    (void)state;
     int n, options = 0;
     const rb_option *o = rb_case_describe(&n);
     assert_int_equal(o[0].kind, RB_OPTION_GROUP);
@@ -168,7 +165,6 @@ static void every_option_describes_itself(void **state)
 /* What the library prints of a value it takes back. */
 static void a_value_survives_as_text(void **state)
 {
-    (void)state;
     rb_message why = {""};
     int n;
     const rb_option *o = rb_case_describe(&n);
@@ -190,7 +186,6 @@ static void a_value_survives_as_text(void **state)
 
 static void numbers_are_words_too(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *c = case_of("load=500"), *by_number = case_of("");
     CHECK_STATUS(rb_case_set_number(by_number, "load", 500.0, &why), RB_OK);
@@ -250,7 +245,6 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 /* Both sides of every end, every word, and what stands for a value. */
 static void values_are_taken_strictly(void **state)
 {
-    (void)state;
     static const struct {
         const char *name, *good, *bad, *shown, *expected; /* by | */
     } all[] = {
@@ -319,7 +313,6 @@ static rb_status assign(const rb_option_set *set, const char *name, const char *
 /* Lists, units, files, and sets where nobody asks who gave what. */
 static void values_are_kept_where_they_belong(void **state)
 {
-    (void)state;
     every_kind v = {.free = NAN};
     int given[KINDS] = {0}, plain[KINDS] = {0};
     const rb_option_set set = {kinds, KINDS, &v, given, plain},
@@ -372,7 +365,6 @@ static void values_are_kept_where_they_belong(void **state)
 
 static void names_that_are_none_are_said(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *c = case_of("");
     assert_null(rb_case_word("support", 99));
@@ -409,7 +401,6 @@ static const rb_io_contact_case steel = {
 
 static void cases_of_contact_are_our_own(void **state)
 {
-    (void)state;
     rb_case_contact c;
     rb_io_contact_case in = steel;
     rb_case_from_contact(&in, &c);
@@ -478,7 +469,6 @@ static void cases_of_contact_are_our_own(void **state)
 
 static void materials_and_laws_of_contact(void **state)
 {
-    (void)state;
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
     rb_case_contact c;
@@ -530,7 +520,6 @@ static void materials_and_laws_of_contact(void **state)
 /* Every clause in turn, and all that a case that is run can have at once. */
 static void what_contact_has_besides_is_listed(void **state)
 {
-    (void)state;
     rb_case_contact c;
     rb_io_contact_case in = steel;
     in.fstat = 0.3;
@@ -573,7 +562,6 @@ static void what_contact_has_besides_is_listed(void **state)
  * has not yielded. */
 static void friction_power_is_that_of_contact(void **state)
 {
-    (void)state;
     double q[] = {2.0, -3.0, 4.0}, shift[] = {0.1, -0.2, 0.3},
            plastic[] = {0.05, 0.03, 0.02};
     double x[] = {0.0, 0.1, 0.2}, h[] = {0.1, 0.1, 0.1}, former[] = {0.01, 0.02, 0.015};
@@ -612,7 +600,6 @@ static void check_word(rb_status s, const rb_message *why, const char *part)
 
 static void wrong_words_are_refused(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *c = case_of("");
     check_word(rb_case_set(c, "lood", "3", RB_GIVEN_ARGUMENT, &why), &why, "'load'?");
@@ -629,7 +616,6 @@ static void wrong_words_are_refused(void **state)
 
 static void contradictions_are_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *words, *part;
     } bad[] = {
@@ -666,7 +652,6 @@ static void contradictions_are_refused(void **state)
 /* Whatever reads a case for a purpose refuses the same words. */
 static void a_purpose_refuses_what_means_nothing_to_it(void **state)
 {
-    (void)state;
     static const struct {
         rb_case_purpose purpose;
         const char *words, *part;
@@ -690,7 +675,6 @@ static void a_purpose_refuses_what_means_nothing_to_it(void **state)
 
 static void a_curve_takes_several_mu(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_CURVE);
     CHECK_STATUS(set_words(c, "mu=0.1,0.2 load=500", &why), RB_OK);
@@ -704,7 +688,6 @@ static void a_curve_takes_several_mu(void **state)
 
 static void files_are_blamed_by_line(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *part;
         rb_status status;
@@ -743,7 +726,6 @@ static void files_are_blamed_by_line(void **state)
 /* What the library says of a row is said of the file and its line. */
 static void rows_are_blamed_by_file_and_line(void **state)
 {
-    (void)state;
     static const struct {
         const char *words, *text, *part;
     } bad[] = {
@@ -780,7 +762,6 @@ static void rows_are_blamed_by_file_and_line(void **state)
 /* A column in the place of an option of the command line, which is named. */
 static void a_column_excludes_its_option(void **state)
 {
-    (void)state;
     static const char *const columns[][2] = {
         {"mu", "mu"}, {"load", "load"}, {"load", "approach"}, {"creep", "creep-ratio"}};
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) {
@@ -803,7 +784,6 @@ static void a_column_excludes_its_option(void **state)
 /* Solution, error bars and steps have the same units. */
 static void all_of_a_result_is_converted(void **state)
 {
-    (void)state;
     static const char *const words[] = {
         "support=halfplane load=100 contact-elements=12 error=yes",
         "support=halfplane load=100 contact-elements=10 formulation=transient "
@@ -838,7 +818,6 @@ static void own_options_are_read_beside_the_case(void **state)
     const rb_option_set set = {options, 2, &own, NULL, NULL};
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    (void)state;
     write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
     CHECK_STATUS(rb_case_read(c, "own.ini", 1, &set, &why), RB_OK);
     CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
@@ -853,7 +832,6 @@ static void own_options_are_read_beside_the_case(void **state)
 
 static void an_argument_wins_over_the_file(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("case.ini", "load = 4\nmu = 0.1\nyoung-b = 1000\n");
@@ -872,7 +850,6 @@ static void an_argument_wins_over_the_file(void **state)
  * nor what an option took back. */
 static void a_copy_is_settled_from_its_words(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_case *base = case_of("formulation=steady similar=yes support=halfplane load=500");
     rb_case *c = rb_case_copy(base);
@@ -896,7 +873,6 @@ static double gap_at(const rb_case *c, double x)
 
 static void a_copy_borrows_the_files(void **state)
 {
-    (void)state;
     rb_message why = {""};
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
     write_file("other.txt", "-5 0.5\n-1 0.1\n0 0\n5 0.5\n");
@@ -920,7 +896,6 @@ static void a_copy_borrows_the_files(void **state)
 /* Whatever tables a case names are there when it is resolved, and again. */
 static void tables_are_where_the_case_wants_them(void **state)
 {
-    (void)state;
     rb_message why = {""};
     write_file("worn.txt", "-5 0\n0 0.01\n5 0\n");
     write_file("mu.txt", "-5 0.1\n5 0.3\n");
@@ -973,7 +948,6 @@ static rb_status use_memory(void)
 
 static void every_failing_allocation_is_told(void **state)
 {
-    (void)state;
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
     write_file("case.ini", "[normal]\nload = 500\n");
     int failures = 0;
@@ -996,7 +970,6 @@ static void every_failing_allocation_is_told(void **state)
  * read. */
 static void values_from_elsewhere_resolve_a_table(void **state)
 {
-    (void)state;
     struct {
         double a, b;
     } target = {1.0, 2.0};

@@ -72,7 +72,6 @@ static void judge(int k, verdicts *v)
 
 static void right_results_are_valid(void **state)
 {
-    (void)state;
     const int from = asked("CERTIFICATES_FROM", 0), n = asked("CERTIFICATES", 150);
     verdicts v = {0};
 
@@ -93,7 +92,6 @@ static void right_results_are_valid(void **state)
  * elements in contact, heat beside the trailing edge. */
 static void results_that_were_once_rejected_are_valid(void **state)
 {
-    (void)state;
     static const int once[] = {1290, 3511, 3563, 5224, 5401, 5896, 5968, 7500, 8273};
     const int n = (int)(sizeof once / sizeof *once);
     verdicts v = {0};

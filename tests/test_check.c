@@ -99,7 +99,6 @@ static void write_controls(void)
 
 static void results_are_valid(void **state)
 {
-    (void)state;
     static const char *const more[] = {
         "--support halfplane --load 100 --mu 0 --formulation steady --creep 1e-3",
         "--support halfplane --half-width 0.05 --similar",
@@ -249,7 +248,6 @@ static int change_list(const json_t *root, const char *given, const char *key,
 /* Of every step: what is printed of it, and its state. */
 static void every_changed_number_of_a_history_is_found(void **state)
 {
-    (void)state;
     int changes = 0;
     missed = 0;
     for (int k = 0; k < HISTORIES; k++) {
@@ -284,7 +282,6 @@ static void every_changed_number_of_a_history_is_found(void **state)
 
 static void every_changed_number_is_found(void **state)
 {
-    (void)state;
     int changes = 0;
     missed = 0;
     for (int k = 0; k < CASES; k++) {
@@ -403,7 +400,6 @@ static void change_shakedown(json_t *root, const char *given)
 
 static void every_changed_number_of_a_stress_is_found(void **state)
 {
-    (void)state;
     static const char *const given[] = {"x_mm", "y_mm"}, *const of[] = {"value", "x",
                                                                         "y"};
     write_points();
@@ -434,7 +430,6 @@ static void every_changed_number_of_a_stress_is_found(void **state)
 /* Given values that the result does not meet, and those that it does not depend on. */
 static void every_changed_input_is_found(void **state)
 {
-    (void)state;
     int changes = 0;
     missed = 0;
     for (int k = 0; k < CASES; k++) {
@@ -460,7 +455,6 @@ static void every_changed_input_is_found(void **state)
 /* What the result itself says against a given value, with the hash made to fit. */
 static void inputs_belong_to_the_result(void **state)
 {
-    (void)state;
     static const struct {
         int which;
         const char *key;
@@ -492,7 +486,6 @@ static void inputs_belong_to_the_result(void **state)
 /* The table of a gap, changed by what does not change the contact. */
 static void files_belong_to_the_result(void **state)
 {
-    (void)state;
     assert_int_equal(
         shell("awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > "
               "g.txt; \"$R\" --support halfplane --load 100 --mu 0.3 --gap g.txt --json "
@@ -575,7 +568,6 @@ static const char *said_of(const json_t *root, const char *path, const char *val
 /* Of --all-solutions each is judged by itself; the last number of the last one counts. */
 static void all_solutions_are_judged(void **state)
 {
-    (void)state;
     static const char given[] =
         "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
         "3111.08 --speed 45000 --mu 0.18 --friction-law exponential --mu-fall 0.12 "
@@ -699,7 +691,6 @@ static void change_cell(const char *text, const char *line, int column,
 /* A part of the cells, so that every column and every row is among them. */
 static void every_changed_number_of_a_table_is_found(void **state)
 {
-    (void)state;
     static char text[sizeof out], changed_text[sizeof out];
     int changes = 0;
     for (int k = 0; k < CASES; k++) {
@@ -728,7 +719,6 @@ static void every_changed_number_of_a_table_is_found(void **state)
  * quotes, several contacts. */
 static void tables_are_valid_by_their_comments(void **state)
 {
-    (void)state;
     static const char *const tables[] = {
         "case.ini --creep-ratio 0.2 --dump d",
         "--example carter --trace",
@@ -786,7 +776,6 @@ static void tables_are_valid_by_their_comments(void **state)
 
 static void tables_that_cannot_be_checked_are_refused(void **state)
 {
-    (void)state;
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 ";
     char line[500];
     static const struct {
@@ -825,7 +814,6 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
 
 static void what_cannot_be_checked_is_refused(void **state)
 {
-    (void)state;
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 --json ";
     char line[500];
     const struct {
@@ -962,7 +950,6 @@ static void tamper(tampering *t, json_t *at, const char *path)
  * found here, also one that is not there yet. */
 static void whatever_is_changed_is_noticed(void **state)
 {
-    (void)state;
     static const char *const kinds[] = {
         TINY "--support halfplane --load 100 --creep-ratio 0.4" STEADY,
         TINY "--support halfplane --load 100 --shift 1e-4 --increments 2" STATES,
@@ -1008,7 +995,6 @@ static void whatever_is_changed_is_noticed(void **state)
 /* A result from anybody names devices, pipes, files that are nobody's business. */
 static void files_of_others_are_left_alone(void **state)
 {
-    (void)state;
     static const struct {
         const char *file, *part;
     } bad[] = {
@@ -1086,7 +1072,6 @@ static void files_of_others_are_left_alone(void **state)
 /* An empty file has no lines; a name that is no UTF-8 is a name that is not expected. */
 static void odd_bytes_are_named(void **state)
 {
-    (void)state;
     assert_int_equal(shell(": > empty; \"$R\" check empty"), 65);
     assert_non_null(strstr(err, "empty: cannot be checked: expected the JSON"));
     assert_int_equal(shell("printf 'x_mm' > empty; \"$R\" check empty"), 65);
@@ -1104,7 +1089,6 @@ static void odd_bytes_are_named(void **state)
 /* A line for each thing that is missing, of another kind, or against a law. */
 static void every_edit_is_named(void **state)
 {
-    (void)state;
     static const struct {
         const char *given;
         struct {

@@ -103,7 +103,6 @@ static const struct {
 
 static void bad_arguments_are_refused(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad_arguments / sizeof bad_arguments[0]; k++)
         check_refused(bad_arguments[k].arguments, bad_arguments[k].code,
                       bad_arguments[k].part);
@@ -111,7 +110,6 @@ static void bad_arguments_are_refused(void **state)
 
 static void two_case_files_are_refused(void **state)
 {
-    (void)state;
     check_refused("a.ini b.ini", 64, "'a.ini' and 'b.ini'");
     check_refused("-- --mu", 66, "--mu: No such file");
 }
@@ -139,7 +137,6 @@ static const struct {
 
 static void bad_files_are_refused_with_their_line(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad_files / sizeof bad_files[0]; k++) {
         write_file("case.ini", bad_files[k].text);
         check_refused("case.ini", 65, bad_files[k].part);
@@ -148,7 +145,6 @@ static void bad_files_are_refused_with_their_line(void **state)
 
 static void long_line_is_refused(void **state)
 {
-    (void)state;
     char text[1200] = "mu = 0.3\nradius = ";
     memset(text + strlen(text), '1', 900);
     write_file("case.ini", text);
@@ -157,7 +153,6 @@ static void long_line_is_refused(void **state)
 
 static void bad_profile_is_refused(void **state)
 {
-    (void)state;
     write_file("gap.txt", "0 1\n1 x\n");
     check_refused("--gap gap.txt", 65, "gap.txt:2: expected a number, got 'x'");
 }
@@ -172,7 +167,6 @@ static double member(const json_t *root, const char *group, const char *name)
 
 static void case_file_equals_options(void **state)
 {
-    (void)state;
     write_file("case.ini", "[body-a]\nsupport = halfplane\nradius = 40 ; mm\n"
                            "[normal]\n  load = 100\n[mesh]\n  contact-elements = 24\n"
                            "[friction]\n\tmu=0.2\n");
@@ -188,7 +182,6 @@ static void case_file_equals_options(void **state)
 
 static void command_line_wins_over_the_file(void **state)
 {
-    (void)state;
     write_file("case.ini", "support = halfplane\nload = 100\nmu = 0.2\n"
                            "contact-elements = 24\n");
     json_t *root = run_json("--mu 0.4 case.ini --half-width 0.3");
@@ -201,7 +194,6 @@ static void command_line_wins_over_the_file(void **state)
 
 static void output_options_stand_in_the_file_too(void **state)
 {
-    (void)state;
     write_file("case.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n"
                            "[output]\njson = yes\nquiet = yes\n");
     assert_int_equal(rollbem("case.ini"), 0);
@@ -215,7 +207,6 @@ static void output_options_stand_in_the_file_too(void **state)
 
 static void json_and_table_hold_the_same_numbers(void **state)
 {
-    (void)state;
     static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
                                         "un_mm", "ut_mm", "shift_mm", "slip",  "zone"};
     json_t *root = run_json(QUICK " --shift 0.001");
@@ -240,7 +231,6 @@ static void json_and_table_hold_the_same_numbers(void **state)
 /* P and Q summed from the table; |q| <= mu p; slip and zones by their words. */
 static void table_obeys_its_own_conventions(void **state)
 {
-    (void)state;
     json_t *root = run_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
     const json_t *table = json_object_get(root, "table");
     double P = 0.0, Q = 0.0;
@@ -280,7 +270,6 @@ static void the_mesh_asked_for_is_used(void **state)
                  {"--mesh uniform", "uniform"},
                  {"--mesh uniform --contact-elements 24", "uniform"},
                  {"--zone 2", "uniform"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char command[200];
         snprintf(command, sizeof command,
@@ -296,7 +285,6 @@ static void the_mesh_asked_for_is_used(void **state)
 
 static void header_names_the_command(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem(QUICK " --gap exact --quiet -- "), 0);
     assert_non_null(strstr(out, "# rollbem " RB_VERSION "\n"));
     assert_non_null(strstr(out, "--contact-elements 24 --gap exact --quiet --\n"));
@@ -307,7 +295,6 @@ static void header_names_the_command(void **state)
 
 static void readme_case_is_solved(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--mu 0.3 --creep 0.1"), 0);
     assert_non_null(strstr(err, "static: solved"));
     assert_non_null(strstr(err, "S*"));
@@ -316,7 +303,6 @@ static void readme_case_is_solved(void **state)
 
 static void version_help_and_usage(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--version"), 0);
     assert_string_equal(out, "rollbem " RB_VERSION "\n");
     assert_int_equal(rollbem("--help"), 0);
@@ -334,7 +320,6 @@ static void version_help_and_usage(void **state)
 /* help WORD, --help=GROUP, --help=all, examples by either name. */
 static void words_are_found(void **state)
 {
-    (void)state;
     static const struct {
         const char *arguments, *there, *absent;
     } cases[] = {{"help temperature", "--conductivity X", "--zone"},
@@ -367,7 +352,6 @@ static void words_are_found(void **state)
 static void
 verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify */
 {
-    (void)state;
     check_refused("verify now", 64, "unexpected 'now'");
     assert_int_equal(rollbem("examples --json"), 0);
     json_t *root = json_loads(out, 0, NULL), *all = json_object_get(root, "examples");
@@ -399,7 +383,6 @@ verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify *
 /* As first word the completion for bash offers every command that the help lists. */
 static void completion_offers_every_command(void **state)
 {
-    (void)state;
     assert_int_equal(
         shell("\"$R\" --completion=bash > completion && bash -c '. ./completion; "
               "COMP_WORDS=(rollbem \"\"); COMP_CWORD=1; _rollbem; "
@@ -424,7 +407,6 @@ static void completion_offers_every_command(void **state)
 /* What the schema describes of a case is what a result holds, no more and no less. */
 static void the_schema_describes_every_input(void **state)
 {
-    (void)state;
     json_t *result = run_json("--support halfplane --load 100"),
            *schema = run_json("--describe=schema");
     json_t *inputs = json_object_get(result, "inputs"),
@@ -443,7 +425,6 @@ static void the_schema_describes_every_input(void **state)
 
 static void not_solved_is_1(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--approach 1e-9 --zone 5"), 1);
     assert_non_null(strstr(err, "no contact"));
     assert_null(strstr(err, "nan"));
@@ -466,7 +447,6 @@ static void not_solved_is_1(void **state)
 /* --similar is what naming everything of B would be, but for what B has by itself. */
 static void similar_copies_all_that_a_has(void **state)
 {
-    (void)state;
     static const char *const of[][3] = {
         {"--support halfplane --layer-thickness 2 --base-young 3e5 --base-poisson 0.2",
          "--layer-thickness-b 2 --base-young-b 3e5 --base-poisson-b 0.2", "none"},
@@ -508,7 +488,6 @@ static size_t history_length(const json_t *root, const char *name)
 
 static void static_history_from_a_table(void **state)
 {
-    (void)state;
     write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n100 -0.5\n");
     json_t *root = run_json("--support halfplane --similar --contact-elements 24 "
                             "--gap parabola --history history.txt");
@@ -521,7 +500,6 @@ static void static_history_from_a_table(void **state)
 
 static void transient_rolls_step_by_step(void **state)
 {
-    (void)state;
     json_t *root = run_json(QUICK " --similar --formulation transient --distance 1 "
                                   "--creep-ratio 0.5 --history-table steps.tsv");
     const size_t steps = history_length(root, "creepage");
@@ -541,7 +519,6 @@ static void transient_rolls_step_by_step(void **state)
 /* A column replaces what a case file says, as the command line does. */
 static void columns_win_over_the_case_file(void **state)
 {
-    (void)state;
     write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n");
     write_file("case.ini", "load = 7\nforce = 2\nsupport = halfplane\nsimilar = yes\n"
                            "gap = parabola\ncontact-elements = 24\n");
@@ -562,7 +539,6 @@ static void columns_win_over_the_case_file(void **state)
 /* The unit of distance is told, and the rows end where the table does. */
 static void distances_have_a_unit(void **state)
 {
-    (void)state;
     write_file("history.txt", "distance load force_ratio\n0 100 0\n1 400 .5\n2 100 .5\n");
     json_t *root =
         run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
@@ -588,7 +564,6 @@ static void distances_have_a_unit(void **state)
 /* Nothing touches where the surface is missing: null in JSON, nan in tables. */
 static void lost_contact_has_no_ratios(void **state)
 {
-    (void)state;
     write_file("hole.txt", "1.5 0\n2 .3\n4 1\n6 1\n8 .3\n9 0\n");
     json_t *root =
         run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
@@ -622,7 +597,6 @@ static void lost_contact_has_no_ratios(void **state)
 /* Increments come with their history, in studies with the last state only. */
 static void increments_press_gradually(void **state)
 {
-    (void)state;
     json_t *root = run_json("--support halfplane --gap parabola --load 100 "
                             "--contact-elements 40 --increments 5 --force-ratio .3 "
                             "--error");
@@ -649,7 +623,6 @@ static void increments_press_gradually(void **state)
 
 static void irregularities_are_of_transients(void **state)
 {
-    (void)state;
     write_file("open.txt", "1 0\n2 .3\n4 1\n");
     check_refused("--irregularity open.txt", 64,
                   "--irregularity: only for transient rolling");
@@ -665,7 +638,6 @@ static void irregularities_are_of_transients(void **state)
 
 static void bad_histories_are_refused(void **state)
 {
-    (void)state;
     write_file("history.txt", "distance load\n0 50\n1 50\n");
     check_refused("--history history.txt", 65, "static contact does not roll");
     write_file("history.txt", "distance load\n1 50\n2 50\n");
@@ -689,7 +661,6 @@ static void bad_histories_are_refused(void **state)
 /* The steps that were finished are there. */
 static void interrupted_run_keeps_its_steps(void **state)
 {
-    (void)state;
     assert_int_equal(
         shell("\"$R\" " QUICK " --similar --formulation transient --distance 100000 "
               "--creep-ratio 0.5 --json --quiet --output long.json & "
@@ -705,7 +676,6 @@ static void interrupted_run_keeps_its_steps(void **state)
 /* Files and pipes end, devices need not. */
 static void devices_are_refused(void **state)
 {
-    (void)state;
     static const char *const lines[] = {
         "--support halfplane --load 100 --gap /dev/zero",
         "--support halfplane --load 100 --worn /dev/urandom",
@@ -738,7 +708,6 @@ static void devices_are_refused(void **state)
 /* So many threads ended in a signal of OpenMP's. */
 static void threads_are_bounded(void **state)
 {
-    (void)state;
     assert_int_equal(shell("OMP_NUM_THREADS=100000 \"$R\" stress --support halfplane "
                            "--load 100 --contact-elements 100 --grid 60x60 --quiet"),
                      0);
@@ -748,7 +717,6 @@ static void threads_are_bounded(void **state)
 /* Under nohup it goes on when the terminal goes; without, it is interrupted. */
 static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
 {
-    (void)state;
     for (int nohup = 0; nohup < 2; nohup++) {
         char line[500];
         snprintf(line, sizeof line,
@@ -768,7 +736,6 @@ static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
 /* s = 0.4: exact Q/(mu P) = -0.64. */
 static void error_bars_hold_the_truth(void **state)
 {
-    (void)state;
     json_t *root =
         run_json("--support halfplane --similar --gap parabola --load 100 "
                  "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
@@ -810,7 +777,6 @@ static double *read_matrix(const char *name, int rows, int cols)
  * trace, after z0 has entered, holds M and b. */
 static void dump_holds_the_problem(void **state)
 {
-    (void)state;
     enum { N = 6, SIZE = 3 * N };
     json_t *root =
         run_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
@@ -846,7 +812,6 @@ static void dump_holds_the_problem(void **state)
 /* H annihilates the two translations. */
 static void dumped_influence_moves_rigidly(void **state)
 {
-    (void)state;
     rb_io_matrix m;
     assert_int_equal(rollbem("--approach 5 --zone 20 --contact-elements 6 --dump h"), 0);
     assert_int_equal(rb_io_matrix_market_read("h/H.mtx", &m, NULL), RB_OK);
@@ -877,7 +842,6 @@ static double toeplitz(const double *first, const double *last, int n, int i, in
  * they give its displacements. */
 static void dump_of_a_large_contact_holds_its_flexibility(void **state)
 {
-    (void)state;
     enum { N = 1500, M = N + 1 };
     json_t *root = run_json("--support halfplane --half-width 0.05 --contact-elements "
                             "1500 --shift 1e-5 --dump large");
@@ -914,7 +878,6 @@ static void dump_of_a_large_contact_holds_its_flexibility(void **state)
 
 static void dump_that_cannot_be_written(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem(QUICK " --dump /nonexistent/d"), 73);
     write_file("file", "");
     assert_int_equal(rollbem(QUICK " --dump file"), 73);
@@ -927,7 +890,6 @@ static void dump_that_cannot_be_written(void **state)
  * can be seen all the same. */
 static void trace_of_a_case_that_newton_solved(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--support arc --similar --radius-b 50 --support-b arc "
                              "--formulation static --mesh fitted --contact-elements 40 "
                              "--gap parabola --mu 1e-3 --load 800 --force-ratio -0.4 "
@@ -939,7 +901,6 @@ static void trace_of_a_case_that_newton_solved(void **state)
 /* The reason is told, not that there is nothing to draw. */
 static void no_picture_of_no_steps(void **state)
 {
-    (void)state;
     write_file("steep.txt", "load shift\n800 1\n800 2\n");
     assert_int_equal(rollbem("--support hub --formulation static --history steep.txt "
                              "--zone 0.1 --contact-elements 20 --history-plot h.svg"),
@@ -952,7 +913,6 @@ static void no_picture_of_no_steps(void **state)
 
 static void output_is_whole_or_not_there(void **state)
 {
-    (void)state;
     struct stat st;
     assert_int_equal(rollbem(QUICK " --quiet --output table.tsv"), 0);
     assert_string_equal(out, "");
@@ -972,7 +932,6 @@ static void output_is_whole_or_not_there(void **state)
 
 static void full_device_is_73(void **state)
 {
-    (void)state;
     if (access("/dev/full", W_OK) != 0)
         skip();
     assert_int_equal(shell("\"$R\" " QUICK " --quiet >/dev/full"), 73);
@@ -985,7 +944,6 @@ static void full_device_is_73(void **state)
 /* The reader is gone before anything is written. */
 static void closed_pipe_is_73(void **state)
 {
-    (void)state;
     assert_int_equal(shell("{ sleep 0.2; \"$R\" " QUICK
                            " --quiet; echo $? >code; } | true; "
                            "sleep 0.4; exit $(cat code)"),
@@ -995,7 +953,6 @@ static void closed_pipe_is_73(void **state)
 
 static void pictures_are_written_or_not_there(void **state)
 {
-    (void)state;
     struct stat st;
     assert_int_equal(rollbem(QUICK " --quiet --plot picture.png"), 0);
     assert_int_equal(stat("picture.png", &st), 0);
@@ -1019,7 +976,6 @@ static void pictures_are_written_or_not_there(void **state)
 /* At half of full sliding the stick zone ends at 0 but for rounding. */
 static void rounding_about_0_is_0(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--support halfplane --similar --load 500 --creep-ratio 0.5 "
                              "--formulation steady"),
                      0);
@@ -1028,7 +984,6 @@ static void rounding_about_0_is_0(void **state)
 
 static void commands_on_a_case_offer_the_same(void **state)
 {
-    (void)state;
     static const char *const commands[] = {"", "stress --grid 5x4",
                                            "wear --cycles 1 --wear-coefficient 1e-10",
                                            "curve --points 3"};

@@ -55,7 +55,6 @@ static void compare_tables(const char *got_path, const char *wanted_path)
 
 static void tables_are_as_recorded(void **state)
 {
-    (void)state;
     static const struct {
         const char *command, *output, *wanted;
     } cases[] = {{"examples/paper/case.ini", "--output", "paper/output"},
@@ -83,7 +82,6 @@ static void tables_are_as_recorded(void **state)
 
 static void figures_of_the_paper_are_drawn(void **state)
 {
-    (void)state;
     assert_int_equal(run("ROLLBEM=%s/rollbem examples/paper/figures %s/figures",
                          build_folder(), folder),
                      0);
@@ -123,7 +121,6 @@ static void compare_pages(const char *got_path, const char *wanted_path)
 
 static void by_hand_is_computed_again_by_octave(void **state)
 {
-    (void)state;
     if (run("command -v octave >/dev/null") != 0)
         skip();
     char page[200];
@@ -137,7 +134,6 @@ static void by_hand_is_computed_again_by_octave(void **state)
 
 static void blocks_of_the_readme_print_what_it_shows(void **state)
 {
-    (void)state;
     int wrong = 0;
     assert_true(run_page("README.md", folder, &wrong) >= 3);
     assert_int_equal(wrong, 0);
@@ -145,7 +141,6 @@ static void blocks_of_the_readme_print_what_it_shows(void **state)
 
 static void commands_of_the_cookbook_run(void **state)
 {
-    (void)state;
     int wrong = 0;
     assert_true(run_page("docs/rolling-cookbook.md", folder, &wrong) >= 12);
     assert_int_equal(wrong, 0);
@@ -155,7 +150,6 @@ static void commands_of_the_cookbook_run(void **state)
 
 static void commands_of_the_rolls_run(void **state)
 {
-    (void)state;
     int wrong = 0;
     assert_true(run_page("docs/rolls.md", folder, &wrong) >= 7);
     assert_int_equal(wrong, 0);
@@ -165,7 +159,6 @@ static void commands_of_the_rolls_run(void **state)
 
 static void commands_of_the_cracks_run(void **state)
 {
-    (void)state;
     int wrong = 0;
     assert_true(run_page("docs/crack.md", folder, &wrong) >= 2);
     assert_int_equal(wrong, 0);
@@ -175,13 +168,11 @@ static void commands_of_the_cracks_run(void **state)
 
 static int make_folder(void **state)
 {
-    (void)state;
     return mkdtemp(folder) ? link_folder(folder) : -1;
 }
 
 static int remove_folder(void **state)
 {
-    (void)state;
     return run("rm -rf %s", folder);
 }
 

@@ -43,7 +43,6 @@ static int lcp(const char *arguments)
 
 static int enter_folder(void **state)
 {
-    (void)state;
     char here[512];
     const char *build = getenv("B");
     if (!build || !*build)
@@ -65,7 +64,6 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    (void)state;
     const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x", "y"};
     for (int i = 0; i < 9; i++)
         unlink(names[i]);
@@ -74,7 +72,6 @@ static int leave_folder(void **state)
 
 static void a_line_per_file(void **state)
 {
-    (void)state;
     char status[40];
     int n, pivots;
     double residual;
@@ -92,7 +89,6 @@ static void a_line_per_file(void **state)
 
 static void the_largest_exit_code_wins_and_all_files_run(void **state)
 {
-    (void)state;
     assert_int_equal(lcp("good ray"), 1);
     assert_non_null(strstr(err, "ray: lcp: secondary ray"));
     assert_int_equal(lcp("bad ray good"), 65);
@@ -111,7 +107,6 @@ static void the_largest_exit_code_wins_and_all_files_run(void **state)
 
 static void the_tie_rule_can_be_chosen(void **state)
 {
-    (void)state;
     assert_int_equal(lcp("--rule first-index --max-pivots 100 kostreva"), 1);
     assert_non_null(strstr(out, "iteration-limit\t3\t100"));
     assert_int_equal(lcp("kostreva"), 0);
@@ -119,7 +114,6 @@ static void the_tie_rule_can_be_chosen(void **state)
 
 static void trace_and_solution_are_tables(void **state)
 {
-    (void)state;
     double z = 0.0, w = 1.0;
     assert_int_equal(lcp("--trace good"), 0);
     assert_non_null(strstr(out, "file\tpivot\tentering\tleaving\trow\tratio\tz0\n"));
@@ -146,7 +140,6 @@ static void solution(double z[2])
 /* M = [1 2; 2 1] in plain text begins like a Siconos file by blocks: 2, 1, 2, 2. */
 static void plain_text_is_read(void **state)
 {
-    (void)state;
     static const char *const files[] = {
         "# M is not positive definite\n2\n1 2 # row 1\n2 1\n-1 -2\n", "2 1 2 2 1 -1 -2",
         "2\n1 2\n2 1\n-1 -2\n# and so on"};
@@ -173,7 +166,6 @@ static void refused(const char *text, const char *arguments, const char *words)
 
 static void what_is_no_problem_is_refused(void **state)
 {
-    (void)state;
     refused("2\n1 2\n2 1\n-1\n", "p", "p:5: q, number 2: expected a finite number");
     refused("2\n1 2\n2 1\n-1\n", "- <p", "standard input:5: q, number 2");
     refused("2\n1 2\n2 x\n-1 1\n", "p", "p:3: M, row 2, number 2");
@@ -192,7 +184,6 @@ static void what_is_no_problem_is_refused(void **state)
 
 static void matrix_market_is_read(void **state)
 {
-    (void)state;
     double z[2];
     put("p",
         "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
@@ -209,7 +200,6 @@ static void matrix_market_is_read(void **state)
 
 static void a_cover_may_hold_zeros_where_q_is_not_negative(void **state)
 {
-    (void)state;
     double z[2];
     put("p", "2\n2 1\n-3 2\n-1 0.5\n");
     put("x", "1 0");
@@ -231,7 +221,6 @@ static void a_cover_may_hold_zeros_where_q_is_not_negative(void **state)
 /* Murty's example of order 11 takes 2^11 pivots, more than 50 n + 1000. */
 static void the_cap_is_named(void **state)
 {
-    (void)state;
     FILE *f = fopen("p", "w");
     assert_non_null(f);
     fprintf(f, "11\n");
@@ -251,7 +240,6 @@ static void the_cap_is_named(void **state)
  */
 static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
 {
-    (void)state;
     char line[1500];
     double residual;
     const int length = (int)(strlen(program) - strlen("rollbem"));
@@ -272,7 +260,6 @@ static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
 /* Lemke's method itself on 50 x 50 points: a dense tableau would be 50 MB larger. */
 static void lemke_on_a_large_sparse_problem_needs_no_tableau(void **state)
 {
-    (void)state;
     char line[1500];
     double residual;
     const int length = (int)(strlen(program) - strlen("rollbem"));
@@ -289,7 +276,6 @@ static void lemke_on_a_large_sparse_problem_needs_no_tableau(void **state)
 
 static void the_solver_can_be_chosen(void **state)
 {
-    (void)state;
     double z[2];
     assert_int_equal(lcp("--solution --solver newton good"), 0);
     solution(z);
@@ -304,7 +290,6 @@ static void the_solver_can_be_chosen(void **state)
 /* w(1) < 0 at the upper end, w(2) = 0 in between. */
 static void boxes_are_solved(void **state)
 {
-    (void)state;
     double z[2];
     put("x", "1 inf # the upper bounds\n");
     assert_int_equal(lcp("--solution --upper x good"), 0);
@@ -349,7 +334,6 @@ static int pivots_of(const char *file)
 
 static void a_start_saves_the_pivots(void **state)
 {
-    (void)state;
     put("x", "1.3 2.3");
     assert_int_equal(lcp("--start x --solver lemke good"), 0);
     assert_int_equal(pivots_of("\ngood"), 0);
@@ -362,7 +346,6 @@ static void a_start_saves_the_pivots(void **state)
 
 static void all_solutions_are_listed(void **state)
 {
-    (void)state;
     put("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
     assert_int_equal(lcp("--all p"), 0);
     assert_non_null(strstr(out, "by enumeration, n = 1, 2 bases"));
@@ -382,7 +365,6 @@ static void all_solutions_are_listed(void **state)
 
 static void games_are_solved(void **state)
 {
-    (void)state;
     put("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");
     assert_int_equal(lcp("--game --solution p"), 0);
     assert_non_null(strstr(out, "p\t1\t1\t0\np\t2\t0\t2\np\t3\t1\t0\np\t4\t0\t1\n"));
@@ -414,7 +396,6 @@ static const char *text_of(const json_t *p, const char *key)
 
 static void json_holds_every_file(void **state)
 {
-    (void)state;
     assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
     json_t *root = json_loads(out, 0, NULL);
     assert_non_null(root);
@@ -441,7 +422,6 @@ static void json_holds_every_file(void **state)
 
 static void the_collection_is_solved(void **state)
 {
-    (void)state;
     char arguments[1100];
     snprintf(arguments, sizeof arguments, "%s/*.dat", outside_data("siconos/lcp"));
     assert_int_equal(lcp(arguments), 0);

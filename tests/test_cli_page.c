@@ -9,7 +9,6 @@ static const char page[] = "<p>before</p><script type=\"application/json\" "
 
 static void the_page_carries_the_case(void **state)
 {
-    (void)state;
     write_file("page.html", page);
     write_file("case.ini", "[friction]\nmu = 0.25\n[body-a]\nsupport = halfplane\n");
     assert_int_equal(
@@ -36,7 +35,6 @@ static void the_page_carries_the_case(void **state)
 /* Neither beside the program nor where make install puts it; then there. */
 static void an_installed_program_finds_its_page(void **state)
 {
-    (void)state;
     write_file("page.html", page);
     assert_int_equal(shell("mkdir -p tree/bin && cp \"$R\" tree/bin/rollbem"), 0);
     assert_int_equal(shell("tree/bin/rollbem page --mu 0.2"), 66);
@@ -55,7 +53,6 @@ static void an_installed_program_finds_its_page(void **state)
 
 static void what_no_page_can_be_made_of_is_refused(void **state)
 {
-    (void)state;
     write_file("page.html", page);
     write_file("other.html", "<p>nothing</p>");
     write_file("filled.html", "<script type=\"application/json\" id=\"carried\">{}"

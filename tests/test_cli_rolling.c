@@ -55,14 +55,12 @@ static const struct {
 
 static void bad_arguments_are_refused(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
         check_refused(bad[k].arguments, bad[k].code, bad[k].part);
 }
 
 static void bad_points_are_named_by_their_line(void **state)
 {
-    (void)state;
     static const char *const texts[][2] = {
         {"0 1\n0 1 2\n", "points:2: expected 2 numbers, got 3"},
         {"0\n", "points:1: expected 2 numbers, got 1"},
@@ -81,7 +79,6 @@ static void bad_points_are_named_by_their_line(void **state)
 /* Carter (1926): Q/(mu P) = -s (2 - s). */
 static void curve_follows_carter(void **state)
 {
-    (void)state;
     json_t *root = run_json("curve " SIMILAR "--from -1.2 --to 1.2 --points 25 "
                             "--contact-elements 50");
     const json_t *curve = json_object_get(root, "curve");
@@ -99,7 +96,6 @@ static void curve_follows_carter(void **state)
 
 static void table_holds_the_numbers_of_json(void **state)
 {
-    (void)state;
     static const char *const columns[][2] = {{"creepage", "creepage"},
                                              {"creep_ratio", "creep_ratio"},
                                              {"force_ratio", "force_ratio"},
@@ -130,7 +126,6 @@ static void table_holds_the_numbers_of_json(void **state)
 /* 100 points at 100 elements; a second leaves room for a busy machine. */
 static void curve_is_fast(void **state)
 {
-    (void)state;
     json_t *root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
     const json_t *curve = json_object_get(root, "curve");
     print_message("curve of 100 points at 100 elements: %g s\n",
@@ -154,7 +149,6 @@ static void check_maximum(const json_t *root, const char *name, double value, do
 /* Closed forms for nu = 0.3 (theory.md 6). */
 static void maxima_are_those_of_hertz_and_full_sliding(void **state)
 {
-    (void)state;
     json_t *root = run_json("stress " SIMILAR "--shift 0 --mesh fitted --grid 3x3");
     check_maximum(root, "max_shear", 0.30028, 0.0, 0.78615);
     check_maximum(root, "von_mises", 0.55752, 0.0, 0.70429);
@@ -176,7 +170,6 @@ static void maxima_are_those_of_hertz_and_full_sliding(void **state)
 /* The first row of the grid lies on the surface: its tractions are those of the table. */
 static void surface_row_shows_the_tractions(void **state)
 {
-    (void)state;
     json_t *root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
                             "--grid 41x2 --contact-elements 200");
     const json_t *grid = json_object_get(root, "grid"),
@@ -196,7 +189,6 @@ static void surface_row_shows_the_tractions(void **state)
 
 static void table_of_points(void **state)
 {
-    (void)state;
     rb_io_table t;
     write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
     assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"),
@@ -287,7 +279,6 @@ static void check_cells(int points, const json_t *grid, int nx, int ny)
 /* A wheel's grid follows its surface; places in the hub are left out. */
 static void grid_of_a_wheel(void **state)
 {
-    (void)state;
     const char *wheel = "stress --support hub --approach 5 --outer-elements 60 "
                         "--contact-elements 30 --grid 21x31 --depth 90";
     char line[300];
@@ -322,7 +313,6 @@ static void grid_of_a_wheel(void **state)
 
 static void vtk_holds_the_numbers_of_the_table(void **state)
 {
-    (void)state;
     enum { NX = 7, NY = 5, N = NX * NY };
     double x[6 * N + 3];
     rb_io_table t;
@@ -369,7 +359,6 @@ static double last_of(const char *path, const char *column)
 /* Carter at s = 0.4, the end of a curve and of a long way. */
 static void curves_and_steps_have_error_bars(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("curve " SIMILAR "--to 0.4 --points 3 --error --plot c.svg "
                              "--output c.tsv"),
                      0);
@@ -390,7 +379,6 @@ static void curves_and_steps_have_error_bars(void **state)
 
 static void steps_leave_snapshots_and_a_picture(void **state)
 {
-    (void)state;
     rb_io_table first, last;
     assert_int_equal(rollbem(ROLLING "--distance 0.5 --quiet --output last.tsv "
                                      "--snapshots snap --every 2 --history-plot h.svg "
@@ -414,7 +402,6 @@ static void steps_leave_snapshots_and_a_picture(void **state)
 
 static void bad_rows_are_named_by_their_line(void **state)
 {
-    (void)state;
     static const char *const histories[][2] = {
         {"distance load creep\n0 50 0\n\n2 50 1e-3\n1 50 1e-3\n",
          "h.txt:5: distance 1 is less than in the row before"},
@@ -445,7 +432,6 @@ static void bad_rows_are_named_by_their_line(void **state)
 /* The friction power along the contact adds up to the dissipation, which is -xi Q. */
 static void friction_power_adds_up(void **state)
 {
-    (void)state;
     json_t *root =
         run_json(SIMILAR "--formulation steady --creep-ratio 0.5 --contact-elements 100");
     const json_t *table = json_object_get(root, "table"),
@@ -466,7 +452,6 @@ static void friction_power_adds_up(void **state)
  * can be of the wrong sign: the balance holds, and the error bar too. */
 static void power_below_zero_is_named(void **state)
 {
-    (void)state;
     static const char *const unlike =
         "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
         "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 ";
@@ -491,7 +476,6 @@ static void power_below_zero_is_named(void **state)
  * Radok, pressure 1/(2R) int E*(t - s) d sqrt(a(s)^2 - x^2), p0 = 2.66927 MPa. */
 static void steps_too_long_for_relaxation_are_named(void **state)
 {
-    (void)state;
     static const struct {
         const char *step, *says;
         double bound;
@@ -521,7 +505,6 @@ static void steps_too_long_for_relaxation_are_named(void **state)
 /* On standard error, in the table and in JSON, as those of a single case. */
 static void curves_have_notes(void **state)
 {
-    (void)state;
     static const char note[] = "note: The strains are far beyond";
     json_t *root = run_json("curve --support hub --contact-elements 12 --points 3");
     json_t *notes = json_object_get(root, "notes");
@@ -536,7 +519,6 @@ static void curves_have_notes(void **state)
 
 static void full_sliding_says_that_creepage_is_open(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem(SIMILAR "--formulation steady --force-ratio -1"), 0);
     assert_non_null(strstr(err, "the creepage is not unique"));
     assert_int_equal(rollbem(SIMILAR "--formulation steady --force-ratio -0.9"), 0);
@@ -545,7 +527,6 @@ static void full_sliding_says_that_creepage_is_open(void **state)
 
 static void fitted_is_the_default_for_steady(void **state)
 {
-    (void)state;
     static const struct {
         const char *arguments, *mesh;
         int elements;
@@ -568,7 +549,6 @@ static void fitted_is_the_default_for_steady(void **state)
 
 static void pictures_are_drawn(void **state)
 {
-    (void)state;
     struct stat st;
     assert_int_equal(rollbem("curve " SIMILAR "--points 9 --contact-elements 20 --mu "
                              "0.1,0.3 --quiet --plot curve.svg"),
@@ -610,7 +590,6 @@ static void check_titles_of_axes(const char *line)
  * What the script draws is the picture, which is seen in one size of each. */
 static void pictures_in_sizes(void **state)
 {
-    (void)state;
     static const struct {
         const char *line, *option;
         int height, column; /* at 170mm, at 85mm */
@@ -673,7 +652,6 @@ static void pictures_in_sizes(void **state)
 /* What a reader needs who has the picture alone. */
 static void pictures_name_the_case(void **state)
 {
-    (void)state;
     static const struct {
         const char *line, *option, *text;
     } pictures[] = {
@@ -711,7 +689,6 @@ static void pictures_name_the_case(void **state)
 /* Where an option of a body varies, no one body is that of the whole picture. */
 static void pictures_of_varied_bodies_name_none(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         char line[300];
         snprintf(line, sizeof line,
@@ -726,7 +703,6 @@ static void pictures_of_varied_bodies_name_none(void **state)
 /* Free rolling slips nowhere: what rounding leaves is no curve over an axis of 10^-18. */
 static void rounding_is_not_drawn_as_slip(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--example rail --quiet --output out.tsv --plot free.svg "
                              "--plot-script free.gp"),
                      0);
@@ -753,7 +729,6 @@ static double last_x_of(const char *script, const char *name)
  * picture do not, and the table has the ratios that were asked for. */
 static void curves_of_a_picture_share_their_range(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("curve " SIMILAR "--mu 0.1,0.4 --points 7 --quiet "
                              "--contact-elements 20 --plot c.svg --plot-script c.gp "
                              "--header bare --output c.tsv"),
@@ -777,7 +752,6 @@ static double top_of(const char *script)
 /* A pressure far beyond the limit stays below the upper edge of the map, by a tenth. */
 static void the_shakedown_map_shows_its_case(void **state)
 {
-    (void)state;
     const double yield_shear = 40.0;
     json_t *root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
                             "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
@@ -792,7 +766,6 @@ static void the_shakedown_map_shows_its_case(void **state)
  */
 static void a_large_bound_leaves_room_to_the_pressure(void **state)
 {
-    (void)state;
     json_t *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
            *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
     CHECK_REL(top_of("1.gp"), top_of("3.gp"), 1e-6, "upper end");
@@ -804,7 +777,6 @@ static void a_large_bound_leaves_room_to_the_pressure(void **state)
  * label of a contour. */
 static void the_largest_stress_covers_no_contour(void **state)
 {
-    (void)state;
     json_t *root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
                             "--plot-script s.gp");
     const json_t *maxima = json_object_get(root, "maxima");
@@ -819,7 +791,6 @@ static void the_largest_stress_covers_no_contour(void **state)
 
 static void a_truss_is_drawn_with_its_bars(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("example truss --nodes 4 --output t.tsv --plot t.svg "
                              "--plot-script t.gp"),
                      0);
@@ -837,7 +808,6 @@ static void a_truss_is_drawn_with_its_bars(void **state)
 /* Friction that is rounding beside the pressure: every number is one. */
 static void almost_no_friction(void **state)
 {
-    (void)state;
     static const char *const lines[] = {
         "--support halfplane --half-width 1 --mu 1e-12 --formulation steady "
         "--creep-ratio 0.5",
@@ -861,7 +831,6 @@ static void almost_no_friction(void **state)
 /* What is wrong with a friction law, in one line each. */
 static void bad_friction_laws_are_refused(void **state)
 {
-    (void)state;
     write_file("back.txt", "0 0.3\n0 0.2\n");
     write_file("less.txt", "0 0.3\n1 -0.2\n");
     write_file("mu.txt", "-1 0.3\n1 0.2\n");
@@ -903,7 +872,6 @@ static void bad_friction_laws_are_refused(void **state)
 /* Units of every number of a list, a file's own certificate, several solutions. */
 static void friction_laws_by_words(void **state)
 {
-    (void)state;
     json_t *mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
                                      "--slip-scale 100,50");
     json_t *si =

@@ -40,7 +40,6 @@ static double integral(traction c)
 
 static void hertz_pressure_carries_the_load(void **state)
 {
-    (void)state;
     const double R = 25.0, E = 51572.3, P = 16.20192;
     const double a = rb_closed_hertz_half_width(P, R, E);
     const double p0 = rb_closed_hertz_max_pressure(P, a);
@@ -53,7 +52,6 @@ static void hertz_pressure_carries_the_load(void **state)
 
 static void carter_traction_sums_to_s_2_minus_s(void **state)
 {
-    (void)state;
     const double mu = 0.3, p0 = 500.0, a = 0.2, P = M_PI * a * p0 / 2.0;
     for (int k = -12; k <= 12; k++) {
         const double s = 0.1 * k;
@@ -70,7 +68,6 @@ static void carter_traction_sums_to_s_2_minus_s(void **state)
 
 static void carter_sticks_at_the_leading_edge(void **state)
 {
-    (void)state;
     const double mu = 0.3, p0 = 500.0, a = 0.2, s = 0.4;
     for (int k = 1; k < 100; k++) {
         const double x = a * (-1.0 + 0.02 * k);
@@ -85,7 +82,6 @@ static void carter_sticks_at_the_leading_edge(void **state)
 
 static void cattaneo_traction_sums_to_the_force(void **state)
 {
-    (void)state;
     const double mu = 0.2, p0 = 800.0, a = 0.3, P = M_PI * a * p0 / 2.0;
     for (int k = -10; k <= 10; k++) {
         const double ratio = 0.1 * k;
@@ -99,7 +95,6 @@ static void cattaneo_traction_sums_to_the_force(void **state)
  * where friction is low: K(c/a) = pi/2 and K' = ln(4a/c) to second order. */
 static void spence_of_complementary_parts(void **state)
 {
-    (void)state;
     const double beta = 0.01;
     CHECK_REL(rb_closed_spence_friction(beta, sqrt(0.5)), beta, 1e-14, "mu = beta");
     CHECK_REL(rb_closed_spence_friction(beta, 0.6) * rb_closed_spence_friction(beta, 0.8),
@@ -115,7 +110,6 @@ static void spence_of_complementary_parts(void **state)
 /* theory.md 6: aluminium on steel */
 static void bentall_johnson_published_numbers(void **state)
 {
-    (void)state;
     const double beta = 0.143834, R = 25.0;
     const rb_closed_bentall_johnson b =
         rb_closed_bentall_johnson_stick(beta, 0.1, R, 51572.3);
@@ -132,7 +126,6 @@ static void bentall_johnson_published_numbers(void **state)
 /* The same with the load put in by Hertz: P/E* = pi a^2/(4R). */
 static void half_cylinder_approach(void **state)
 {
-    (void)state;
     const double R = 50.0, E = 94500.0 / 0.99, P = 100.0;
     const double a = rb_closed_hertz_half_width(P, R, E);
     CHECK_REL(rb_closed_half_cylinder_approach(P, R, E, a),
@@ -144,7 +137,6 @@ static void half_cylinder_approach(void **state)
  */
 static void shakedown_limit(void **state)
 {
-    (void)state;
     CHECK_REL(rb_closed_shakedown_limit(0.0), 4.0, 1e-6, "free rolling");
     CHECK_REL(rb_closed_shakedown_limit(0.2), 3.20236, 1e-5, "below the surface");
     CHECK_REL(rb_closed_shakedown_limit(0.5), 2.0, 1e-9, "at the surface");

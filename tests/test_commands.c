@@ -219,7 +219,6 @@ static int is_documented(int code)
 
 static void long_commands_say_so(void **state)
 {
-    (void)state;
     const int from = asked("COMMANDS_FROM", 0), n = asked("COMMANDS", 40);
     const double shown = asked("COMMANDS_SHOW", PROCESSOR);
     int ended[3] = {0}, with_cover = 0, silent = 0, longer = 0, wrong = 0;

@@ -45,7 +45,6 @@ static json_t *run_file(const char *options, int t, int f, const char *force,
 /* The same case by options of our own. */
 static void a_case_is_the_one_of_our_options(void **state)
 {
-    (void)state;
     static const struct {
         int t, f;
         const char *force, *ours;
@@ -85,7 +84,6 @@ static void a_case_is_the_one_of_our_options(void **state)
 /* CONTACT writes 1e20 where nothing yields; from more than 1e10 on it reads that so. */
 static void a_huge_yield_stress_is_none(void **state)
 {
-    (void)state;
     rb_io_contact_case in = {.module = 3,
                              .digit = {.M = 4, .T = 3, .N = 1, .P = 2},
                              .my = 1,
@@ -118,7 +116,6 @@ static void a_huge_yield_stress_is_none(void **state)
 /* Rolling towards -x is the mirror image. */
 static void rolling_back_turns_the_signs(void **state)
 {
-    (void)state;
     json_t *there = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
     json_t *back = run_file("", 3, 0, "0.0004", BACK, GRID, GAP);
     CHECK_REL(number_in(back, "FX"), -number_in(there, "FX"), 1e-12, "FX");
@@ -131,7 +128,6 @@ static void rolling_back_turns_the_signs(void **state)
 /* The four ways of telling a grid, and a gap whose lowest point is elsewhere. */
 static void grids_and_gaps_are_those_of_the_file(void **state)
 {
-    (void)state;
     static const char *const grids[] = {" 2\n 60 1 -1.5 -50. 1.5 50.\n",
                                         " 3\n 60 1 -1.475 0. 0.05 100.\n"};
     json_t *wanted = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
@@ -159,7 +155,6 @@ static void two_cases(const char *second)
 
 static void cases_go_on_from_the_one_before(void **state)
 {
-    (void)state;
     two_cases(" 3 MODULE\n 203110\n 100000\n 0101331\n 25000. 0.6 0. 0.\n");
     assert_int_equal(rollbem("contact two.inp --json"), 0);
     json_t *root = json_loads(out, 0, NULL);
@@ -171,7 +166,6 @@ static void cases_go_on_from_the_one_before(void **state)
 
 static void what_is_left_out_is_named(void **state)
 {
-    (void)state;
     static const struct {
         const char *second, *wanted;
     } all[] = {
@@ -238,7 +232,6 @@ static json_t *case_of(const char *file, size_t k)
  * stays what it was at rest, so that the depth where the strip rests does not matter. */
 static void steps_are_those_of_our_transients(void **state)
 {
-    (void)state;
     static const char *const lengths[] = {"0.05", "0.035"};
     enum { STEPS = 8 };
     for (int k = 0; k < 2; k++) {
@@ -267,7 +260,6 @@ static void steps_are_those_of_our_transients(void **state)
 /* Rolled on for long, steps end in steady rolling, which they stay in. */
 static void steps_end_in_steady_rolling(void **state)
 {
-    (void)state;
     char next[200];
     sequence(3, 1, "0.6", ROLLS, 3, NEXT);
     json_t *steady = case_of("steps.inp", 0), *on = case_of("steps.inp", 3);
@@ -290,7 +282,6 @@ static void steps_end_in_steady_rolling(void **state)
  * leaves Mindlin's remainder. */
 static void shifts_add_up(void **state)
 {
-    (void)state;
     static const char half[] =
         " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. -.0002 0. 0.\n";
     static const char back[] =
@@ -314,7 +305,6 @@ static void shifts_add_up(void **state)
  */
 static void hertzian_input_is_the_grid_it_means(void **state)
 {
-    (void)state;
     const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);
     char grid[3][200];
     snprintf(grid[0], sizeof *grid, " 1\n 60 1 %.17g -50. %.17g 100.\n", -1.25 * a,
@@ -336,7 +326,6 @@ static void hertzian_input_is_the_grid_it_means(void **state)
 /* R = 0: the next case has no line MODULE; numbers may go on on the next line. */
 static void a_module_that_stays_has_more_cases(void **state)
 {
-    (void)state;
     sequence(3, 0, "-0.0004", ROLLS, 0, "");
     assert_int_equal(
         shell("sed -i 's/0000331/0000330/;s/^ 60 1 -1.5/ 60 1 % MX, MY\\n -1.5/;"
@@ -354,7 +343,6 @@ static void a_module_that_stays_has_more_cases(void **state)
 /* A step needs the elements and the direction of the case before. */
 static void steps_elsewhere_are_refused(void **state)
 {
-    (void)state;
     sequence(3, 0, "0.0004", BACK, 1,
              " 3 MODULE\n 002100\n 102000\n 0101331\n 25000. -.0004 0. 0.\n"
              " 0. 0.05 1000.\n .3 .3 82000. 82000.\n");
@@ -370,7 +358,6 @@ static void steps_elsewhere_are_refused(void **state)
 /* Each reason once; one line in the end; most cases skipped is not success. */
 static void skipped_cases_are_counted(void **state)
 {
-    (void)state;
     static const char step[] =
         " 3 MODULE\n 213100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n";
     char two[400], three[800];
@@ -427,7 +414,6 @@ static void what_is_left_out_is_said(void **state)
         {0, "s/022020   L/022120   L/;/POISS/a 0.5 0.5 0 0", ""},
         {0, "s/022020   L/022420   L/;/POISS/a 800 0.02 30 0", ""}};
     char text[2000], line[600];
-    (void)state;
     snprintf(text, sizeof text, frame, 3, 0, "-0.0004", ROLLS, GRID, GAP);
     write_file("own.inp", text);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
@@ -444,7 +430,6 @@ static void what_is_left_out_is_said(void **state)
 
 static void bad_files_are_refused(void **state)
 {
-    (void)state;
     write_file("bad.inp", " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2\n");
     check_refused("contact bad.inp", 65, "bad.inp:5: expected MAXGS, MAXIN");
     check_refused("contact bad.inp --output bad.inp", 64, "--output");
@@ -466,7 +451,6 @@ static void bad_files_are_refused(void **state)
 /* Every line that the digits ask for is read, and each of its numbers kept. */
 static void every_number_has_its_name(void **state)
 {
-    (void)state;
     rb_io_contact_case *c;
     rb_message why = {""};
     int n;
@@ -570,7 +554,6 @@ static void every_number_has_its_name(void **state)
 /* Each line that is short, and each count that is none, with its place. */
 static void short_lines_are_named(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *said;
     } all[] = {
@@ -611,7 +594,6 @@ static void short_lines_are_named(void **state)
 
 static void cases_without_memory_are_refused(void **state)
 {
-    (void)state;
     write_file("three.inp", " 1 MODULE\n 1 MODULE\n 1 MODULE\n");
     rb_status s = RB_ENOMEM;
     for (int k = 0; s != RB_OK; k++) {
@@ -642,7 +624,6 @@ static const char *data(const char *name)
 /* Figures of carter2d.ref_out. */
 static void carters_example_is_met(void **state)
 {
-    (void)state;
     char line[700];
     snprintf(line, sizeof line, "contact %s", data("carter2d.inp"));
     json_t *root = run_json(line);
@@ -663,7 +644,6 @@ static void carters_example_is_met(void **state)
  * power -4849, 45 in adhesion, 36 in slip. */
 static void falling_friction_is_met(void **state)
 {
-    (void)state;
     char line[700];
     snprintf(line, sizeof line, "contact %s --quiet", data("veldep_fric.inp"));
     json_t *root = run_json(line);
@@ -683,7 +663,6 @@ static void falling_friction_is_met(void **state)
  * the branch that slips more again. */
 static void transient_falling_friction_is_met(void **state)
 {
-    (void)state;
     static const struct {
         double ratio, power;
         int stick;
@@ -712,7 +691,6 @@ static void transient_falling_friction_is_met(void **state)
  * carter_plast: pressed and shifted, then rolled on step by step. */
 static void plastic_steps_are_met(void **state)
 {
-    (void)state;
     static const struct {
         double ratio, power;
         int stick, slip, yield;
@@ -750,7 +728,6 @@ static void plastic_steps_are_met(void **state)
  * strongly, hardens, neither, and softens, on three grids. */
 static void plastic_examples_are_met(void **state)
 {
-    (void)state;
     static const struct {
         double ratio, power;
         int stick, slip, yield;
@@ -778,7 +755,6 @@ static void plastic_examples_are_met(void **state)
 
 static void other_examples_are_run_or_named(void **state)
 {
-    (void)state;
     static const struct {
         const char *name;
         int code, cases;

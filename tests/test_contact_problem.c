@@ -340,7 +340,6 @@ static void every_solver_solves_random_problems(void **state)
 {
     int by_newton = 0, steps = 0;
 
-    (void)state;
     numbers = 1;
     for (int k = 0; k < 120; k++) {
         const kind of = {.n = 1 + k % 9,
@@ -364,7 +363,6 @@ static void uncoupled_problems_are_solved_in_turn(void **state)
 {
     int sticks = 0, slides = 0;
 
-    (void)state;
     numbers = 19;
     for (int k = 0; k < 16; k++) {
         const kind of = {.n = 9, .mu = 0.3, .force_given = 1, .axle = k / 8};
@@ -393,7 +391,6 @@ static void uncoupled_problems_are_solved_in_turn(void **state)
  * least one, at which the slowest element is about to stick. */
 static void full_sliding_has_the_least_creepage(void **state)
 {
-    (void)state;
     numbers = 20;
     for (int k = 0; k < 8; k++) {
         const kind of = {.n = 7,
@@ -436,7 +433,6 @@ static void every_solver_solves_layers_that_yield(void **state)
 {
     outcome all = {0};
 
-    (void)state;
     numbers = 2;
     for (int k = 0; k < 144; k++) {
         const kind of = {.n = 1 + k % 7,
@@ -466,7 +462,6 @@ static void every_solver_solves_layers_that_yield(void **state)
  * yielded before. */
 static void strong_layers_forget_what_has_yielded(void **state)
 {
-    (void)state;
     numbers = 6;
     for (int k = 0; k < 12; k++) {
         const kind of = {.n = 7,
@@ -505,7 +500,6 @@ static void cycles_of_laws_end_soon(void **state)
                {272, 16, RB_SOLVER_NEWTON}, {449, 150, RB_SOLVER_LEMKE},
                {887, 26, RB_SOLVER_NEWTON}, {969, 240, RB_SOLVER_NEWTON}};
 
-    (void)state;
     for (int c = 0; c < 6; c++) {
         const int k = all[c].k;
         const kind of = {.n = 4 + k % 17,
@@ -537,7 +531,6 @@ static void pivots_leave_no_rounding(void **state)
 {
     double sum[3] = {0.0};
 
-    (void)state;
     numbers = 16;
     for (int k = 0; k < 12; k++) {
         const kind of = {.n = 50,
@@ -565,7 +558,6 @@ static void pivots_leave_no_rounding(void **state)
 /* Pairs of elements have one traction each, and the mean gap and slip of the two. */
 static void pairs_move_as_their_elements(void **state)
 {
-    (void)state;
     numbers = 18;
     const kind of = {
         .n = 8, .mu = 0.3, .coupling = 0.1, .load_given = 1, .force_given = 2};
@@ -645,7 +637,6 @@ static void check_held(const rb_contact_problem *p, const rb_contact_state *s,
  * has changed since at its border, and, after larger changes, with a new one. */
 static void zones_may_change_one_by_one(void **state)
 {
-    (void)state;
     numbers = 3;
     for (int k = 0; k < 8; k++) {
         const kind of = {.n = 24,
@@ -682,7 +673,6 @@ static void paths_lead_back_to_the_solution(void **state)
     const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
     int solves = 0, solved = 0;
 
-    (void)state;
     numbers = 22;
     for (int k = 0; k < 64; k++) {
         const kind of = {.n = 4 + k % 6,
@@ -733,7 +723,6 @@ static int allocations(rb_contact_problem *p, rb_contact_state *s)
  * stay what they are change nothing. */
 static void what_is_kept_can_be_forgotten(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const kind of = {
             .n = 24, .mu = 0.3, .coupling = k % 2 ? 0.05 : 0.0, .force_given = k / 2};
@@ -767,7 +756,6 @@ static void what_is_kept_can_be_forgotten(void **state)
  * a force. */
 static void zones_that_determine_nothing_are_singular(void **state)
 {
-    (void)state;
     numbers = 4;
     for (int k = 0; k < 2; k++) {
         const kind of = {.n = 3, .mu = 0.3, .load_given = !k, .force_given = k};
@@ -847,7 +835,6 @@ static void products_give_what_matrices_do(void **state)
 {
     int refused = 0, products = 0;
 
-    (void)state;
     for (int k = 0; k < 144; k++) {
         const int layer = k >= 48;
         const kind of = {.n = 1 + k % 11,
@@ -908,7 +895,6 @@ static void make_diagonal(by_products *k)
  * after. */
 static void an_exact_preconditioner_needs_one_step(void **state)
 {
-    (void)state;
     for (int k = 0; k < 8; k++) {
         const kind of = {
             .n = 9, .mu = 0.3, .load_given = k % 2, .force_given = k / 2 % 2};
@@ -959,7 +945,6 @@ static void a_full_basis_begins_anew(void **state)
     by_products by;
     double gap[n];
 
-    (void)state;
     numbers = 27;
     random_problem(&of, &p);
     use_products(&p, &by);
@@ -995,7 +980,6 @@ static void products_follow_friction(void **state)
                {47, 1, 0, 10.0, 0.6, 117},
                {33, 1, 1, 1e3, 0.4, 103}};
 
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const kind of = {.n = all[k].n,
                          .mu = all[k].mu,
@@ -1032,7 +1016,6 @@ static void products_follow_friction(void **state)
  * diagonals are a mean over all. */
 static void responses_are_those_to_unit_tractions(void **state)
 {
-    (void)state;
     numbers = 24;
     for (int k = 0; k < 6; k++) {
         const kind of = {.n = 3 + k, .mu = 0.3, .coupling = 0.1, .rolls = k % 2};
@@ -1078,7 +1061,6 @@ static void count_steps(const rb_contact_state *state, void *context)
 
 static void every_step_is_shown(void **state)
 {
-    (void)state;
     numbers = 5;
     for (int yields = 0; yields < 2; yields++) {
         const kind of = {.n = 7, .mu = 0.3, .coupling = 0.05, .yields = yields};
@@ -1176,7 +1158,6 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
 
 static void every_row_of_the_lcp_is_its_equation(void **state)
 {
-    (void)state;
     numbers = 6;
     for (int k = 0; k < 144; k++) {
         const kind of = {.n = 1 + k % 5,
@@ -1226,7 +1207,6 @@ static void variables_have_names(void **state)
          "lambda-[1]",  "lambda+[2]",  "lambda-[2]", "plastic+[1]", "plastic-[1]",
          "plastic+[2]", "plastic-[2]", "motion[1]",  "motion[2]",   "z0"}};
 
-    (void)state;
     numbers = 7;
     for (int k = 0; k < 6; k++) {
         const kind of = {
@@ -1252,7 +1232,6 @@ static void variables_have_names(void **state)
 /* The state tells which LCP it came from. */
 static void the_lcp_of_a_state_is_the_one_that_gave_it(void **state)
 {
-    (void)state;
     numbers = 8;
     for (int k = 0; k < 3; k++) {
         const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .force_given = 2};
@@ -1302,7 +1281,6 @@ static void zones_are_told_by_what_is_larger(void **state)
                                RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
                                RB_ZONE_SLIP_POSITIVE};
 
-    (void)state;
     numbers = 23;
     for (int k = 0; k < 9; k++) {
         const kind of = {
@@ -1339,7 +1317,6 @@ static void zones_are_told_by_what_is_larger(void **state)
 
 static void residuals_and_forces_are_sums_over_elements(void **state)
 {
-    (void)state;
     numbers = 9;
     for (int k = 0; k < 64; k++) {
         const kind of = {.n = 1 + k % 6,
@@ -1426,7 +1403,6 @@ static rb_status number_tractions(const char *name, const rb_contact_cone *cone,
 
 static void cones_move_as_the_problem_does(void **state)
 {
-    (void)state;
     numbers = 10;
     const kind of = {.n = 5, .mu = 0.3, .coupling = 0.1};
     static const rb_contact_cone_solvers by = {knows_it, number_tractions};
@@ -1501,7 +1477,6 @@ static void the_residual_judges_cone_solvers(void **state)
                {RB_RAY, -1.0, RB_RAY},    {RB_ENOMEM, 0.0, RB_ENOMEM}};
     static const rb_contact_cone_solvers by = {knows_it, hand_back};
 
-    (void)state;
     for (size_t k = 0; k < 4 * sizeof all / sizeof *all; k++) {
         const kind of = {.n = 7,
                          .mu = 0.3,
@@ -1544,7 +1519,6 @@ static void a_layer_is_solved_from_what_is_nearly_its_solution(void **state)
 {
     int polished = 0;
 
-    (void)state;
     numbers = 15;
     for (int k = 0; k < 60; k++) {
         const kind of = {.n = 3 + k % 5,
@@ -1583,7 +1557,6 @@ static void a_layer_is_solved_from_what_is_nearly_its_solution(void **state)
 /* What needs matrices says so of products. */
 static void products_have_no_lcp(void **state)
 {
-    (void)state;
     numbers = 11;
     const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .yields = 1};
     const rb_contact_options options = options_of(RB_SOLVER_AUTO);
@@ -1609,7 +1582,6 @@ static void products_have_no_lcp(void **state)
 /* Kwak's form has the inverse of A F_TT. */
 static void kwaks_form_needs_an_inverse(void **state)
 {
-    (void)state;
     const int n = 2;
     double *S = rb_alloc(2, 4);
     rb_contact_operator *op;
@@ -1646,7 +1618,6 @@ static void forces_that_nothing_carries_are_refused(void **state)
                {3, 0.0, -0.98, 0.0, "the interface yields, and carries at most "},
                {0, 0.0, 0.0, 30.0, "the resistance to rolling M/R_A = "}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const kind of = {.n = 6,
                          .mu = 0.3,
@@ -1685,7 +1656,6 @@ static void forces_that_nothing_carries_are_refused(void **state)
 /* A force that friction carries, in a problem that no solver solves to the tolerance. */
 static void what_is_not_solved_says_so(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const kind of = {.n = 6,
                          .mu = 0.3,
@@ -1731,7 +1701,6 @@ static void every_form_is_tried(void **state)
 {
     static const int all[] = {0, 2, 2, 0, 1, 1};
 
-    (void)state;
     for (int kwak = 0; kwak < 2; kwak++) {
         const kind of = {.n = 5, .mu = 0.3, .coupling = 0.02};
         rb_contact_options options = options_of(RB_SOLVER_LEMKE);
@@ -1764,7 +1733,6 @@ static void a_layer_that_cannot_be_followed_is_not_solved(void **state)
     rb_contact_problem p;
     rb_contact_state s;
 
-    (void)state;
     numbers = 20;
     random_problem(&of, &p);
     for (int i = 0; i < of.n; i++)
@@ -1786,7 +1754,6 @@ static void surfaces_apart_carry_nothing(void **state)
 {
     static const rb_contact_solver solvers[] = {RB_SOLVER_LEMKE, RB_SOLVER_NEWTON};
 
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const kind of = {.n = 3, .mu = 0.3, .force_given = 2, .yields = k / 2 * 2};
         const rb_contact_options options = options_of(solvers[k % 2]);
@@ -1877,7 +1844,6 @@ static void no_memory_is_said(void **state)
     rb_contact_problem p[PROBLEMS];
     by_products by;
 
-    (void)state;
     for (int k = 0; k < PROBLEMS; k++) {
         const kind of = kind_of(k);
         numbers = 13;

@@ -30,7 +30,6 @@ static void the_core_solves_a_case(void **state)
     rb_case_result r = {0};
     rb_message why = {""};
 
-    (void)state;
     CHECK_STATUS(solve(carter, &r, &why), RB_OK);
     CHECK_ABS(r.solution.force_ratio, -0.75, 2e-3, "Carter: s (2 - s)");
     rb_case_result_free(&r);
@@ -45,7 +44,6 @@ static void cone_solvers_are_not_at_hand(void **state)
     rb_case_result r = {0};
     rb_message why = {""};
 
-    (void)state;
     CHECK_STATUS(solve(cone, &r, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "nsn-ac"));
     rb_case_result_free(&r);

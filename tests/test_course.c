@@ -13,7 +13,6 @@ static glob_t lessons, solutions;
 
 static void blocks_print_what_the_pages_show(void **state)
 {
-    (void)state;
     int wrong = 0;
     for (size_t k = 0; k < lessons.gl_pathc; k++) {
         assert_true(run_page(lessons.gl_pathv[k], folder, &wrong) >= 1);
@@ -122,7 +121,6 @@ static int count_unfounded(const numbers *all, const char *page)
 
 static void numbers_of_the_sentences_are_printed_by_a_block(void **state)
 {
-    (void)state;
     static numbers all;
     int wrong = 0;
     for (size_t k = 0; k < lessons.gl_pathc; k++) {
@@ -195,7 +193,6 @@ static int check_links(const char *page)
 
 static void links_and_pictures_are_there(void **state)
 {
-    (void)state;
     assert_int_equal(
         run("ROLLBEM=%s/build/rollbem docs/course/pictures %s/pictures", folder, folder),
         0);
@@ -210,7 +207,6 @@ static void links_and_pictures_are_there(void **state)
 
 static void lessons_have_all_their_parts(void **state)
 {
-    (void)state;
     static char text[MAX_TEXT];
     static const char *wanted[] = {"**Aim.**",         "](../../build/course/",
                                    "\n## The command", "\n## What to see",
@@ -243,7 +239,6 @@ static void lessons_have_all_their_parts(void **state)
 
 static int make_folder(void **state)
 {
-    (void)state;
     if (!mkdtemp(folder) || glob("docs/course/[0-9]*.md", 0, NULL, &lessons) ||
         glob("docs/course/solutions/[0-9]*.md", 0, NULL, &solutions))
         return -1;
@@ -252,7 +247,6 @@ static int make_folder(void **state)
 
 static int remove_folder(void **state)
 {
-    (void)state;
     globfree(&lessons);
     globfree(&solutions);
     return run("rm -rf %s", folder);

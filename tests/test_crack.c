@@ -59,7 +59,6 @@ static void edge_cracks_in_tension(void **state)
                                           {60, 0.920100, 0.305800},
                                           {45, 0.704910, 0.364491},
                                           {30, 0.462431, 0.336140}};
-    (void)state;
     for (size_t k = 0; k < sizeof reference / sizeof *reference; k++) {
         const double *want = reference[k];
         double K[3][2];
@@ -82,7 +81,6 @@ static void edge_cracks_in_tension(void **state)
 static void mirror_images(void **state)
 {
     double left[2], right[2];
-    (void)state;
     in_tension(50.0, 20, right);
     in_tension(130.0, 20, left);
     CHECK_REL(left[0], right[0], 1e-12, "K_I");
@@ -95,7 +93,6 @@ static void cracks_below_the_surface(void **state)
 {
     const double x = 0.0, angle = 60.0 * M_PI / 180.0;
     const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_crack_shape shape = edge_crack(60.0, 20, 0.0);
         rb_crack_history h;
@@ -127,7 +124,6 @@ static void history_of_a_closed_crack(void **state)
     double T[2 * 19], hat[19];
     rb_crack *c = create(closed_crack(20, 0.3));
     rb_crack_state s;
-    (void)state;
     assert_int_equal(rb_crack_nodes(c), 19);
     rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
     CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
@@ -173,7 +169,6 @@ static void sliding_under_a_contact(void **state)
 {
     double error[3];
     hertz load;
-    (void)state;
     set_hertz(0.0, &load);
     for (int k = 0; k < 3; k++) {
         rb_crack *c = create(closed_crack(20 << k, 0.1));
@@ -198,7 +193,6 @@ static void trapped_in_the_full_plane(void **state)
     double T[2 * 39] = {0}, hat[39];
     rb_crack *c = create(closed_crack(40, 0.3));
     rb_crack_state s;
-    (void)state;
     rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
     CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
     for (int j = 0; j < 39; j++)
@@ -226,7 +220,6 @@ static void stress_of_strips(void **state)
     static const double at[] = {0.3, -2.9, 3.1, 40.0};
     hertz load;
     double mirrored[STRIPS];
-    (void)state;
     set_hertz(0.3, &load);
     for (int i = 0; i < STRIPS; i++)
         mirrored[i] = -load.q[i];
@@ -297,7 +290,6 @@ static void passes_of_a_contact(void **state)
          .00152}};
     static const int step[] = {45, 55, 65, 75, 80, 120};
     const double unit = sqrt(M_PI);
-    (void)state;
     for (size_t k = 0; k < sizeof reference / sizeof *reference; k++) {
         const double *want = reference[k];
         double largest[3];
@@ -352,7 +344,6 @@ static void trapped_fluid_by_positions(void **state)
     static const double reference[][4] = {
         {10, 61, 0.332, 1.088}, {20, 121, 0.336, 1.104}, {40, 241, 0.337, 1.104}};
     double x[241], pressure;
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const int positions = (int)reference[k][1];
         for (int i = 0; i < positions; i++)
@@ -370,7 +361,6 @@ static void trapped_fluid(void **state)
     double x[600], pressure, K_I[3];
     int positions = 0;
     pass dry;
-    (void)state;
     for (int k = 0; k < 3; k++) {
         pass p;
         run(20 << k, 0.1, 0.3, RB_CRACK_TRAPPED, 2 * STEPS - 1, 1, &p);
@@ -402,7 +392,6 @@ static void trapped_fluid(void **state)
 static void pressure_at_the_mouth(void **state)
 {
     pass p;
-    (void)state;
     run(20, 0.1, 0.0, RB_CRACK_PRESSURE, STEPS, 1, &p);
     CHECK_REL(p.h.fluid_pressure[60], 1.0, 1e-3, "the contact stands on the mouth");
     CHECK_ABS(p.h.fluid_pressure[49], 0.0, 1e-15, "x = -1.1");
@@ -419,7 +408,6 @@ static void a_kink_of_no_angle(void **state)
     const double x = 0.0;
     const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
     double K[2][2];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_crack_shape shape = edge_crack(50.0, 32, 0.1);
         rb_crack_history h;
@@ -512,7 +500,6 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
 static void kinks(void **state)
 {
     static const double angles[] = {15.0, 30.0, 45.0, 60.0};
-    (void)state;
     for (size_t k = 0; k < sizeof angles / sizeof *angles; k++) {
         double want[2], long_kink[2], kink[2];
         series_of_kinks(angles[k] / 180.0, &want[0], &want[1]);
@@ -538,7 +525,6 @@ static void directions(void **state)
                           .stick_length = none,
                           .fluid_pressure = none,
                           .residual = none};
-    (void)state;
     rb_crack_summary s = rb_crack_summarise(&h, 1);
     CHECK_REL(s.K_theta_max, 2.0, 1e-15, "mode I");
     CHECK_ABS(s.kink_angle, 0.0, 1e-15, "mode I");
@@ -568,7 +554,6 @@ static void refuses(rb_crack_shape shape, const char *word)
 static void bad_input(void **state)
 {
     rb_crack_shape shape = edge_crack(30.0, 20, 0.1);
-    (void)state;
     shape.elements = 2;
     refuses(shape, "2 elements");
     refuses(edge_crack(0.0, 20, 0.1), "outside the body");
@@ -604,7 +589,6 @@ static void no_memory(void **state)
     const double x = 0.0;
     const rb_crack_shape shape = edge_crack(30.0, 8, 0.1);
     hertz load;
-    (void)state;
     set_hertz(0.3, &load);
     const rb_crack_passage passage = {.steps = 1,
                                       .x = &x,

@@ -49,7 +49,6 @@ static void straight_growth(void **state)
                              *const longer[] = {"crack-length", "1.6", "crack-friction",
                                                 "0.2", NULL};
     int rows, columns;
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500"),
            *b = contact("mm", "1", "1000", "94500");
     pass(a, grown);
@@ -76,7 +75,6 @@ static void cycles_converge(void **state)
 {
     static const char *const steps[] = {"3", "6", "12"};
     double N[3];
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
     for (int k = 0; k < 3; k++) {
         const char *const words[] = {"paris",          "1e-12,3",    "paris-range",
@@ -95,7 +93,6 @@ static void cycles_converge(void **state)
 static void growth_in_other_units(void **state)
 {
     char law[60];
-    (void)state;
     snprintf(law, sizeof law, "%.17g,3", 1e-12 * 1e-3 / gsl_pow_3(1e6 * sqrt(1e-3)));
     const char *const mm[] = {"paris", "1e-12,3", "grow-steps", "1", NULL},
                       *const si[] = {"paris", law, "grow-steps", "1", NULL};
@@ -115,7 +112,6 @@ static void turns(void **state)
     static const char *const words[] = {"paris",      "1e-12,3", "growth", "tension",
                                         "grow-steps", "2",       NULL};
     int rows, columns;
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double kink = last(a, "crack.summary.kink_angle");
@@ -134,7 +130,6 @@ static void turns_many_times(void **state)
                                         "tension",     "grow-steps", "24",
                                         "crack-angle", "15",         NULL};
     int rows, columns;
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
@@ -148,7 +143,6 @@ static void rests_below_the_threshold(void **state)
 {
     static const char *const words[] = {"paris", "1e-12,3", "threshold", "100", NULL};
     int rows, columns;
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     assert_non_null(rb_api_array(a, "crack.growth.rate", &rows, &columns));
@@ -167,7 +161,6 @@ static void bad_growth(void **state)
                {{"threshold", "grow-steps"}, {"3", "3"}, "--paris"},
                {{"growth", "grow-steps"}, {"tension", "3"}, "--paris"},
                {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
-    (void)state;
     rb_api *a = contact("mm", "1", "1000", "94500");
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         assert_true(rb_api_crack(a, 2, bad[k].name, bad[k].value) < 0);

@@ -43,7 +43,6 @@ static void contacts_of_hertz(void **state)
 {
     rb_message why;
     rb_case_result r;
-    (void)state;
     rb_case *c = case_of(hertz);
     assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
     const double p0 = r.solution.max_pressure, a = r.solution.half_width;
@@ -80,7 +79,6 @@ static void uniform_pressure(void **state)
     rb_message why;
     rb_design d = {.n = 0, .span = 5.0, .most = 900};
     FILE *f = fdopen(mkstemp(path), "w");
-    (void)state;
     fputs("x gap\n", f);
     for (int i = 0; i < 65; i++) {
         const double x = -8.0 + 0.25 * i;
@@ -118,7 +116,6 @@ static void what_is_refused(void **state)
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
                {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
     rb_message why;
-    (void)state;
     rb_case *c = case_of(hertz);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_design d = {.n = 0};

@@ -509,7 +509,6 @@ static int study_of_all_options(int cases, int from)
  * judge a class by. */
 static void bars_hold(void **state)
 {
-    (void)state;
     const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
     for (int k = 0; k < CLASSES; k++)
         for (int i = 0; i < (all ? 4 : 2); i++)
@@ -527,7 +526,6 @@ static void bars_hold(void **state)
  * Carter: its bar was 5e-15. */
 static void an_element_that_slides_may_stick(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -575,7 +573,6 @@ static const double thin_rim_force_ratio = 0.12864;
 
 static void bars_hold_on_a_thin_rim(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -594,7 +591,6 @@ static void bars_hold_on_a_thin_rim(void **state)
  * and 0.0088 on 600, where the strip has 14. */
 static void a_narrow_stick_zone_widens_the_bars(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s, truth;
     rb_rolling_errors e;
@@ -619,7 +615,6 @@ static void a_narrow_stick_zone_widens_the_bars(void **state)
 /* Half the given outer elements are compared with as well. */
 static void given_outer_elements_have_bars(void **state)
 {
-    (void)state;
     rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -639,7 +634,6 @@ static void given_outer_elements_have_bars(void **state)
 /* --accuracy refines what needs it, here the boundary. */
 static void accuracy_is_that_of_the_boundary_too(void **state)
 {
-    (void)state;
     rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -656,7 +650,6 @@ static void accuracy_is_that_of_the_boundary_too(void **state)
 /* What was refused has no solution and no error bars, not what was in them before. */
 static void a_refusal_sets_every_output(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -684,7 +677,6 @@ static void a_refusal_sets_every_output(void **state)
  */
 static void an_accuracy_out_of_reach_is_said_to_be(void **state)
 {
-    (void)state;
     rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -703,7 +695,6 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
  * of this narrow zone are all in contact. */
 static void a_failed_coarser_run_leaves_the_solution(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_rolling_errors e;

@@ -121,14 +121,12 @@ static void bars_of_a_solution(rb_bem_support support)
 
 static void a_solution_s_bars_are_of_its_coarser_runs(void **state)
 {
-    (void)state;
     bars_of_a_solution(RB_BEM_HALFPLANE);
     bars_of_a_solution(RB_BEM_HUB);
 }
 
 static void stresses_have_bars_where_they_are_asked_for(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     rb_rolling_model model;
     rb_rolling_solution own, again;
@@ -154,7 +152,6 @@ static void stresses_have_bars_where_they_are_asked_for(void **state)
 static void a_curve_s_bars_are_of_its_coarser_curves(void **state)
 {
     enum { POINTS = 5 };
-    (void)state;
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS};
     rb_rolling_curve own, errors, run[2];
@@ -287,7 +284,6 @@ static void bars_of_a_history(int force_is_given)
 
 static void a_history_s_bars_are_of_its_coarser_histories(void **state)
 {
-    (void)state;
     bars_of_a_history(0);
     bars_of_a_history(1);
 }

@@ -95,7 +95,6 @@ static void check_mirror(const char *rest, const char *control, double value,
 
 static void test_mirror(void **state)
 {
-    (void)state;
     static const char *const planes[] = {
         "--support halfplane --young 60000 --poisson 0.31 --radius 50 --young-b 210000 "
         "--poisson-b 0.28 --radius-b 80",
@@ -152,7 +151,6 @@ static void check_scaling(const char *format, double L, double E)
 
 static void test_scaling(void **state)
 {
-    (void)state;
     static const char *const cases[] = {
         "--support halfplane --formulation steady --creep-ratio 0.4 --contact-elements "
         "30 "
@@ -176,7 +174,6 @@ static void test_scaling(void **state)
  * And increments of the load end where one load does. */
 static void test_no_friction(void **state)
 {
-    (void)state;
     json_t *pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
                             "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
                             "--gap parabola --shift 0");
@@ -221,7 +218,6 @@ static void check_refinement(const char *rest)
 
 static void test_refinement(void **state)
 {
-    (void)state;
     static const char *const cases[] = {
         "--support halfplane --formulation steady --load 700 --creep-ratio 0.4",
         "--support halfplane --formulation steady --load 700 --young-b 2e5 --mesh "
@@ -242,7 +238,6 @@ static const char *const supports[] = {
 /* A history of one increment is the increment. */
 static void test_static_history_of_one_step(void **state)
 {
-    (void)state;
     char line[500];
     write_file("one.txt", "load shift\n700 1e-3\n");
     for (int k = 0; k < 3; k++) {
@@ -261,7 +256,6 @@ static void test_static_history_of_one_step(void **state)
 /* What has not rolled yet is static. */
 static void test_transient_at_rest(void **state)
 {
-    (void)state;
     static const int same[] = {X, H, GAP, P, Q, UN, UT};
     char line[500];
     write_file("rest.txt", "distance load\n0 700\n");
@@ -281,7 +275,6 @@ static void test_transient_at_rest(void **state)
 /* Each point of a curve is a case. */
 static void test_curve(void **state)
 {
-    (void)state;
     char line[500];
     for (int k = 0; k < 3; k++) {
         const char *rest = "--mesh uniform --zone 1.5 --load 700 --contact-elements 31";
@@ -328,7 +321,6 @@ static double cell(const char *text, int row, const char *name)
 /* Each row of a study is a case, to the last digit. */
 static void test_sweep(void **state)
 {
-    (void)state;
     static char study[sizeof out];
     char line[500];
     for (int k = 0; k < 3; k++) {
@@ -358,7 +350,6 @@ static void test_sweep(void **state)
 /* The library's words are the program's. */
 static void test_library(void **state)
 {
-    (void)state;
     static const char *const words[][2] = {{"formulation", "steady"},
                                            {"load", "700"},
                                            {"creep-ratio", "0.4"},

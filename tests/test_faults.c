@@ -438,19 +438,16 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
 
 static void every_write(void **state)
 {
-    (void)state;
     fail_calls(FAULT_WRITE, "write", 25);
 }
 
 static void every_rename(void **state)
 {
-    (void)state;
     fail_calls(FAULT_RENAME, "rename", 10);
 }
 
 static void every_close(void **state)
 {
-    (void)state;
     fail_calls(FAULT_CLOSE, "close", 8);
 }
 
@@ -538,7 +535,6 @@ static int fail_every_call(const job *j)
 static void every_call_that_allocates(void **state)
 {
     int tried = 0;
-    (void)state;
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++)
@@ -554,7 +550,6 @@ static void every_call_that_allocates(void **state)
 static void every_allocation_from_one_on(void **state)
 {
     int tried = 0;
-    (void)state;
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++) {

@@ -79,7 +79,6 @@ static void same_sparse(const rb_sparse *a, const rb_sparse *b)
 
 static void what_is_written_is_read_in_every_layout(void **state)
 {
-    (void)state;
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
         rb_message why = {""};
@@ -117,7 +116,6 @@ static void what_is_written_is_read_in_every_layout(void **state)
 
 static void one_triangle_of_m_is_completed(void **state)
 {
-    (void)state;
     rb_io_fclib p, back;
     rb_message why = {""};
     for (int lower = 0; lower < 2; lower++) {
@@ -202,7 +200,6 @@ static void refused_with(const char *name, hid_t type, hsize_t n, const void *va
 
 static void sizes_and_indices_are_checked(void **state)
 {
-    (void)state;
     const int p_down[] = {0, 3, 1, 3, 5, 6, 8}, p_long[] = {0, 1, 2, 3, 4, 5, 900};
     const int i_far[] = {0, 1, 2, 3, 4, 5, 6, 0};
     const double few[] = {1.0};
@@ -331,7 +328,6 @@ static void drop(const char *name)
 
 static void constraints_are_whole_or_refused(void **state)
 {
-    (void)state;
     rb_io_fclib p;
     const double few[] = {1.0};
     fresh_constrained();
@@ -385,7 +381,6 @@ static void constraints_are_whole_or_refused(void **state)
 /* Also a matrix without an entry, and each vector of a solution by itself. */
 static void constraints_are_read_as_written_in_every_layout(void **state)
 {
-    (void)state;
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
         rb_message why = {""};
@@ -456,7 +451,6 @@ static void ints_of(hid_t file, const char *name, int n, int *x)
 /* What other programs look for: the texts, the sign of nz, and what p holds. */
 static void files_are_as_the_format_says(void **state)
 {
-    (void)state;
     static const int nz[] = {5, -1, -2}, length[] = {5, 4, 4};
     static const int p[][5] = {{0, 0, 1, 1, 2}, {0, 2, 4, 5}, {0, 2, 4, 5}};
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
@@ -526,7 +520,6 @@ static void put_set(hid_t file, const char *name, hsize_t size, hid_t properties
 static void nothing_is_read_of_another_file(void **state)
 {
     static const char q[] = "/fclib_local/vectors/q";
-    (void)state;
     hid_t file = without(q);
     assert_true(
         H5Lcreate_external("/etc/passwd", "/x", file, q, H5P_DEFAULT, H5P_DEFAULT) >= 0);
@@ -561,7 +554,6 @@ static void memory_is_bounded_by_the_size_of_the_file(void **state)
 {
     static const char q[] = "/fclib_local/vectors/q";
     const hsize_t chunk = 1 << 16;
-    (void)state;
     char wanted[100];
     struct stat file;
     put_set(without(q), q, 1 << 29, H5Pcreate(H5P_DATASET_CREATE));
@@ -585,7 +577,6 @@ static void memory_is_bounded_by_the_size_of_the_file(void **state)
 
 static void other_files_are_refused(void **state)
 {
-    (void)state;
     rb_io_fclib p;
     rb_message why = {""};
     CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &why), RB_ENOENT);
@@ -616,7 +607,6 @@ static void other_files_are_refused(void **state)
 
 static void problems_go_through_files(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_message why = {""};
     const double bad[] = {0.3, -1.0};
@@ -690,7 +680,6 @@ static rb_status in_child(deed what, char **bytes, size_t *size, rb_message *why
 
 static void a_child_answers_or_is_located(void **state)
 {
-    (void)state;
     static const struct {
         deed what;
         rb_status status;
@@ -715,7 +704,6 @@ static void a_child_answers_or_is_located(void **state)
 
 static void a_child_without_means_is_told(void **state)
 {
-    (void)state;
     static const struct {
         const char *call;
         int error;
@@ -747,7 +735,6 @@ static void a_child_without_means_is_told(void **state)
 
 static void a_child_is_quiet(void **state)
 {
-    (void)state;
     char *bytes;
     size_t size;
     rb_message why;
@@ -767,7 +754,6 @@ static void a_child_is_quiet(void **state)
 
 static void failing_allocations_are_reported(void **state)
 {
-    (void)state;
     for (int global = 0; global < 2; global++) {
         rb_io_fclib p;
         if (global)
@@ -803,7 +789,6 @@ static void failing_allocations_are_reported(void **state)
 
 static void outside_files_are_read(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_facts facts;
     rb_message why = {""};

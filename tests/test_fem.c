@@ -62,7 +62,6 @@ static double worst_product(int n, const double *K, const double *u)
 
 static void rigid_motions_cost_nothing(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         const int n = d << d;
         double x[24], K[576], u[24];
@@ -81,7 +80,6 @@ static void rigid_motions_cost_nothing(void **state)
 
 static void bar_pulls_along_itself(void **state)
 {
-    (void)state;
     const double x[6] = {1, 2, 3, 3, 5, 9}; /* length 7 */
     double K[36];
     CHECK_STATUS(rb_fem_bar_stiffness(x, &material, K), RB_OK);
@@ -100,7 +98,6 @@ static void bar_pulls_along_itself(void **state)
 /* Energy of a linear displacement u = G x in a distorted cell: volume sigma : eps / 2. */
 static void linear_displacement_is_exact(void **state)
 {
-    (void)state;
     const double G[3][3] = {{0.3, -0.2, 0.5}, {0.7, 0.1, -0.4}, {0.2, 0.6, -0.9}};
     const double shear = 7.0 / 2.6, lambda = 2.0 * shear * 0.3 / 0.4;
     double x[24], K[576], M[576], u[24], volume = 0.0, energy = 0.0;
@@ -130,7 +127,6 @@ static void linear_displacement_is_exact(void **state)
  * balance. */
 static void patch_test(void **state)
 {
-    (void)state;
     rb_fem_mesh mesh;
     CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 12, 6, &mesh), RB_OK);
     for (int k = 0; k < 12; k++) {
@@ -160,7 +156,6 @@ static void patch_test(void **state)
 
 static void truss_has_the_stated_layouts(void **state)
 {
-    (void)state;
     static const struct {
         rb_fem_layout layout;
         int nodes, dofs, bars;
@@ -197,7 +192,6 @@ static double mean_diagonal(const rb_sparse *K)
 /* The figures of tests/data/kanno/reference.json, soclcp_method. */
 static void condensed_stiffness_is_the_reference(void **state)
 {
-    (void)state;
     rb_fem_model model;
     rb_fem_condensation *c = NULL;
     CHECK_STATUS(rb_fem_model_bar(160, 16, &model, NULL), RB_OK);
@@ -219,7 +213,6 @@ static void condensed_stiffness_is_the_reference(void **state)
 /* Held contact nodes: condensed and full equations agree. */
 static void expansion_solves_the_full_system(void **state)
 {
-    (void)state;
     rb_fem_model model;
     rb_fem_condensation *c = NULL;
     CHECK_STATUS(rb_fem_model_bar(12, 3, &model, NULL), RB_OK);
@@ -251,7 +244,6 @@ static void expansion_solves_the_full_system(void **state)
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     double K[576], x[24], line[6] = {1, 1, 1, 1, 1, 1};
     rb_message why;
     CHECK_STATUS(rb_fem_bar_stiffness(line, &material, K), RB_EINVAL);
@@ -304,7 +296,6 @@ static void bad_input_is_refused(void **state)
 /* The smallest models are there, those beside the range are not. */
 static void models_have_their_range(void **state)
 {
-    (void)state;
     static const struct {
         int truss, nx, ny, is_there;
     } sizes[] = {{0, 0, 3, 0}, {0, 3, 0, 0}, {0, 2001, 1, 0}, {0, 1, 2001, 0},
@@ -326,7 +317,6 @@ static void models_have_their_range(void **state)
  * nothing touches anything. */
 static void condensation_of_every_kind(void **state)
 {
-    (void)state;
     static const double K[9] = {2.0, 1.0, 0.5, 1.0, 3.0, 0.0, 0.5, 0.0, 4.0};
     static const double load[3] = {1.0, -2.0, 3.0};
     for (int kind = 0; kind < 4; kind++) {
@@ -378,7 +368,6 @@ static void condensation_of_every_kind(void **state)
 /* Without a load and without stiffness forces and lengths keep their units. */
 static void units_without_a_load(void **state)
 {
-    (void)state;
     static const double none[4] = {0.0}, half[4] = {0.0, 0.5, 0.5, 8.0};
     for (int stiff = 0; stiff < 2; stiff++)
         for (int loaded = 0; loaded < 2; loaded++) {
@@ -423,7 +412,6 @@ static rb_status build_and_condense(void)
 
 static void memory_runs_out(void **state)
 {
-    (void)state;
     for (int k = 0;; k++) {
         alloc_fail_after(k);
         const rb_status s = build_and_condense();

@@ -13,7 +13,6 @@ static char folder[] = "/tmp/rollbem-fem-XXXXXX";
 
 static int make_folder(void **state)
 {
-    (void)state;
     return mkdtemp(folder) ? 0 : -1;
 }
 
@@ -33,7 +32,6 @@ static int run(const char *format, ...)
 
 static int drop_folder(void **state)
 {
-    (void)state;
     char command[200];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command);
@@ -75,7 +73,6 @@ static void matches(const char *recorded)
 
 static void recorded_outputs_are_todays(void **state)
 {
-    (void)state;
     assert_int_equal(run("bar --solver lemke --output %s", inside("out.tsv")), 0);
     matches("examples/bar/output.tsv");
     assert_int_equal(run("truss --output %s", inside("out.tsv")), 0);
@@ -87,7 +84,6 @@ static void recorded_outputs_are_todays(void **state)
 
 static void json_and_picture_are_written(void **state)
 {
-    (void)state;
     assert_int_equal(run("truss --nodes 4 --json --output %s --plot %s.png",
                          inside("out.json"), folder),
                      0);
@@ -114,7 +110,6 @@ static void json_and_picture_are_written(void **state)
 
 static void the_wall_writes_its_problems(void **state)
 {
-    (void)state;
     assert_int_equal(
         run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
             inside("wall"), folder),
@@ -143,7 +138,6 @@ static void the_wall_writes_its_problems(void **state)
 
 static void refusals_have_their_exit_codes(void **state)
 {
-    (void)state;
     assert_int_equal(run("2>/dev/null"), 64);
     assert_int_equal(run("bra 2>/dev/null"), 64);
     assert_int_equal(run("bar truss 2>/dev/null"), 64);

@@ -10,14 +10,12 @@ static json_t *reference;
 
 static int load_reference(void **state)
 {
-    (void)state;
     reference = json_load_file("tests/data/kanno/reference.json", 0, NULL);
     return reference ? 0 : -1;
 }
 
 static int drop_reference(void **state)
 {
-    (void)state;
     json_decref(reference);
     return 0;
 }
@@ -145,13 +143,11 @@ static void bar_by(const char *solver, double tol)
 /* Pivots leave 6e-13 to 1.2e-12, by the kernels of the processor. */
 static void bar_by_lemke(void **state)
 {
-    (void)state;
     bar_by("lemke", 1e-11);
 }
 
 static void bar_by_newton(void **state)
 {
-    (void)state;
     bar_by("nsn-nm", 1e-12);
 }
 
@@ -248,7 +244,6 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
 
 static void small_trusses_by_every_newton(void **state)
 {
-    (void)state;
     static const char *const solvers[] = {"nsn-ac", "soclcp-smoothing"};
     for (int k = 0; k < 4; k++)
         truss_by(solvers[k / 2], (rb_fem_layout)(k % 2), 4);
@@ -256,14 +251,12 @@ static void small_trusses_by_every_newton(void **state)
 
 static void trusses_by_newton(void **state)
 {
-    (void)state;
     truss_by("nsn-ac", RB_FEM_UPPER_INSIDE, 12);
     truss_by("nsn-ac", RB_FEM_UPPER_OVERHANGING, 12);
 }
 
 static void trusses_by_smoothing(void **state)
 {
-    (void)state;
     truss_by("soclcp-smoothing", RB_FEM_UPPER_INSIDE, 12);
     truss_by("soclcp-smoothing", RB_FEM_UPPER_OVERHANGING, 12);
 }
@@ -271,7 +264,6 @@ static void trusses_by_smoothing(void **state)
 /* The full system, without condensation, gives the same first increment. */
 static void condensation_changes_nothing(void **state)
 {
-    (void)state;
     rb_fem_model model;
     rb_fem_history h;
     rb_fem_state start;
@@ -303,7 +295,6 @@ static void condensation_changes_nothing(void **state)
 
 static void an_unknown_solver_is_refused(void **state)
 {
-    (void)state;
     rb_fem_model model;
     rb_fem_history h;
     rb_message why = {""};
@@ -318,7 +309,6 @@ static void an_unknown_solver_is_refused(void **state)
  * does not begin: there is no increment whose numbers anybody could take for a result. */
 static void an_increment_that_has_not_begun_is_none(void **state)
 {
-    (void)state;
     rb_fem_model model;
     rb_fem_history h;
     rb_message why = {""};
@@ -332,7 +322,6 @@ static void an_increment_that_has_not_begun_is_none(void **state)
 
 static void memory_runs_out(void **state)
 {
-    (void)state;
     rb_fem_model model;
     CHECK_STATUS(rb_fem_model_bar(4, 2, &model, NULL), RB_OK);
     for (int k = 0;; k++) {

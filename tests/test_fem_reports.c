@@ -80,7 +80,6 @@ static solved_wall walls[2]; /* elastic, of rigid blocks (under its weight alone
 
 static int solve_walls(void **state)
 {
-    (void)state;
     static const int fine[3] = {4, 3, 3}, coarse[3] = {3, 2, 3};
     for (int rigid = 0; rigid < 2; rigid++) {
         solved_wall *w = &walls[rigid];
@@ -104,7 +103,6 @@ static int solve_walls(void **state)
 
 static int free_walls(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         free(walls[k].u);
         rb_fem_wall_free(walls[k].wall);
@@ -143,7 +141,6 @@ static void place(const solved_wall *w, double factor, int node, double at[2])
 /* Every face of the front, displaced, and the outline of every block. */
 static void front_of_the_wall_is_drawn(void **state)
 {
-    (void)state;
     static double mesh[2 * POINTS], edge[2 * POINTS];
     const solved_wall *w = &walls[0];
     const char *script = draw_wall(w, page, STEPS);
@@ -188,7 +185,6 @@ static void front_of_the_wall_is_drawn(void **state)
 /* Blocks that have not moved are drawn as they are. */
 static void wall_at_rest_is_not_magnified(void **state)
 {
-    (void)state;
     static double mesh[2 * POINTS];
     solved_wall still = walls[0];
     double right = 0.0, top = 0.0;
@@ -207,7 +203,6 @@ static void wall_at_rest_is_not_magnified(void **state)
 
 static void steps_of_the_wall_are_drawn(void **state)
 {
-    (void)state;
     const solved_wall *w = &walls[0];
     for (int steps = 1; steps <= STEPS; steps += STEPS - 1) {
         double x[7 * STEPS];
@@ -227,7 +222,6 @@ static void steps_of_the_wall_are_drawn(void **state)
 /* Panels side by side; in a column of print one below the other, without a title. */
 static void panels_lie_beside_or_below_each_other(void **state)
 {
-    (void)state;
     const solved_wall *w = &walls[0];
     for (int column = 0; column < 2; column++) {
         const char *script = draw_wall(w, column ? one_column : page, STEPS);
@@ -264,7 +258,6 @@ static void panels_lie_beside_or_below_each_other(void **state)
 
 static void wall_needs_steps_and_memory(void **state)
 {
-    (void)state;
     rb_message why = {""};
     FILE *out = tmpfile();
     CHECK_STATUS(rb_report_picture_wall(out, page, walls[0].wall, 0, walls[0].step, &why),
@@ -290,7 +283,6 @@ static double number(const json_t *object, const char *name)
 
 static void wall_as_json(void **state)
 {
-    (void)state;
     rb_fem_wall_step steps[STEPS];
     memcpy(steps, walls[0].step, sizeof steps);
     steps[1].residual = NAN;
@@ -322,7 +314,6 @@ static void wall_as_json(void **state)
 
 static void bar_and_truss_need_steps(void **state)
 {
-    (void)state;
     const rb_fem_model model = {0};
     const rb_fem_history history = {0};
     rb_message why[2] = {{""}, {""}};
@@ -340,7 +331,6 @@ static void bar_and_truss_need_steps(void **state)
  * slips, and at the end where it has moved, if only along one axis. */
 static void truss_is_drawn_by_its_slips(void **state)
 {
-    (void)state;
     enum { NODES = 4, QUARTER = 4 };
     static const char *const names[] = {"upper nodes inside", "upper nodes overhanging"};
     for (int layout = 0; layout < 2; layout++) {

@@ -43,7 +43,6 @@ static void close_parts(parts *p)
 
 static void blocks_weigh_what_they_should(void **state)
 {
-    (void)state;
     const rb_fem_wall_options o = small_wall(0);
     parts p;
     open_parts(&o, &p);
@@ -58,7 +57,6 @@ static void blocks_weigh_what_they_should(void **state)
 
 static void contact_map_has_full_rank(void **state)
 {
-    (void)state;
     const rb_fem_wall_options o = small_wall(0);
     parts p;
     int rank = -1;
@@ -71,7 +69,6 @@ static void contact_map_has_full_rank(void **state)
 /* The wall moving as one rigid body opens and slides no joint between blocks. */
 static void common_motion_leaves_the_joints_alone(void **state)
 {
-    (void)state;
     const rb_fem_wall_options o = small_wall(0);
     parts p;
     open_parts(&o, &p);
@@ -102,7 +99,6 @@ static void common_motion_leaves_the_joints_alone(void **state)
 /* R' M R of a box: m and m (b^2 + c^2)/12, exactly integrated. */
 static void rigid_blocks_have_their_inertia(void **state)
 {
-    (void)state;
     const rb_fem_wall_options o = small_wall(1);
     parts p;
     wall_system rigid;
@@ -140,7 +136,6 @@ static void rigid_blocks_have_their_inertia(void **state)
  * regular). */
 static void steps_are_problems_for_every_solver(void **state)
 {
-    (void)state;
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
     rb_fem_wall_step step;
@@ -192,7 +187,6 @@ static void steps_are_problems_for_every_solver(void **state)
 
 static void selection_is_by_difficulty(void **state)
 {
-    (void)state;
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
     rb_fem_wall_step step[6];
@@ -216,7 +210,6 @@ static void selection_is_by_difficulty(void **state)
  * the contacts of the upper support carry the force. */
 static void rigid_wall_carries_its_load(void **state)
 {
-    (void)state;
     rb_fem_wall_options o = small_wall(1);
     rb_fem_wall *wall;
     rb_fem_wall_step step;
@@ -241,7 +234,6 @@ static void rigid_wall_carries_its_load(void **state)
 /* An option of the wall out of its range is named, the last one within is taken. */
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *part; /* of the message; NULL: it is a wall */
         int fine[3], coarse[3];
@@ -285,7 +277,6 @@ static int stop_at_the_third(void *context)
 /* Not only between the steps, and with sweeps as well as with Newton's method. */
 static void a_step_can_be_stopped(void **state)
 {
-    (void)state;
     static const char *const solvers[] = {"nsn-ac", "nsgs-ac", "admm", "auto"};
     for (size_t k = 0; k < sizeof solvers / sizeof *solvers; k++) {
         int asked = 0;
@@ -309,7 +300,6 @@ static void a_step_can_be_stopped(void **state)
 
 static void failures_name_the_step(void **state)
 {
-    (void)state;
     const rb_fem_wall_options o = small_wall(1);
     rb_fem_wall *wall;
     rb_fem_wall_step step;
@@ -359,7 +349,6 @@ static void failures_name_the_step(void **state)
  * that are rigid only move and turn. */
 static void displacements_are_those_of_the_blocks(void **state)
 {
-    (void)state;
     for (int rigid = 0; rigid < 2; rigid++) {
         rb_fem_wall_options o = small_wall(rigid);
         rb_fem_wall *wall;
@@ -403,7 +392,6 @@ static void displacements_are_those_of_the_blocks(void **state)
 
 static void memory_runs_out(void **state)
 {
-    (void)state;
     for (int rigid = 0; rigid < 2; rigid++) {
         const rb_fem_wall_options o = small_wall(rigid);
         for (int k = 0;; k++) {
@@ -462,7 +450,6 @@ static double violation(const rb_friction_problem *p, const double *r, const dou
 /* The wall with little friction, under its weight: Newton from zero cycles. */
 static void auto_turns_to_smoothing_where_newton_cycles(void **state)
 {
-    (void)state;
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
     rb_fem_wall_step step;

@@ -56,7 +56,6 @@ static const struct {
 
 static void inputs_are_not_written_over(void **state)
 {
-    (void)state;
     write_file("m.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n");
     write_file("gap.tsv", "-1 0.01\n0 0\n1 0.01\n");
     write_file("h.tsv", "load\n100\n");
@@ -84,7 +83,6 @@ static const char *const unwritable[] = {
 
 static void what_cannot_be_written_is_not_solved(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof unwritable / sizeof unwritable[0]; k++)
         check_refused(unwritable[k], 73, "cannot write: No such file or directory");
 }
@@ -92,7 +90,6 @@ static void what_cannot_be_written_is_not_solved(void **state)
 /* A limit of file sizes is what a full disk looks like. */
 static void full_disks_leave_nothing(void **state)
 {
-    (void)state;
     static const char *const lines[] = {CASE "--contact-elements 300 --output a.tsv",
                                         CASE "--fclib a.hdf5", CASE "--plot a.png",
                                         "stress " CASE "--grid 40x40 --fringes a.png",
@@ -117,7 +114,6 @@ static void full_disks_leave_nothing(void **state)
 /* Links, pipes and devices stay what they are; modes too. */
 static void fclib_files_are_written_as_all_others(void **state)
 {
-    (void)state;
     struct stat st;
     clear();
     write_file("real", "old");
@@ -145,7 +141,6 @@ static void fclib_files_are_written_as_all_others(void **state)
 /* A dump of one case beside the matrices of another would be of neither. */
 static void a_dump_replaces_the_one_before(void **state)
 {
-    (void)state;
     clear();
     assert_int_equal(
         rollbem("--support hub --load 100 --contact-elements 12 --quiet --dump d "
@@ -171,7 +166,6 @@ static void a_dump_replaces_the_one_before(void **state)
  * work then, however busy the machine is, and none of these ends so soon. */
 static void signals_leave_nothing_behind(void **state)
 {
-    (void)state;
     static const char *const jobs[] = {
         CASE "--support hub --contact-elements 1200 --error --output a.tsv",
         CASE "--formulation transient --distance 1e5 --creep 1e-3 --output a.tsv",
@@ -206,7 +200,6 @@ static void signals_leave_nothing_behind(void **state)
 
 static void a_closed_output_matters_only_where_it_is_used(void **state)
 {
-    (void)state;
     assert_int_equal(shell("\"$R\" " CASE "--output a.tsv >&-"), 0);
     assert_int_equal(shell("\"$R\" " CASE "--output b.tsv >&- 2>&- <&-"), 0);
     assert_int_equal(shell("cmp a.tsv b.tsv || diff a.tsv b.tsv | grep -c output"), 0);
@@ -216,7 +209,6 @@ static void a_closed_output_matters_only_where_it_is_used(void **state)
 
 static void the_longest_names_are_taken(void **state)
 {
-    (void)state;
     clear();
     assert_int_equal(shell("n() { printf \"$1%.0s\" $(seq $2); }; i=$(n i 251).ini; "
                            "printf 'load = 100\\n' >$i; \"$R\" $i " CASE
@@ -235,7 +227,6 @@ static void the_longest_names_are_taken(void **state)
 
 static void names_of_any_bytes_are_printed(void **state)
 {
-    (void)state;
     clear();
     assert_int_equal(
         shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
@@ -257,7 +248,6 @@ static void names_of_any_bytes_are_printed(void **state)
 
 static void files_that_are_no_text_are_named(void **state)
 {
-    (void)state;
     static const char *const commands[] = {"case", CASE "--gap case", "--history case",
                                            "sweep " CASE "--cases case",
                                            "stress " CASE "--points case"};
@@ -280,7 +270,6 @@ static void files_that_are_no_text_are_named(void **state)
 /* OpenBLAS waits for ever for its buffer. */
 static void a_limit_of_memory_is_said(void **state)
 {
-    (void)state;
 #if SANITIZED
     skip(); /* reserves terabytes */
 #endif

@@ -111,7 +111,6 @@ static void exact_data_give_the_truth(void **state)
         POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL, NULL, NULL};
     rb_case_fit fit = fit_of(5, all);
     rb_message why = {""};
-    (void)state;
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
     for (int j = 0; j < 5; j++)
@@ -125,7 +124,6 @@ static void noise_leaves_it_in_the_intervals(void **state)
         POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     rb_case_fit fit = fit_of(5, all);
     rb_message why = {""};
-    (void)state;
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
     assert_int_equal(fit.unidentified, 0);
@@ -149,7 +147,6 @@ static void forces_and_ratios_agree(void **state)
     static const char *const names[] = {"mu"};
     double ratio[7], force[7], P;
     rb_case_fit fits[2];
-    (void)state;
     {
         rb_case *c = case_of(RB_CASE_CURVE);
         CHECK_STATUS(rb_case_resolve(c, NULL), RB_OK);
@@ -190,7 +187,6 @@ static void no_falling_part_is_said(void **state)
     static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
     rb_case_fit fit = fit_of(3, names);
     rb_message why = {""};
-    (void)state;
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
     assert_non_null(strstr(fit.sentences,
@@ -206,7 +202,6 @@ static void refusals(void **state)
     static const char *const nonsense[] = {"zone"};
     rb_case_fit fit = fit_of(1, nonsense);
     rb_message why = {""};
-    (void)state;
     CHECK_STATUS(solve(&data, 0.0, &fit, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "'zone' is not a number"));
     rb_case_fit_free(&fit);
@@ -238,7 +233,6 @@ static void write_data(const char *path, const char *names)
 
 static void command_prints_parameters(void **state)
 {
-    (void)state;
     write_data("creep.tsv", "creep\tforce_over_load");
     json_t *root = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
     json_t *mu = json_object_get(json_object_get(root, "parameters"), "mu");
@@ -265,7 +259,6 @@ static void command_prints_parameters(void **state)
 
 static void command_prints_derivatives(void **state)
 {
-    (void)state;
     json_t *root = run_json("--derivatives" BODIES " --formulation steady --creep -2e-3 "
                             "--tolerance mu=0.02,radius=1%");
     json_t *all_of = json_object_get(root, "derivatives");
@@ -328,7 +321,6 @@ static double slope_of(json_t *owner, const char *result, const char *input, siz
 /* The same numbers in the columns of curves, studies and histories, and in JSON. */
 static void derivatives_stand_in_columns(void **state)
 {
-    (void)state;
     json_t *one = run_json("--derivatives tangential_load,max_pressure" BODIES
                            " --formulation steady --creep-ratio 0.6");
     json_t *all_of = json_object_get(one, "derivatives");
@@ -390,7 +382,6 @@ static void derivatives_stand_in_columns(void **state)
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */
 static void samples_scatter_as_tolerances(void **state)
 {
-    (void)state;
     const char *const line =
         "sweep --sample 60 --tolerance mu=0.01,load=1% --jobs 1 --seed 3 "
         "--similar --support halfplane --load 500 --formulation steady "

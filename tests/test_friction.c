@@ -104,7 +104,6 @@ static void make_sparse(rb_friction_problem *p)
  * derivative. */
 static void smoothed_projections_obey_their_definition(void **state)
 {
-    (void)state;
     unsigned seed = 11;
     double zero = 0.0, own = NAN, slope = NAN;
     rb_friction_smoothed(1, 0.0, &zero, &own, &slope);
@@ -158,7 +157,6 @@ static double floor_again(const rb_friction_problem *p, const double *r)
 
 static void the_measure_is_equation_13(void **state)
 {
-    (void)state;
     unsigned seed = 3;
     for (int d = 2; d <= 3; d++) {
         enum { NC = 7 };
@@ -226,7 +224,6 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
 
 static void condensation_gives_the_same_problem(void **state)
 {
-    (void)state;
     enum { NC = 6, M = 3 * NC };
     rb_friction_problem p, local;
     rb_friction_info info;
@@ -298,7 +295,6 @@ static void chains(int size, int nc, rb_friction_problem *p)
 /* Masses (one degree of freedom), bodies inverted densely and bodies for CHOLMOD. */
 static void bodies_of_every_size_are_condensed(void **state)
 {
-    (void)state;
     static const int sizes[] = {1, 2, 6, 12, 13, 40};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         rb_friction_problem p, local;
@@ -321,7 +317,6 @@ static void bodies_of_every_size_are_condensed(void **state)
 /* The same structure under other loads: as if each were solved by itself. */
 static void a_handle_solves_one_load_after_another(void **state)
 {
-    (void)state;
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
         rb_friction_handle *handle;
@@ -369,7 +364,6 @@ static void a_handle_solves_one_load_after_another(void **state)
 
 static void a_structure_held_by_friction_alone_is_solved(void **state)
 {
-    (void)state;
     enum { NC = 2, M = 3 * NC, N = 2 * M };
     rb_friction_problem p, local;
     rb_friction_info info;
@@ -412,7 +406,6 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
 /* Every Newton method on planted problems, dense and sparse, from its own residual. */
 static void newton_solves_planted_problems(void **state)
 {
-    (void)state;
     const char *names[] = {"nsn-ac", "nsn-jm",     "nsn-nm",     "nsn-fb",
                            "auto",   "nsn-ac-nls", "nsn-jm-nls", "nsn-fb-nls"};
     for (int d = 2; d <= 3; d++)
@@ -439,7 +432,6 @@ static void newton_solves_planted_problems(void **state)
 
 static void facts_are_reported(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_facts facts;
     double r[9];
@@ -463,7 +455,6 @@ static void facts_are_reported(void **state)
 
 static void zero_q_has_the_trivial_solution(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     double r[6], u[6];
@@ -492,7 +483,6 @@ static void refuse(rb_friction_problem *p, const char *words)
 
 static void bad_problems_are_refused(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
@@ -549,7 +539,6 @@ static void bad_problems_are_refused(void **state)
  * floating point: 0 <= -0. */
 static void a_frictionless_contact_does_not_pull(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, r[3], u[3];
         for (int a = 0; a < d; a++)
@@ -580,7 +569,6 @@ static void a_frictionless_contact_does_not_pull(void **state)
 
 static void success_is_never_claimed_above_the_tolerance(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
@@ -641,7 +629,6 @@ static rb_status solve_anew(void *context)
 /* Each alone, where the ones after it succeed. */
 static void each_failing_allocation_is_reported(void **state)
 {
-    (void)state;
     static const char *const names[] = {
         "auto",          "nsn-ac",           "nsn-fb",  "nsn-ac-hybrid",
         "nsgs-ac",       "nsgs-aa",          "nsgs-fp", "fixed-point",
@@ -663,7 +650,6 @@ static void each_failing_allocation_is_reported(void **state)
 
 static void failing_allocations_are_reported(void **state)
 {
-    (void)state;
     static const char *const solvers[] = {"auto",    "nsn-ac",      "nsn-ac-hybrid",
                                           "nsgs-ac", "fixed-point", "soclcp-smoothing"};
     rb_friction_problem p[2];

@@ -155,7 +155,6 @@ static void solve_and_assess(const structure *s, const rb_friction_problem *p, d
 
 static void eliminated_constraints_are_those_of_the_saddle_point(void **state)
 {
-    (void)state;
     int loaded = 0;
     for (unsigned seed = 1; seed <= 40; seed++) {
         structure s;
@@ -218,7 +217,6 @@ static void make_local(const structure *s, rb_io_fclib *file)
 
 static void both_forms_come_from_files(void **state)
 {
-    (void)state;
     char path[] = "/tmp/rollbem-bilateral-XXXXXX";
     close(mkstemp(path));
     for (unsigned seed = 50; seed < 56; seed++) {
@@ -253,7 +251,6 @@ static void both_forms_come_from_files(void **state)
 
 static void redundant_constraints_drop_out(void **state)
 {
-    (void)state;
     structure s;
     rb_friction_problem p, q;
     rb_sparse G, more = {0};
@@ -289,7 +286,6 @@ static void redundant_constraints_drop_out(void **state)
  * 1, one is pushed along by `push`.  The friction is at most 1 in all. */
 static void a_rod_slides_or_sticks_as_a_whole(void **state)
 {
-    (void)state;
     for (int slides = 0; slides < 2; slides++) {
         int at[] = {0, 1, 2, 3}, rod[] = {1, 3}, first[] = {0, 0};
         double one[] = {1.0, 1.0, 1.0, 1.0}, apart[] = {1.0, -1.0}, none[] = {0.0};
@@ -349,7 +345,6 @@ static void refused(rb_status s, const rb_message *why, const char *words)
 
 static void what_cannot_be_is_refused(void **state)
 {
-    (void)state;
     structure s;
     rb_friction_problem p;
     rb_sparse G, bad = {0};
@@ -434,7 +429,6 @@ static void dense_problems_lose_their_constraints_alike(void **state)
     double W[2][M * M] = {{0.0}};
     rb_friction_problem p[2];
 
-    (void)state;
     for (int k = 0; k < 2; k++) {
         structure s;
         rb_io_fclib file;
@@ -471,7 +465,6 @@ static void dense_problems_lose_their_constraints_alike(void **state)
 
 static void failing_allocations_leave_the_problem(void **state)
 {
-    (void)state;
     structure s;
     rb_io_fclib file;
     rb_message why = {""};

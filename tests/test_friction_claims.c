@@ -229,7 +229,6 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
 
 static void no_solver_claims_what_is_not_so(void **state)
 {
-    (void)state;
     static const double tolerances[] = {1e-8, 1e-4, 1e-12};
     const int wanted = getenv("ROLLBEM_TEST_ALL") ? 200000 : 5000;
     int solvers;
@@ -251,7 +250,6 @@ static void no_solver_claims_what_is_not_so(void **state)
 /* The judge sees a force that is a millionth off. */
 static void the_judge_sees_small_errors(void **state)
 {
-    (void)state;
     challenge c;
     double r[MOST], u[MOST], error, floor;
     pose(0, &c);

@@ -33,7 +33,6 @@ static int set_up(void **state)
 
 static void the_answer_can_be_checked(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("friction --json --solution slides"), 0);
     json_t *root = json_loads(out, 0, NULL);
     assert_non_null(root);
@@ -54,7 +53,6 @@ static void the_answer_can_be_checked(void **state)
 /* File, solver, status: what does not depend on the clock. */
 static void compare_writes_its_file(void **state)
 {
-    (void)state;
     const char *const command = "compare --solvers nsn-ac,lemke slides zero";
     char line[200];
     snprintf(line, sizeof line, "%s --output runs.tsv", command);
@@ -76,7 +74,6 @@ static void compare_writes_its_file(void **state)
 
 static void every_solver_is_there_by_name(void **state)
 {
-    (void)state;
     static const char *const names[] = {"auto",
                                         "nsn-ac",
                                         "nsn-jm",
@@ -108,7 +105,6 @@ static void every_solver_is_there_by_name(void **state)
 
 static void bad_files_get_a_line_each_and_the_others_run(void **state)
 {
-    (void)state;
     const int code =
         rollbem("friction nan mu short dimension empty foreign.hdf5 nowhere slides");
     assert_int_equal(code, 66);
@@ -132,7 +128,6 @@ static void bad_files_get_a_line_each_and_the_others_run(void **state)
 
 static void what_is_not_solved_says_so(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("friction no slides"), 1);
     assert_non_null(strstr(err, "rollbem: no: "));
     assert_non_null(strstr(err, "rollbem: no: note: no solution exists"));
@@ -161,7 +156,6 @@ static void large_problems_are_looked_at_when_asked(void **state)
                              .mu = mu,
                              .q = q};
     rb_triplets W = {.rows = ROWS, .cols = ROWS};
-    (void)state;
     for (int i = 0; i < ROWS; i++) {
         rb_triplets_add(&W, i, i, 1.0);
         q[i] = i % 2 == 0 ? -1.0 : 0.1;
@@ -181,7 +175,6 @@ static void large_problems_are_looked_at_when_asked(void **state)
 
 static void cones_and_forced_formats(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("friction --format siconos-soclcp --solution cone"), 0);
     assert_non_null(strstr(out, "soclcp-smoothing"));
     assert_int_equal(
@@ -197,7 +190,6 @@ static void cones_and_forced_formats(void **state)
  * problem has as well; in space one of four coordinates that slides. */
 static void global_problems_are_read_as_text(void **state)
 {
-    (void)state;
     write_file("plane", "2 1 0 2 2 2 2 2 0 0 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
     write_file("loose", "2 1 0 2 2 2 2 2 0 0 0\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
     assert_int_equal(rollbem("friction --solver extragradient loose"), 1);
@@ -234,7 +226,6 @@ static void global_problems_are_read_as_text(void **state)
 
 static void the_command_line_is_checked(void **state)
 {
-    (void)state;
     check_refused("friction", 64, "FILE");
     check_refused("friction --solver nsn-acc slides", 64, "did you mean 'nsn-ac'");
     check_refused("friction --tol 0 slides", 64, "--tol");
@@ -247,7 +238,6 @@ static void the_command_line_is_checked(void **state)
 
 static void profiles_are_printed(void **state)
 {
-    (void)state;
     assert_int_equal(
         rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
     json_t *root = json_loads(out, 0, NULL);
@@ -271,7 +261,6 @@ static void profiles_are_printed(void **state)
  * sweep; the scaled measure does not see the units. */
 static void the_chosen_measure_decides(void **state)
 {
-    (void)state;
     static const char *const sweeps[] = {"scaled", "acary"};
     write_file("stiff", "3\n2\n0\n6 6\n6 6\n2e4 0 0 1e4 0 0\n0 2e4 0 0 1e4 0\n"
                         "0 0 2e4 0 0 1e4\n1e4 0 0 2e4 0 0\n0 1e4 0 0 2e4 0\n"

@@ -104,7 +104,6 @@ static void to_dense(const rb_sparse *a, double *x)
 
 static void bodies_that_meet_anywhere_are_condensed(void **state)
 {
-    (void)state;
     static double K[DOFS * DOFS], X[DOFS * (M + 1)], H[DOFS * M], W[M * M];
     for (int trial = 0; trial < 10; trial++) {
         rb_friction_problem p, local;
@@ -138,7 +137,6 @@ static void bodies_that_meet_anywhere_are_condensed(void **state)
 /* One of the bodies has a matrix of ones, which is of rank 1, or no stiffness at all. */
 static void a_loose_body_is_told(void **state)
 {
-    (void)state;
     for (int b = 0; b < BODIES; b++) {
         const int full = b < FULL && sizes[b] > 1;
         rb_friction_problem p, local;
@@ -167,7 +165,6 @@ static rb_status condense(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     make_bodies(&p);
     assert_true(alloc_fail_each(condense, &p) > 5);

@@ -48,7 +48,6 @@ static double violation(int d, double mu, const double *r, const double *u)
 
 static void one_contact_obeys_coulomb(void **state)
 {
-    (void)state;
     unsigned seed = 5;
     int states[3] = {0, 0, 0}; /* open, stuck, sliding */
     for (int k = 0; k < 6000; k++) {
@@ -78,7 +77,6 @@ static void one_contact_obeys_coulomb(void **state)
  * lambda is a compliance. */
 static void one_contact_has_no_unit(void **state)
 {
-    (void)state;
     unsigned seed = 7;
     for (int k = 0; k < 500; k++) {
         const int d = 2 + k % 2;
@@ -102,7 +100,6 @@ static void one_contact_has_no_unit(void **state)
 /* Elimination and Newton on Alart-Curnier's function are two ways to the same force. */
 static void elimination_agrees_with_newton(void **state)
 {
-    (void)state;
     unsigned seed = 7;
     for (int k = 0; k < 200; k++) {
         const int d = 2 + k % 2;
@@ -124,7 +121,6 @@ static void elimination_agrees_with_newton(void **state)
 /* A block need not be symmetric: stick and sliding to either side, and Newton's steps. */
 static void newton_obeys_coulomb_with_unsymmetric_blocks(void **state)
 {
-    (void)state;
     unsigned seed = 11;
     int states[3] = {0, 0, 0};
     for (int k = 0; k < 1200; k++) {
@@ -147,7 +143,6 @@ static void newton_obeys_coulomb_with_unsymmetric_blocks(void **state)
 
 static void a_singular_block_is_left_to_newton(void **state)
 {
-    (void)state;
     const double loose[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     const double upside_down[] = {-1.0, 0.0, 0.0, 1.0};
     const double q[] = {-1.0, 0.2, 0.1}, away[] = {0.0, 1.0, 2.0};
@@ -186,7 +181,6 @@ static void make_sparse(rb_friction_problem *p)
 
 static void blocks_multiply_as_the_matrix_does(void **state)
 {
-    (void)state;
     unsigned seed = 3;
     for (int k = 0; k < 4; k++) {
         rb_friction_problem p;
@@ -217,7 +211,6 @@ static void blocks_multiply_as_the_matrix_does(void **state)
  * sparse LU (which large orders take) */
 static void a_newton_step_solves_its_system(void **state)
 {
-    (void)state;
     unsigned seed = 9;
     static const int sizes[] = {5, 130};
     for (int k = 0; k < 4; k++) {
@@ -265,7 +258,6 @@ static void a_newton_step_solves_its_system(void **state)
 /* r -> M r + b in four dimensions, u = 2 r - 1: GMRES needs four products. */
 static void acceleration_solves_a_linear_iteration(void **state)
 {
-    (void)state;
     enum { M = 4 };
     const double b[M] = {1.0, -2.0, 0.5, 3.0};
     unsigned seed = 21;
@@ -297,7 +289,6 @@ static void acceleration_solves_a_linear_iteration(void **state)
 
 static void acceleration_goes_back_where_it_was_led_astray(void **state)
 {
-    (void)state;
     static const double led_to[] = {1.0, 1.5, 40.0};
     double r[1] = {0.0}, u[1] = {0.0}, start[1];
     rb_friction_anderson a;
@@ -334,7 +325,6 @@ static void pile(int nc, double coupling, rb_friction_problem *p)
 
 static void acceleration_saves_sweeps(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info plain, fast;
     double r[60], s[60], u[60];
@@ -355,7 +345,6 @@ static void acceleration_saves_sweeps(void **state)
  * next one.  Operations: the blocks B H', and dense LU with its two substitutions. */
 static void a_step_of_all_bodies_solves_its_system(void **state)
 {
-    (void)state;
     unsigned seed = 6;
     for (int sparse = 0; sparse < 2; sparse++) {
         const int nc = sparse ? 60 : 3, m = 2 * nc, n = m + 2;
@@ -420,7 +409,6 @@ static void a_step_of_all_bodies_solves_its_system(void **state)
  * there had been no sweeps. */
 static void the_hybrid_sees_what_sweeps_are_worth(void **state)
 {
-    (void)state;
     for (int strong = 0; strong < 2; strong++) {
         rb_friction_problem p;
         rb_friction_info newton, hybrid;
@@ -446,7 +434,6 @@ static void the_hybrid_sees_what_sweeps_are_worth(void **state)
  * that may yield pause where they stall, and go on when they are asked again. */
 static void sweeps_that_stall_yield(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info = {0};
     rb_friction_shared shared;

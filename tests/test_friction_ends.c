@@ -82,7 +82,6 @@ static int takes(const rb_friction_solver *solver, int d)
 
 static void without_time_every_solver_says_so(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     rb_friction_options opt = rb_friction_defaults();
@@ -107,7 +106,6 @@ static void without_time_every_solver_says_so(void **state)
 /* Velocities whose squares and sums overflow are not solved, and not called solved. */
 static void numbers_beyond_the_largest_are_not_solved(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     rb_friction_options opt = rb_friction_defaults();
@@ -141,7 +139,6 @@ static int count_looks(const rb_friction_progress *at, void *context)
  * every 200, and else only where the change of a sweep says that it may be met. */
 static void sweeps_seldom_look_at_the_measure(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         rb_friction_problem p;
         rb_friction_info info;
@@ -177,7 +174,6 @@ static void options_that_are_none_are_refused(void **state)
     rb_friction_problem p;
     rb_friction_handle *handle;
     rb_friction_info info;
-    (void)state;
     make_local(3, 1.0, &p);
     CHECK_STATUS(rb_friction_setup(&p, &handle, NULL), RB_OK);
     double r[LARGEST], u[LARGEST];
@@ -200,7 +196,6 @@ static void options_that_are_none_are_refused(void **state)
  * nothing where a call fails. */
 static void a_handle_keeps_its_last_solution(void **state)
 {
-    (void)state;
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
         rb_friction_handle *handle;
@@ -238,7 +233,6 @@ static void a_handle_keeps_its_last_solution(void **state)
 
 static void facts_do_not_depend_on_the_form(void **state)
 {
-    (void)state;
     for (int with_rank = 0; with_rank < 2; with_rank++) {
         rb_friction_problem p;
         rb_friction_facts dense, sparse, global;
@@ -272,7 +266,6 @@ static void damaged_matrices_are_named(void **state)
     static const char *const words[DEFECTS] = {"H is missing", "H is missing",
                                                "H is missing", "H is 11 x 12",
                                                "H is 12 x 11", "H: entry 1 is inf"};
-    (void)state;
     for (defect k = 0; k < DEFECTS; k++) {
         rb_friction_problem p;
         rb_message why = {""};
@@ -314,7 +307,6 @@ static void damaged_matrices_are_named(void **state)
 
 static void damaged_vectors_are_named(void **state)
 {
-    (void)state;
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
         rb_message why = {""};
@@ -363,7 +355,6 @@ static void nearly_loose_bodies_are_not_condensed(void **state)
                              .w = w};
     rb_friction_problem local;
     rb_message why = {""};
-    (void)state;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, K, 2, &p.K), RB_OK);
     CHECK_STATUS(rb_sparse_from_dense(2, 2, H, 2, &p.H), RB_OK);
     CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
@@ -376,7 +367,6 @@ static void nearly_loose_bodies_are_not_condensed(void **state)
  * otherwise is refused. */
 static void constraints_are_redundant_but_for_rounding(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < 20; trial++)
         for (int contradicts = 0; contradicts < 2; contradicts++) {
             double G[3 * LARGEST], b[3] = {uniform(), uniform(), 0.0};
@@ -413,7 +403,6 @@ static void cones_that_are_none_are_refused(void **state)
                {3, {0, 3}, 1.0, 1.0, "cone 1"},
                {3, {2, 2}, 1.0, 1.0, "cone 2"},
                {0, {0, 0}, 1.0, 1.0, ""}};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         double M[9] = {all[k].M, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
         double q[3] = {all[k].q, 0.0, 0.0}, x[3], y[3];
@@ -437,7 +426,6 @@ static void the_error_on_cones_is_relative(void **state)
 {
     const double x[3] = {1.0, 0.2, 0.3};
     double y[3], s[3], square = 0.0;
-    (void)state;
     for (int i = 0; i < 3; i++) {
         s[i] = x[i] - cone_q[i];
         for (int j = 0; j < 3; j++)
@@ -472,7 +460,6 @@ static void limits_hold_on_cones(void **state)
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
     double x[3], y[3], again[3];
-    (void)state;
     CHECK_STATUS(rb_friction_soclcp(&on_cones, NULL, x, y, NULL), RB_OK);
     for (int i = 0; i < 3; i++) {
         double want = cone_q[i];
@@ -529,7 +516,6 @@ static void what_does_not_roll_is_refused(void **state)
 {
     static const double fine[] = {0.1, 0.2};
     static const double bad[][2] = {{0.1, -0.1}, {NAN, 0.1}, {0.1, INFINITY}};
-    (void)state;
     for (int k = 0; k < 9; k++) {
         rb_friction_problem p, whole;
         rb_message why = {""};
@@ -553,7 +539,6 @@ static void what_does_not_roll_is_refused(void **state)
 static void wheels_without_stiffness_have_the_length_one(void **state)
 {
     static const double mu_r[] = {0.1, 0.2};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_friction_problem p;
         rb_message why = {""};
@@ -590,7 +575,6 @@ static void make_loose(rb_friction_problem *p)
 static void contacts_without_tangential_compliance_slip(void **state)
 {
     static const char *const names[] = {"nsgs-ac", "nsgs-aa", "lemke", "auto"};
-    (void)state;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         rb_friction_problem p;
         rb_friction_info info;
@@ -663,7 +647,6 @@ static rb_status roll(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_friction_problem p;
         if (k == 2)

@@ -41,7 +41,6 @@ static void local_problems_come_from_text(void **state)
 {
     static const double W[] = {4.0, 1.0, 2.0, 3.0};
     rb_friction_problem p;
-    (void)state;
     read_whole(full, RB_FRICTION_FILE_ANY, &p);
     assert_int_equal(p.form, RB_FRICTION_LOCAL_DENSE);
     assert_int_equal(p.dimension, 2);
@@ -64,7 +63,6 @@ static void local_problems_come_from_text(void **state)
 
 static void global_problems_come_from_text(void **state)
 {
-    (void)state;
     for (int named = 0; named < 2; named++) {
         rb_friction_problem p;
         read_whole(global, named ? RB_FRICTION_FILE_SICONOS_GLOBAL : RB_FRICTION_FILE_ANY,
@@ -90,7 +88,6 @@ static void global_problems_come_from_text(void **state)
  * is that of the local one. */
 static void a_head_of_both_forms_is_followed_to_the_end(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_message why = {""};
     read_whole(two_ways, RB_FRICTION_FILE_ANY, &p);
@@ -117,7 +114,6 @@ static void cones_get_the_slope_one(void **state)
                                2.0, 3.0, 9.0, 7.0, 4.0, 5.0, 7.0, 10.0};
     rb_friction_soclcp_data d;
     rb_message why = {""};
-    (void)state;
     put(cones);
     if (rb_friction_soclcp_read(path, &d, &why) != RB_OK)
         fail_msg("%s", why.text);
@@ -155,7 +151,6 @@ static void what_is_no_friction_problem_is_refused(void **state)
                {"2 1 0 2 2 2 2 4 1 2", RB_FRICTION_FILE_SICONOS, ""},
                {full, RB_FRICTION_FILE_FCLIB, ""},
                {"nothing", RB_FRICTION_FILE_ANY, ""}};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_friction_problem p;
         rb_message why = {""};
@@ -194,7 +189,6 @@ static void problems_go_into_fclib_and_come_back(void **state)
 {
     static const char *const texts[] = {full, half, global};
     double r[] = {1.5, 2.5}, u[] = {3.5, 4.5}, v[] = {5.5, 6.5, 7.5};
-    (void)state;
     for (int k = 0; k < 6; k++) {
         rb_friction_problem p, back;
         rb_io_fclib file;
@@ -252,7 +246,6 @@ static void short_memory_is_reported(void **state)
 {
     static const char *const texts[] = {full, half, global};
     rb_friction_file kind;
-    (void)state;
     for (int k = 0; k < 6; k++) {
         kind = k < 3    ? RB_FRICTION_FILE_ANY
                : k == 5 ? RB_FRICTION_FILE_SICONOS_GLOBAL

@@ -30,7 +30,6 @@ static double dot(int d, const double *x, const double *y)
  * nearest to z. */
 static void projections_are_nearest_points(void **state)
 {
-    (void)state;
     static const double mus[] = {0.0, 0.3, 2.0};
     for (int k = 0; k < 600; k++) {
         const int d = 2 + k % 2;
@@ -66,7 +65,6 @@ static void projections_are_nearest_points(void **state)
 
 static void norms_hold_over_all_sizes(void **state)
 {
-    (void)state;
     for (size_t n = 1; n < 12; n++) {
         double x[12], y[12], squares = 0.0, product = 0.0, apart = 0.0;
         for (size_t k = 0; k < n; k++) {
@@ -141,7 +139,6 @@ static void obey_coulomb(const rb_friction_cone *cone, int how, double *r, doubl
 
 static void solutions_are_the_roots(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < 300; trial++) {
         const rb_friction_cone cone = {2 + trial % 2, trial % 5 ? 0.6 : 0.0,
                                        1.5 + uniform(), 1.5 + uniform()};
@@ -172,7 +169,6 @@ static void solutions_are_the_roots(void **state)
 /* Against differences, away from the kinks: where those of two steps agree. */
 static void derivatives_are_those_of_the_functions(void **state)
 {
-    (void)state;
     int compared = 0, all = 0;
     for (int trial = 0; trial < 400; trial++) {
         const int d = 2 + trial % 2;
@@ -214,7 +210,6 @@ static void derivatives_are_those_of_the_functions(void **state)
  * keeps A and B between 0 and 1 in units of rho, and together regular. */
 static void at_zero_the_derivatives_are_regular(void **state)
 {
-    (void)state;
     static const double zero[3];
     for (int d = 2; d <= 3; d++)
         for (int k = 0; k < FUNCTIONS; k++)
@@ -235,7 +230,6 @@ static void at_zero_the_derivatives_are_regular(void **state)
 /* A block is kept for any entry of it, whatever stands in the others. */
 static void single_entries_make_blocks(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++)
         for (int entry = 0; entry < 4 * d * d; entry++) {
             const int m = 2 * d;
@@ -303,7 +297,6 @@ static double largest_eigenvalue(int d, const double *W, int m, int top)
 
 static void rho_is_the_inverse_of_a_contacts_own_compliance(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         const int m = d * NC;
         double W[9 * NC * NC], rho[2 * NC], same[2 * NC], mean = 0.0;
@@ -338,7 +331,6 @@ static void rho_is_the_inverse_of_a_contacts_own_compliance(void **state)
  */
 static void rho_of_a_structure_comes_from_its_diagonal(void **state)
 {
-    (void)state;
     int rows[] = {0, 1, 2, 0, 1}, cols[] = {0, 1, 2, 1, 0};
     double k[] = {2.0, 4.0, 5.0, -1.0, -1.0}, h[] = {1.0, 3.0, 2.0, 0.5, 0.0}, rho[2];
     rb_friction_problem p = {
@@ -372,7 +364,6 @@ static void velocities_and_imbalance_are_those_of_the_structure(void **state)
                              .dofs = DOFS,
                              .f = f,
                              .w = w};
-    (void)state;
     for (int i = 0; i < DOFS; i++) {
         f[i] = uniform();
         v[i] = uniform();
@@ -414,7 +405,6 @@ static void velocities_and_imbalance_are_those_of_the_structure(void **state)
 /* || r - P(r - rho uhat) || / rho over the contacts, and the size of r in those units. */
 static void the_natural_norm_is_that_of_the_contacts(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         double mu[NC], rho[2 * NC], r[3 * NC], u[3 * NC], work[3 * NC], one = 0.0;
         double sum = 0.0, size = 0.0, with_rho_1;

@@ -65,7 +65,6 @@ static void check_infeasible(const rb_friction_problem *p, const char *what)
 /* Nothing gives way at a contact that closes. */
 static void nothing_can_push(void **state)
 {
-    (void)state;
     memset(W, 0, sizeof W);
     q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
     const rb_friction_problem p = problem(2, 1);
@@ -75,7 +74,6 @@ static void nothing_can_push(void **state)
 /* A free body of mass 1 between two walls that close: their normals are opposite. */
 static void two_walls_close(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         const int m = 2 * d;
         memset(W, 0, sizeof W);
@@ -99,7 +97,6 @@ static void two_walls_close(void **state)
  * such problem has a solution, as W is then positive on what q asks for. */
 static void planted_proofs_are_found(void **state)
 {
-    (void)state;
     static double G[MOST * MOST];
     for (int k = 0; k < 40; k++) {
         const int d = 2 + k % 2, nc = 2 + k % 12, m = d * nc, n = m - 1;
@@ -148,7 +145,6 @@ static void planted_proofs_are_found(void **state)
 
 static void global_problems_are_condensed_first(void **state)
 {
-    (void)state;
     double y[1], least;
     rb_friction_problem p = problem(2, 1);
     p.form = RB_FRICTION_GLOBAL;
@@ -157,7 +153,6 @@ static void global_problems_are_condensed_first(void **state)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     memset(W, 0, sizeof W);
     q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
     const rb_friction_problem p = problem(2, 1);

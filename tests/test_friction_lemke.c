@@ -194,7 +194,6 @@ static double operations(kind k, int attempt, const rb_friction_problem *p, int 
 /* Paths in the displacement basis may end on a ray, and few do. */
 static void every_attempt_solves_by_itself(void **state)
 {
-    (void)state;
     enum { TRIALS = 10 };
     int solved[KINDS][RB_FRICTION_LEMKE_ATTEMPTS + 1] = {{0}};
     for (int trial = 0; trial < TRIALS * KINDS; trial++) {
@@ -230,7 +229,6 @@ static void every_attempt_solves_by_itself(void **state)
  * first three have no rays. */
 static void limits_hold_for_every_attempt(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     make_problem(DENSE, &p);
     for (int a = 0; a <= 3; a++) {
@@ -261,7 +259,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     int calls = 0; /* of all kinds together: a call fails once */
     for (kind k = 0; k < KINDS; k++) {
         rb_friction_problem p;

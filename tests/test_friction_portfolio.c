@@ -92,7 +92,6 @@ static void compare(const char *name, const rb_friction_problem *p, double most)
 
 static void auto_loses_little_to_its_members(void **state)
 {
-    (void)state;
     static const char *const packings[] = {
         "boxes 4 0.3 1",   "boxes 30 0.5 3",  "boxes 100 0.1 4", "discs 25 0 2",
         "discs 60 0.5 3",  "discs 200 0.2 5", "bricks 3 0.5 1",  "bricks 8 0.3 2",
@@ -109,7 +108,6 @@ static void auto_loses_little_to_its_members(void **state)
  */
 static void the_first_member_costs_auto_nothing(void **state)
 {
-    (void)state;
     static const char *const files[] = {"siconos/fc2d/FrictionContactProblem00394.dat",
                                         "siconos/fc2d/FrictionContactProblem00031.dat",
                                         "siconos/fc3d/FrictionContact3D_1c.dat",
@@ -136,7 +134,6 @@ static void the_first_member_costs_auto_nothing(void **state)
  * the condensed problem, where Newton on the global form went first and failed. */
 static void auto_condenses_rigid_bodies_first(void **state)
 {
-    (void)state;
     rb_friction_problem global, local;
     rb_friction_info of_global, of_local;
     rb_message why;
@@ -155,7 +152,6 @@ static void auto_condenses_rigid_bodies_first(void **state)
 /* 24 s and 18.7 s where plain sweeps took 0.03 and 0.13. */
 static void auto_on_the_packings_it_lost_on(void **state)
 {
-    (void)state;
     static const char *const files[] = {"packings/boxes2d_300_mu2.0.dat",
                                         "packings/disks2d_300_mu0.5.dat"};
     for (int k = 0; k < 2; k++) {
@@ -177,7 +173,6 @@ static void auto_on_the_packings_it_lost_on(void **state)
  * takes less time than solving. */
 static void global_packings_condense_to_the_local_ones(void **state)
 {
-    (void)state;
     static const char *const packings[] = {"boxes 30 0.5 3", "discs 60 0.5 3",
                                            "bricks 20 0.6 3", "spheres 360 0.7 9"};
     for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
@@ -223,7 +218,6 @@ static void global_packings_condense_to_the_local_ones(void **state)
 /* Redundant bricks: sweeps need 13 566, Newton fails, ADMM takes 130 iterations. */
 static void splitting_solves_redundant_contacts(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     packing("bricks 100 1 5", &p);
@@ -243,7 +237,6 @@ static void splitting_solves_redundant_contacts(void **state)
  * The answer of a pivoting method is right to rounding. */
 static void lemke_solves_redundant_contacts(void **state)
 {
-    (void)state;
     static const struct {
         const char *packing;
         int pivots; /* n_c times this at most */
@@ -267,7 +260,6 @@ static void lemke_solves_redundant_contacts(void **state)
 
 static void lemke_ends_in_time(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     packing("boxes 100 2 4", &p);
@@ -292,7 +284,6 @@ static void the_winner_hands_over_all_it_has(void **state)
                  {"discs 60 2 3", "nsn-jm-nls"},
                  {"boxes 30 2 3 global 5", "nsgs-aa"},
                  {"bricks 8 2 3 global 5", "nsn-jm-nls"}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_friction_problem p, condensed = {0};
         rb_friction_info info;
@@ -332,7 +323,6 @@ static void the_winner_hands_over_all_it_has(void **state)
 /* The same path twice, to the last digit. */
 static void auto_repeats_itself(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info one, two;
     packing("boxes 100 0.7 2", &p);
@@ -350,7 +340,6 @@ static void auto_repeats_itself(void **state)
 /* A method that pauses and goes on arrives where it does without pauses. */
 static void pauses_change_nothing(void **state)
 {
-    (void)state;
     static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
                                         "extragradient", "nsgs-fp", "fixed-point",
                                         "admm"};
@@ -417,7 +406,6 @@ static int hear(const rb_friction_progress *at, void *context)
 
 static void the_caller_hears_and_may_stop(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_friction_info info;
     packing("boxes 12 0.5 3", &p);

@@ -159,7 +159,6 @@ static rb_status solve_row(const row_of_balls *s, double unit, const char *solve
 
 static void rows_of_balls_obey_both_laws(void **state)
 {
-    (void)state;
     static const struct {
         int balls;
         double mu, mu_r;
@@ -184,7 +183,6 @@ static void rows_of_balls_obey_both_laws(void **state)
 
 static void every_family_of_solvers_takes_it(void **state)
 {
-    (void)state;
     static const char *const names[] = {"nsn-ac",  "nsn-fb",        "nsn-ac-hybrid",
                                         "nsgs-ac", "nsgs-aa",       "nsgs-fp",
                                         "admm",    "extragradient", "soclcp-smoothing"};
@@ -201,7 +199,6 @@ static void every_family_of_solvers_takes_it(void **state)
  * end: |r_T| = mu; rolling is stopped by the moment mu_r r_N at most. */
 static void one_ball_slides_rolls_or_stops(void **state)
 {
-    (void)state;
     double r[6], u[6];
     row_of_balls s;
     make_row(1, 0.1, 0.01, 1, &s);
@@ -228,7 +225,6 @@ static void one_ball_slides_rolls_or_stops(void **state)
 
 static void units_do_not_matter(void **state)
 {
-    (void)state;
     static double r[6 * CONTACTS], u[6 * CONTACTS];
     row_of_balls s;
     make_row(4, 0.5, 0.05, 2, &s);
@@ -241,7 +237,6 @@ static void units_do_not_matter(void **state)
 /* A held ball (bilateral constraints on its rates of turn) does not roll. */
 static void constraints_go_with_rolling_friction(void **state)
 {
-    (void)state;
     double r[6], u[6];
     int turns[] = {3, 4, 5}, each[] = {0, 1, 2};
     double one[] = {1.0, 1.0, 1.0};
@@ -278,7 +273,6 @@ static void constraints_go_with_rolling_friction(void **state)
  * is what the united one does. */
 static void united_entries_do_the_same_work(void **state)
 {
-    (void)state;
     const double r[6] = {3.0, 0.5, -0.7, 3.0, 0.2, 0.9},
                  u[6] = {0.4, -1.0, 2.0, -0.3, 5.0, 0.25};
     double force[5], velocity[5], length[1] = {0.8}, apart = 0.0, together = 0.0;
@@ -295,7 +289,6 @@ static void united_entries_do_the_same_work(void **state)
 
 static void the_program_tells_five_entries_per_contact(void **state)
 {
-    (void)state;
     const char *build = getenv("B") ? getenv("B") : "build";
     char command[300], line[300];
     int rows = 0, contacts = 0, dimension = 0;
@@ -323,7 +316,6 @@ static void the_program_tells_five_entries_per_contact(void **state)
 
 static void bad_problems_are_refused(void **state)
 {
-    (void)state;
     row_of_balls s;
     rb_io_fclib file;
     rb_friction_problem p;

@@ -56,7 +56,6 @@ static double violation(const rb_friction_problem *p, const double *r, const dou
 
 static void every_solver_obeys_coulomb(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     assert_true(count >= 15);
@@ -118,7 +117,6 @@ static void a_loose_block(rb_friction_problem *p)
 
 static void solvers_without_need_of_w_take_a_singular_k(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++) {
@@ -149,7 +147,6 @@ static void solvers_without_need_of_w_take_a_singular_k(void **state)
 /* Drawn beyond what friction can hold, nothing is in balance. */
 static void what_has_no_solution_is_not_solved(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++) {
@@ -169,7 +166,6 @@ static void what_has_no_solution_is_not_solved(void **state)
 
 static void the_iteration_limit_is_that_of_the_whole_call(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++)
@@ -190,7 +186,6 @@ static void the_iteration_limit_is_that_of_the_whole_call(void **state)
 
 static void info_may_be_null(void **state)
 {
-    (void)state;
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     rb_friction_problem p;
@@ -217,7 +212,6 @@ static void info_may_be_null(void **state)
 
 static void cones_of_every_size(void **state)
 {
-    (void)state;
     enum { N = 14, CONES = 6 };
     const int size[CONES] = {3, 1, 5, 2, 1, 2};
     unsigned seed = 5;
@@ -263,7 +257,6 @@ static void cones_of_every_size(void **state)
 /* x = (1, e), y = (1, -e) / 2 on one cone of 200 entries: W = 1, q = y - x. */
 static void a_cone_of_any_size(void **state)
 {
-    (void)state;
     enum { N = 200 };
     const int size[] = {N};
     static double M[N * N], q[N], x[N], y[N];
@@ -285,7 +278,6 @@ static void a_cone_of_any_size(void **state)
 
 static void bad_cones_are_refused(void **state)
 {
-    (void)state;
     const double M[] = {1.0, 0.0, 0.0, 1.0}, q[] = {-1.0, NAN}, fine[] = {-1.0, 1.0};
     const int ones[] = {1, 1}, three[] = {3}, none[] = {0, 2};
     double x[2], y[2];
@@ -307,7 +299,6 @@ static void bad_cones_are_refused(void **state)
 
 static void failing_allocations_are_reported(void **state)
 {
-    (void)state;
     int solvers;
     const rb_friction_solver *all = rb_friction_solvers(&solvers);
     for (int k = 0; k < solvers; k++) {
@@ -352,7 +343,6 @@ static void solve_outside(const char *file)
 
 static void fclib_files_are_solved(void **state)
 {
-    (void)state;
     solve_outside("fclib/CubeH8.hdf5");
     solve_outside("fclib/Capsules-i125-1213.hdf5");
     solve_outside("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5");
@@ -360,7 +350,6 @@ static void fclib_files_are_solved(void **state)
 
 static void siconos_files_are_solved(void **state)
 {
-    (void)state;
     solve_outside("siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat");
     solve_outside("siconos/fc2d/FrictionContactProblem00394.dat");
     solve_outside("siconos/fc2d/FrictionContactProblem00031.dat");
@@ -377,7 +366,6 @@ static void siconos_files_are_solved(void **state)
 
 static void the_soclcp_file_is_solved(void **state)
 {
-    (void)state;
     /* from its README: the same reaction three times, slope 0.1 */
     const double want[] = {1.303196, -0.041211, -0.123632};
     rb_friction_soclcp_data d;
@@ -395,7 +383,6 @@ static void the_soclcp_file_is_solved(void **state)
 
 static void other_text_files_are_refused(void **state)
 {
-    (void)state;
     rb_friction_problem p;
     rb_message why = {""};
     CHECK_STATUS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &why),
@@ -414,7 +401,6 @@ static void other_text_files_are_refused(void **state)
 
 static void profiles_count_as_dolan_and_more_do(void **state)
 {
-    (void)state;
     /* three problems, two solvers; the third is solved by neither */
     const double cost[] = {1.0, 4.0, INFINITY, 3.0, 2.0, INFINITY};
     const double tau[] = {1.0, 2.0, 3.0};
@@ -428,7 +414,6 @@ static void profiles_count_as_dolan_and_more_do(void **state)
 /* The table of docs/friction.md says of every solver what the program says. */
 static void the_documentation_lists_every_solver(void **state)
 {
-    (void)state;
     static char text[200000];
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);

@@ -90,7 +90,6 @@ static double measure_again(const rb_friction_problem *p, const double *r)
 
 static void the_scaled_measure_sees_no_units(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         enum { NC = 6 };
         rb_friction_problem p;
@@ -162,7 +161,6 @@ static void same_in_other_units(const char *name, rb_friction_problem *p, double
 
 static void every_solver_in_other_units(void **state)
 {
-    (void)state;
     for (int d = 2; d <= 3; d++) {
         rb_friction_problem p;
         random_problem(d, 20, 8u, &p);
@@ -174,7 +172,6 @@ static void every_solver_in_other_units(void **state)
 
 static void every_solver_on_files_in_other_units(void **state)
 {
-    (void)state;
     static const char *const files[] = {
         "siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat",
         "siconos/fc2d/FrictionContactProblem00394.dat",
@@ -199,7 +196,6 @@ static void every_solver_on_files_in_other_units(void **state)
 /* One contact, W about 1e-9, q about 1e-3: took 21 671 iterations and was not solved. */
 static void a_light_touch_is_solved_at_once(void **state)
 {
-    (void)state;
     double W[] = {1e-9, 3e-10, 0.0, 3e-10, 1e-9, 1e-10, 0.0, 1e-10, 1e-9};
     double q[] = {-1e-3, 5e-3, 0.0}, mu[] = {0.5};
     rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
@@ -223,7 +219,6 @@ static void a_light_touch_is_solved_at_once(void **state)
 /* y in other units than x: s y = M x + q. */
 static void cones_in_other_units(void **state)
 {
-    (void)state;
     const int size[] = {3, 1, 2};
     enum { N = 6 };
     unsigned seed = 21;
@@ -257,7 +252,6 @@ static void cones_in_other_units(void **state)
  * the tolerance.  W of a thousandth: (13) wants smaller forces at open contacts. */
 static void the_measure_of_acary_decides_where_asked(void **state)
 {
-    (void)state;
     int count, notes = 0;
     const rb_friction_solver *solvers = rb_friction_solvers(&count);
     for (int trial = 0; trial < 12; trial++) {

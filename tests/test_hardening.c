@@ -26,7 +26,6 @@ static void skip_where_nothing_is_hardened(void)
 
 static void the_program_is_hardened(void **state)
 {
-    (void)state;
     skip_where_nothing_is_hardened();
     check_lines_of("-hW \"$R\"", "DYN");
     check_lines_of("-lW \"$R\"", "GNU_RELRO");
@@ -38,7 +37,6 @@ static void the_program_is_hardened(void **state)
 
 static void the_library_is_hardened(void **state)
 {
-    (void)state;
     skip_where_nothing_is_hardened();
     check_lines_of("-lW \"${R%/*}/librollbem.so\"", "GNU_RELRO");
     check_lines_of("-dW \"${R%/*}/librollbem.so\"", "BIND_NOW");

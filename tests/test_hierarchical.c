@@ -136,7 +136,6 @@ static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double 
 /* The error follows the tolerance, and the matrix is small. */
 static void solves_what_the_dense_matrix_says(void **state)
 {
-    (void)state;
     double ratio;
     CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-5, &ratio), 1e-3,
               "hub, 1e-5");
@@ -150,7 +149,6 @@ static void solves_what_the_dense_matrix_says(void **state)
 /* Held contours with corners, where their terms are no kernel's. */
 static void incompressible_bodies(void **state)
 {
-    (void)state;
     const rb_bem_material rubber = {1.0, 0.5};
     double ratio;
     CHECK_MAX(solution_error(plate(1.1), rubber, 1e-8, &ratio), 1e-6, "1e-8");
@@ -160,7 +158,6 @@ static void incompressible_bodies(void **state)
 /* Two holes at the same place: their rows are the same. */
 static void singular_systems_are_refused(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh = plate(-1.3);
     rb_message why;
     for (int dense = 0; dense < 2; dense++) {
@@ -194,7 +191,6 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
  * part is subtracted: what these leave is multiplied by a tree of clusters then. */
 static void the_flexibility_is_the_dense_one(void **state)
 {
-    (void)state;
     enum { M = CONTACT + 1, SIZE = 2 * M * 2 * CONTACT };
     const rb_bem_support support[] = {RB_BEM_HUB, RB_BEM_ARC, RB_BEM_HUB};
     const double half[] = {0.01, 0.5, 2.5};
@@ -216,7 +212,6 @@ static void the_flexibility_is_the_dense_one(void **state)
  * determined and is made zero. */
 static void plates_are_solved_as_by_the_dense_matrix(void **state)
 {
-    (void)state;
     const double poisson[] = {0.3, 0.5, 0.4999999};
     rb_bem_mesh mesh = plate(1.1);
     const size_t dofs = 2 * (size_t)mesh.n;
@@ -278,7 +273,6 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
 
 static void long_boundaries_are_solved(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh = wheel(RB_BEM_HUB, 0.5, 2800);
     rb_bem_system *system;
     rb_bem_flexibility f;
@@ -316,7 +310,6 @@ static void long_boundaries_are_solved(void **state)
 
 static void failing_allocations(void **state)
 {
-    (void)state;
     rb_bem_mesh mesh = wheel(RB_BEM_HUB, 2.5, 20);
     double *unit = units(&mesh, steel);
     for (int k = 0, refused = 1; refused; k++) {
@@ -350,7 +343,6 @@ static void failing_allocations(void **state)
  * volume from an incompressible body, and displaces nothing outside. */
 static void a_pressed_circle_displaces_nothing_outside(void **state)
 {
-    (void)state;
     enum { n = 12, rows = 2 * n };
     const rb_bem_material rubber = {1.0, 0.5};
     rb_bem_mesh mesh = circle(n, 1.0);

@@ -61,7 +61,6 @@ static void check_matrix(rb_io_matrix *m)
 
 static void every_storage_gives_the_same_lcp(void **state)
 {
-    (void)state;
     const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN};
     for (int k = 0; k < 4; k++) {
         rb_io_lcp p;
@@ -83,7 +82,6 @@ static void every_storage_gives_the_same_lcp(void **state)
 
 static void friction_and_cones(void **state)
 {
-    (void)state;
     rb_io_friction f;
     rb_io_soclcp s;
     rb_io_siconos_kind kind;
@@ -111,7 +109,6 @@ static void friction_and_cones(void **state)
 /* By five numbers at the head; -1: of no kind. */
 static void kinds_are_told_by_their_sizes(void **state)
 {
-    (void)state;
     static const struct {
         const char *head;
         int kind;
@@ -141,7 +138,6 @@ static void kinds_are_told_by_their_sizes(void **state)
 /* Blocks of one and two rows and columns, of which one is not stored. */
 static void blocks_of_other_sizes_are_in_their_places(void **state)
 {
-    (void)state;
     static const double want[] = {1, 0, 0, 2, 4, 5, 3, 6, 7};
     rb_io_lcp p;
     put("3\n1\n3 3\n3\n2\n2\n1 3\n1 3\n3\n3\n0 2 3\n0 1 1\n"
@@ -214,7 +210,6 @@ static const char GLOBAL[] =
 
 static void global_friction_problems(void **state)
 {
-    (void)state;
     rb_io_friction_global g;
     rb_io_siconos_kind kind;
     rb_sparse H;
@@ -270,7 +265,6 @@ static void check_refused(reader *read, const char *text, const char *words)
 
 static void what_is_wrong_is_named_with_its_line(void **state)
 {
-    (void)state;
     check_refused(read_lcp, "", ":1: n: expected an integer >= 1, the file ends");
     check_refused(read_lcp, "abc", ":1: n: expected an integer >= 1, got 'abc'");
     check_refused(read_lcp, "0 0 0 0", "n: expected an integer >= 1");
@@ -319,7 +313,6 @@ static void what_is_wrong_is_named_with_its_line(void **state)
 
 static void blocks_and_columns_must_fit(void **state)
 {
-    (void)state;
     check_refused(read_lcp, "2 1 2 2 1 1 1 3 2 2 1 0 1 0 0 1 2 3 4 -5 -6",
                   "cumulated block sizes: expected an integer from 1 to 2, got '3'");
     check_refused(read_lcp, "2 1 2 2 1 1 1 1 2 2 1 0 1 0 0 1 2 3 4 -5 -6",
@@ -359,7 +352,6 @@ static void blocks_and_columns_must_fit(void **state)
  * no integers any more. */
 static void absurd_sizes_are_refused(void **state)
 {
-    (void)state;
     check_refused(read_market, "%%MatrixMarket matrix array real general\n2147483647 0\n",
                   ":2: a matrix of 2147483647 by 0 has no entries");
     check_refused(read_market, "%%MatrixMarket matrix array real general\n0 2147483647\n",
@@ -384,7 +376,6 @@ static void absurd_sizes_are_refused(void **state)
  * changed does worse than that. */
 static void damaged_files_are_refused_or_read(void **state)
 {
-    (void)state;
     const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP, BLOCK, PLAIN};
     reader *read[] = {read_lcp,      read_lcp,    read_lcp,     read_lcp,
                       read_friction, read_soclcp, read_any_lcp, read_any_lcp};
@@ -412,7 +403,6 @@ static void damaged_files_are_refused_or_read(void **state)
 
 static void missing_files_and_folders(void **state)
 {
-    (void)state;
     rb_io_lcp p;
     CHECK_STATUS(rb_io_siconos_read_lcp("/nowhere/at all", &p, &why), RB_ENOENT);
     assert_non_null(strstr(why.text, "/nowhere/at all"));
@@ -421,7 +411,6 @@ static void missing_files_and_folders(void **state)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     static const char ARRAY[] =
         "%%MatrixMarket matrix array real symmetric\n2 2\n1 2 3\n",
                       ENTRIES[] = "%%MatrixMarket matrix coordinate real general\n"
@@ -456,7 +445,6 @@ static void short_memory_is_reported(void **state)
 
 static void market_gives_back_the_same_numbers(void **state)
 {
-    (void)state;
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
     rb_io_matrix m;
     CHECK_STATUS(
@@ -474,7 +462,6 @@ static void market_gives_back_the_same_numbers(void **state)
 /* The four kinds give the same matrix. */
 static void market_kinds(void **state)
 {
-    (void)state;
     static const char *const files[] = {
         "%%MatrixMarket matrix array real general\n2 2\n4 -1 -1 3\n",
         "%%MatrixMarket MATRIX Array Integer Symmetric\n% c\n2 2\n4 -1 3\n",
@@ -496,7 +483,6 @@ static void market_kinds(void **state)
 
 static void market_refusals(void **state)
 {
-    (void)state;
     const double x[4] = {0.0};
     check_refused(read_market, "", "MatrixMarket");
     check_refused(read_market,
@@ -536,7 +522,6 @@ static void check_content(const char *wanted)
 
 static void market_files_are_written_by_columns(void **state)
 {
-    (void)state;
     const double x[] = {1.0, 2.0, NAN, 3.0, 4.0, NAN};
     static const rb_io_dense bad[] = {
         {-1, 1, NULL, 2}, {1, -1, NULL, 2}, {3, 1, NULL, 2}};
@@ -558,7 +543,6 @@ static void market_files_are_written_by_columns(void **state)
 /* Each word of the head, each size, and what stands behind. */
 static void market_heads_are_taken_word_by_word(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *words;
     } bad[] = {
@@ -646,7 +630,6 @@ static void refused_with(reader *read, const char *text, const char *q, const ch
 
 static void kinds_of_lcp_are_told_apart(void **state)
 {
-    (void)state;
     static const char M[] = "%%MatrixMarket matrix array real general\n2 2\n1 2 3 4\n",
                       WIDE[] = "%%MatrixMarket matrix array real general\n1 2\n1 2\n";
     static const char *const q[] = {
@@ -691,7 +674,6 @@ static void kinds_of_lcp_are_told_apart(void **state)
 
 static void vectors_are_as_long_as_they_must(void **state)
 {
-    (void)state;
     double *x;
     put("1 inf\n-Infinity # no bound");
     CHECK_STATUS(rb_io_bounds_read(path, 3, "the bounds", &x, &why), RB_OK);
@@ -713,7 +695,6 @@ static void vectors_are_as_long_as_they_must(void **state)
 
 static void games_are_two_matrices(void **state)
 {
-    (void)state;
     rb_io_bimatrix p;
     put("1, 1 # sizes\n3\n4");
     CHECK_STATUS(rb_io_bimatrix_read(path, &p, &why), RB_OK);
@@ -740,7 +721,6 @@ static void games_are_two_matrices(void **state)
 
 static void texts_are_told_from_what_is_none(void **state)
 {
-    (void)state;
     char *text;
     size_t size;
     put_bytes("\xff\xfe"
@@ -815,7 +795,6 @@ static void check_collection(const char *folder, rb_io_siconos_kind kind, reader
 
 static void the_collection_is_read(void **state)
 {
-    (void)state;
     check_collection("siconos/lcp", RB_IO_SICONOS_LCP, read_lcp, 9);
     check_collection("siconos/fc2d", RB_IO_SICONOS_FRICTION, read_friction, 5);
     check_collection("siconos/fc3d", RB_IO_SICONOS_FRICTION, read_friction, 7);

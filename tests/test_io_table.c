@@ -41,7 +41,6 @@ static void check_history(const char *text, int first_line)
 /* As written by hand, with tabs or commas, and as the program writes its own tables. */
 static void columns_are_named_in_three_ways(void **state)
 {
-    (void)state;
     check_history("distance load force\n0 10 -1.5\n1 20 2\n", 2);
     check_history("# a run\n# distance\tload\tforce\n0\t10\t-1.5\n\n1\t20\t2\n", 3);
     check_history("distance, load, force # names\n# more\n0, 10, -1.5\n1, 20, 2", 3);
@@ -49,7 +48,6 @@ static void columns_are_named_in_three_ways(void **state)
 
 static void names_may_be_missing(void **state)
 {
-    (void)state;
     rb_io_table t;
     assert_int_equal(read_text("# two numbers a row\n1 2\n3 4 # end\n", &t, NULL), RB_OK);
     assert_null(t.name);
@@ -61,7 +59,6 @@ static void names_may_be_missing(void **state)
 
 static void bad_tables_are_named_with_their_line(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *part;
     } bad[] = {
@@ -108,7 +105,6 @@ static void bad_tables_are_named_with_their_line(void **state)
 /* The last comment before the numbers names the columns if it has as many words. */
 static void comments_name_columns_or_not(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *name;
     } all[] = {{"# load force\n# too many words here\n1 2\n", NULL},
@@ -127,7 +123,6 @@ static void comments_name_columns_or_not(void **state)
 
 static void long_tables_keep_every_row(void **state)
 {
-    (void)state;
     enum { ROWS = 300 }; /* the room grows twice */
     static char text[20 * ROWS];
     int used = 0;
@@ -146,7 +141,6 @@ static void long_tables_keep_every_row(void **state)
 
 static void columns_are_counted_where_they_are_known(void **state)
 {
-    (void)state;
     rb_io_table t;
     rb_message why = {""};
     char name[] = "/tmp/rollbem-table-XXXXXX";
@@ -168,7 +162,6 @@ static void columns_are_counted_where_they_are_known(void **state)
  * system. */
 static void units_of_columns_are_those_of_their_names(void **state)
 {
-    (void)state;
     rb_io_table t;
     CHECK_STATUS(read_text("x_m gap\n1 2\n3 4\n", &t, NULL), RB_OK);
     rb_io_table_convert(&t, 0, "mm", RB_UNITS_SI);
@@ -191,7 +184,6 @@ static void units_of_columns_are_those_of_their_names(void **state)
 
 static void lines_of_any_length_are_read(void **state)
 {
-    (void)state;
     enum { NUMBERS = 3000 };
     static char text[2 * NUMBERS + 1];
     rb_io_table t;
@@ -204,7 +196,6 @@ static void lines_of_any_length_are_read(void **state)
 
 static void tables_without_memory(void **state)
 {
-    (void)state;
     char text[2000] = "load force\n";
     int refused = 1;
     for (int i = 0; i < 200; i++)

@@ -12,7 +12,6 @@ static char folder[64], path[128];
 
 static int make_folder(void **state)
 {
-    (void)state;
     strcpy(folder, "/tmp/rollbem_test_XXXXXX");
     if (!mkdtemp(folder))
         return -1;
@@ -22,7 +21,6 @@ static int make_folder(void **state)
 
 static int remove_folder(void **state)
 {
-    (void)state;
     unlink(path);
     return rmdir(folder); /* fails when a temporary file was left behind */
 }
@@ -57,7 +55,6 @@ static void write_line(const char *line)
 
 static void the_target_appears_on_commit(void **state)
 {
-    (void)state;
     rb_io_writer w;
     CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
     fputs("hello", w.file);
@@ -69,7 +66,6 @@ static void the_target_appears_on_commit(void **state)
 
 static void abandoning_leaves_the_old_file(void **state)
 {
-    (void)state;
     rb_io_writer w;
     write_line("old");
     CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
@@ -83,7 +79,6 @@ static void abandoning_leaves_the_old_file(void **state)
 /* The lowest free descriptor tells how many are open. */
 static void no_descriptor_stays_open(void **state)
 {
-    (void)state;
     const int before = dup(STDIN_FILENO);
     close(before);
     rb_io_writer w;
@@ -97,7 +92,6 @@ static void no_descriptor_stays_open(void **state)
 
 static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
 {
-    (void)state;
     char link[160];
     struct stat st;
     snprintf(link, sizeof link, "%s/link", folder);
@@ -119,7 +113,6 @@ static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
 /* The link stays; what it names appears. */
 static void a_link_to_a_file_yet_to_come_is_followed(void **state)
 {
-    (void)state;
     char link[160];
     struct stat st;
     snprintf(link, sizeof link, "%s/link", folder);
@@ -139,7 +132,6 @@ static void a_link_to_a_file_yet_to_come_is_followed(void **state)
 
 static void a_new_file_has_the_mode_that_the_umask_leaves(void **state)
 {
-    (void)state;
     struct stat st;
     const mode_t before = umask(027);
     write_line("new");
@@ -151,7 +143,6 @@ static void a_new_file_has_the_mode_that_the_umask_leaves(void **state)
 /* Temporary names must not be longer than the target's. */
 static void the_longest_name_is_taken(void **state)
 {
-    (void)state;
     char name[400];
     rb_io_writer w;
     const int n = snprintf(name, sizeof name, "%s/", folder);
@@ -165,7 +156,6 @@ static void the_longest_name_is_taken(void **state)
 
 static void a_program_that_is_killed_leaves_nothing(void **state)
 {
-    (void)state;
     int status;
     const pid_t pid = fork();
     if (pid == 0) {
@@ -182,7 +172,6 @@ static void a_program_that_is_killed_leaves_nothing(void **state)
 
 static void checking_changes_nothing(void **state)
 {
-    (void)state;
     CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
     assert_int_equal(entries(), 0);
     write_line("old");
@@ -194,7 +183,6 @@ static void checking_changes_nothing(void **state)
 
 static void what_cannot_be_written_is_refused(void **state)
 {
-    (void)state;
     rb_io_writer w;
     rb_message why;
     char inside[160];
@@ -207,7 +195,6 @@ static void what_cannot_be_written_is_refused(void **state)
 
 static void a_full_device_is_noticed(void **state)
 {
-    (void)state;
     rb_io_writer w;
     rb_message why = {""};
     if (access("/dev/full", W_OK) != 0)
@@ -220,7 +207,6 @@ static void a_full_device_is_noticed(void **state)
 
 static void stdout_is_not_closed(void **state)
 {
-    (void)state;
     rb_io_writer w;
     CHECK_STATUS(rb_io_writer_open("-", &w, NULL), RB_OK);
     assert_ptr_equal(w.file, stdout);
@@ -232,7 +218,6 @@ static void stdout_is_not_closed(void **state)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     for (int i = 0;; i++) {
         rb_io_writer w;
         alloc_fail_after(i);
@@ -253,7 +238,6 @@ static void short_memory_is_reported(void **state)
 /* With a link on the way, a device, and a folder that is asked about. */
 static void short_memory_is_reported_on_every_way(void **state)
 {
-    (void)state;
     char link[160], below[160];
     snprintf(link, sizeof link, "%s/link", folder);
     snprintf(below, sizeof below, "%s/below", folder);
@@ -293,7 +277,6 @@ static void every_call_that_fails_leaves_the_old_file(void **state)
                {"linkat", "fchmod", EPERM, 1},  {"linkat", "lseek", EIO, 1},
                {"linkat", "read", EIO, 1},      {"linkat", "write", ENOSPC, 1},
                {"linkat", "close", EDQUOT, 1},  {"linkat", "rename", EXDEV, 1}};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_io_writer w;
         rb_message why = {""};
@@ -332,7 +315,6 @@ static void files_are_written_without_the_help_of_the_system(void **state)
     enum { LONG = 100000 }; /* several buffers */
     static char text[LONG + 1], got[LONG + 1];
     struct stat st;
-    (void)state;
     for (int i = 0; i < LONG; i++)
         text[i] = (char)('a' + i % 23);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
@@ -354,7 +336,6 @@ static void files_are_written_without_the_help_of_the_system(void **state)
 /* A name that an interrupted run of the same number left behind is passed over. */
 static void names_in_use_are_passed_over(void **state)
 {
-    (void)state;
     char used[2][160];
     for (int k = 0; k < 2; k++) {
         snprintf(used[k], sizeof used[k], "%s/.rollbem-%ld-%d", folder, (long)getpid(),
@@ -377,7 +358,6 @@ static void names_in_use_are_passed_over(void **state)
 /* The names of devices are told, and so is what became of what was buffered. */
 static void devices_that_fail_are_named(void **state)
 {
-    (void)state;
     rb_io_writer w;
     rb_message why = {""};
     fail_call("access", EACCES, 1);
@@ -404,7 +384,6 @@ static void devices_that_fail_are_named(void **state)
  * the reason where it still holds. */
 static void a_reason_that_is_forgotten_is_asked_for_again(void **state)
 {
-    (void)state;
     const int full = open("/dev/full", O_WRONLY);
     if (full < 0)
         skip();
@@ -431,7 +410,6 @@ static void a_reason_that_is_forgotten_is_asked_for_again(void **state)
 
 static void folders_are_made_or_refused(void **state)
 {
-    (void)state;
     char name[4][160], *joined;
     rb_message why = {""};
     static const char *const below[] = {"below", "below///", "dangling", "no/such"};

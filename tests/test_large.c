@@ -77,7 +77,6 @@ static void compare_with_matrix(const rb_rolling_case *rc)
 
 static void equals_the_matrix_in_steady_rolling(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
     compare_with_matrix(&rc);
     rc = steady(SIMILAR, RB_ROLLING_LARGE);
@@ -88,7 +87,6 @@ static void equals_the_matrix_in_steady_rolling(void **state)
 
 static void equals_the_matrix_in_static_contact(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rc.formulation = RB_STATIC;
     rc.half_width = rc.creep_ratio = NAN;
@@ -99,7 +97,6 @@ static void equals_the_matrix_in_static_contact(void **state)
 
 static void equals_the_matrix_that_it_helps(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(DISSIMILAR, 300);
     rc.mesh = RB_MESH_UNIFORM;
     compare_with_matrix(&rc);
@@ -115,7 +112,6 @@ static void equals_the_matrix_that_it_helps(void **state)
  * share of that of the bodies, softening, both ways that it follows the material. */
 static void equals_the_matrix_where_a_layer_yields(void **state)
 {
-    (void)state;
     static const double hardening[] = {0.0, 1e4, 1e7, -1e4};
     int yielding = 0, slipping = 0;
 
@@ -152,7 +148,6 @@ static void equals_the_matrix_where_a_layer_yields(void **state)
  * with a tangential third body, and its state satisfies the problem of that matrix. */
 static void the_matrix_can_be_added(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_TRANSFORMS);
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
@@ -178,7 +173,6 @@ static void the_matrix_can_be_added(void **state)
 /* What GMRES leaves is more than so small a tolerance: the matrix solves once more. */
 static void a_small_tolerance_is_met_by_the_matrix(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = steady(DISSIMILAR, 400);
         rc.mesh = RB_MESH_UNIFORM;
@@ -247,7 +241,6 @@ static void watch(rb_contact_problem *p, watched *by)
  * not come to an end; few elements by the matrices at once. */
 static void the_matrix_stands_in_for_products(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = steady(DISSIMILAR, k == 2 ? 60 : 240);
         rc.mesh = RB_MESH_UNIFORM;
@@ -322,7 +315,6 @@ static void check_rows(const rb_rolling_case *rc, const rb_rolling_solution *s)
 
 static void residual_is_true(void **state)
 {
-    (void)state;
     for (int pair = SIMILAR; pair <= RIGID; pair++) {
         const rb_rolling_case rc = steady((pairing)pair, 4000);
         rb_rolling_solution s;
@@ -339,7 +331,6 @@ static void residual_is_true(void **state)
  * reached by way of smaller ones. */
 static void much_friction_is_reached_step_by_step(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rb_rolling_solution s;
 
@@ -358,7 +349,6 @@ static void much_friction_is_reached_step_by_step(void **state)
 /* Carter: Q/(mu P) = s (2 - s); Hertz: p0 = E* a/(2R).  First order in 1/n. */
 static void carter(void **state)
 {
-    (void)state;
     for (int n = 5000; n <= 80000; n *= 4) {
         const rb_rolling_case rc = steady(SIMILAR, n);
         rb_rolling_solution s;
@@ -378,7 +368,6 @@ static void carter(void **state)
 /* Cattaneo and Mindlin: c/a = sqrt(1 - Q/(mu P)). */
 static void cattaneo(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(SIMILAR, 20000);
     rb_rolling_solution s;
     rc.formulation = RB_STATIC;
@@ -394,7 +383,6 @@ static void cattaneo(void **state)
 /* The same elements find free rolling too: beta = 0.3, mu = beta/2. */
 static void driven_contacts_know_how_they_roll_freely(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rb_rolling_solution s;
     rc.a.poisson = 2.0 / 7.0;
@@ -415,7 +403,6 @@ static void driven_contacts_know_how_they_roll_freely(void **state)
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
 static void bentall_johnson(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(RIGID, 6000);
     rc.mu = 1e-3;
     rc.creep_ratio = NAN;
@@ -430,7 +417,6 @@ static void bentall_johnson(void **state)
 
 static void frictionless_and_sliding(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(RIGID, 2000);
     rb_rolling_solution s;
     rc.mu = 0.0;
@@ -453,7 +439,6 @@ static void frictionless_and_sliding(void **state)
 /* Newton steps of all levels: they grow with the number of levels only. */
 static void steps_hardly_grow(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady(SIMILAR, 2000);
     rb_rolling_model model = solved_model(&rc);
     const int few = model.iterations;
@@ -473,7 +458,6 @@ static void without_a_matrix_some_refuse(void **state)
     rb_contact_cone cone;
     rb_message why = {""};
 
-    (void)state;
     CHECK_STATUS(rb_rolling_model_lcp(&model, &lcp, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "1500 contact elements are too many"));
     CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &why),
@@ -483,7 +467,6 @@ static void without_a_matrix_some_refuse(void **state)
 
 static void failing_allocations(void **state)
 {
-    (void)state;
     const rb_rolling_case given = steady(DISSIMILAR, RB_ROLLING_LARGE);
     for (int k = 0, refused = 1; k < 60 && refused; k++) { /* up to the coarser start */
         rb_rolling_model model;

@@ -58,7 +58,6 @@ enum { PLACES = sizeof places / sizeof *places };
 /* A layer of its base's material is a half-plane, in the layer and below it. */
 static void a_layer_of_its_base_is_a_halfplane(void **state)
 {
-    (void)state;
     static const double nu[] = {-0.4, 0.3, 0.5}, thickness[] = {0.2, 0.7, 3.0};
     for (int m = 0; m < 3; m++)
         for (int k = 0; k < 3; k++)
@@ -78,7 +77,6 @@ static void a_layer_of_its_base_is_a_halfplane(void **state)
 /* The strain along x of a rigid base's surface is zero. */
 static void a_rigid_base_does_not_stretch(void **state)
 {
-    (void)state;
     static const double nu[] = {0.0, 0.3, 0.5}, thickness[] = {0.2, 0.7, 3.0};
     for (int m = 0; m < 3; m++)
         for (int k = 0; k < 3; k++)
@@ -94,7 +92,6 @@ static void a_rigid_base_does_not_stretch(void **state)
 /* Across the bond syy, sxy and the strain along x are continuous, sxx is not. */
 static void the_bond_holds(void **state)
 {
-    (void)state;
     static const double base[][2] = {{0.3, 0.45}, {20.0, 0.1}, {1e4, 0.3}};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PLACES; i++) {
@@ -115,7 +112,6 @@ static void the_bond_holds(void **state)
 /* d s_xx/dx + d s_xy/dy = 0 and d s_xy/dx + d s_yy/dy = 0, by central differences. */
 static void the_field_is_in_equilibrium(void **state)
 {
-    (void)state;
     const rb_bem_surface body = layer(0.8, 2.0, 0.3, 9.0, 0.2);
     const double h = 1e-3;
     for (int i = 0; i < PLACES; i++) {
@@ -136,7 +132,6 @@ static void the_field_is_in_equilibrium(void **state)
  * displacement of the surface, which comes from the transfer functions (L2). */
 static void strains_add_up_to_the_displacement_of_the_surface(void **state)
 {
-    (void)state;
     enum { DEPTHS = 100, STRIPS = NODES - 1 };
     const double d = 0.7, nu = 0.3, x = 0.25;
     const rb_bem_surface body = layer(d, 2.0, nu, 0.0, 0.0);
@@ -159,7 +154,6 @@ static void strains_add_up_to_the_displacement_of_the_surface(void **state)
  * base, to d/a. */
 static void its_limits_are_half_planes(void **state)
 {
-    (void)state;
     const rb_bem_surface of_layer = layer(0.0, 2.0, 0.3, 0.0, 0.0);
     double last[2] = {INFINITY, INFINITY};
     for (int k = 1; k <= 3; k++) {
@@ -186,7 +180,6 @@ static void its_limits_are_half_planes(void **state)
  * rubbery where it passes slowly. */
 static void a_relaxing_layer_lies_between_two_elastic_ones(void **state)
 {
-    (void)state;
     const double ratio = 3.0;
     for (int k = 0; k < 2; k++) {
         const double length = k ? 1e-7 : 1e9;
@@ -208,7 +201,6 @@ static void a_relaxing_layer_lies_between_two_elastic_ones(void **state)
 
 static void bad_input(void **state)
 {
-    (void)state;
     traction t;
     rb_bem_layer_field *field;
     rb_message why = {""};
@@ -240,7 +232,6 @@ static void bad_input(void **state)
  * has a layer of it on a rigid base. */
 static void what_relaxes_everywhere_alike_has_the_elastic_stress(void **state)
 {
-    (void)state;
     static const double xy[] = {0.2, 0.3, -0.4, 0.8, 0.9, 0.1};
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();

@@ -74,7 +74,6 @@ static int check_file(const char *path, const char *own, const char *headers)
 
 static void folders_look_down_only(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
         char folder[80];
         int lines = 0;
@@ -166,7 +165,6 @@ static void close_calls(void)
 /* A file and its helper may call each other; more than two in a circle may not. */
 static void files_call_each_other_in_no_circle(void **state)
 {
-    (void)state;
     int longest = 0;
     read_symbols(0);
     read_symbols(1);

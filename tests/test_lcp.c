@@ -42,7 +42,6 @@ static double size_of(int n, const double *q)
 
 static void a_nonnegative_q_needs_no_pivot(void **state)
 {
-    (void)state;
     const double M[] = {-1.0, 0.0, 0.0, -1.0}, q[] = {0.0, 2.0};
     double z[2] = {9.0, 9.0};
     rb_lcp_info info;
@@ -56,7 +55,6 @@ static void a_nonnegative_q_needs_no_pivot(void **state)
 /* Siconos' lcp_deudeu: z = (4/3, 7/3), with ldm > n. */
 static void two_by_two(void **state)
 {
-    (void)state;
     const double M[] = {2.0, 1.0, NAN, 1.0, 2.0, NAN}, q[] = {-5.0, -6.0};
     double z[2];
     rb_lcp_info info;
@@ -73,7 +71,6 @@ static void two_by_two(void **state)
 /* w = -z - 1 has no solution: z enters and nothing stops it. */
 static void a_secondary_ray_names_its_variable(void **state)
 {
-    (void)state;
     const double M[] = {-1.0}, q[] = {-1.0};
     double z[1];
     rb_lcp_info info;
@@ -172,7 +169,6 @@ static void plant(int n, int ldm, const double *M, int degenerate, double *q)
 
 static void planted_problems_are_solved(void **state)
 {
-    (void)state;
     for (int k = 0; k < 1000; k++) {
         const kind which = (kind)(k % KINDS);
         const int n = k % 50 == 49  ? LARGEST
@@ -198,7 +194,6 @@ static void planted_problems_are_solved(void **state)
 /* Against a product written out, at a point that is no solution, across panels. */
 static void the_residual_is_that_of_z(void **state)
 {
-    (void)state;
     const int n = 150, ldm = 151;
     double w[150];
     make_matrix(NONSYMMETRIC, n, ldm, M_);
@@ -240,7 +235,6 @@ static void keep_basis(const rb_lcp_pivot *seen, void *context)
  * tie, comes back to the same basis every six pivots. */
 static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
 {
-    (void)state;
     const double M[] = {1.0, 0.0, 2.0, 2.0, 1.0, 0.0, 0.0, 2.0, 1.0},
                  q[] = {-1.0, -1.0, -1.0};
     bases b = {0};
@@ -268,7 +262,6 @@ static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
 /* Everything ties: small integers, q = -1, n up to 12. */
 static void integer_problems_do_not_cycle(void **state)
 {
-    (void)state;
     int solved = 0, rays = 0;
     for (int k = 0; k < 3000; k++) {
         const int n = 2 + k % 11;
@@ -313,7 +306,6 @@ static void make_copositive(int n)
  * AVX-512, in the other two with those for AVX2. */
 static void rounding_errors_are_no_pivots(void **state)
 {
-    (void)state;
     const unsigned long long start[] = {2324, 4536, 1914, 2657}, before = seed;
     const int n = 145;
     for (int k = 0; k < 4; k++) {
@@ -385,7 +377,6 @@ static watched p_, p_full_;
  * brought up to date at every pivot, does not change the pivots. */
 static void the_trace_sees_every_pivot(void **state)
 {
-    (void)state;
     const int n = 180, ldm = 182;
     double cover[180];
     rb_lcp_info info;
@@ -413,7 +404,6 @@ static void the_trace_sees_every_pivot(void **state)
 
 static void the_iteration_limit_keeps_the_last_point(void **state)
 {
-    (void)state;
     const int n = 40;
     rb_lcp_info info;
     rb_lcp_options opt = rb_lcp_defaults();
@@ -443,7 +433,6 @@ static void check_refused(int n, const double *M, int ldm, const double *q,
 
 static void bad_input_is_refused(void **state)
 {
-    (void)state;
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     const double M_nan[] = {2.0, 1.0, NAN, 2.0}, M_inf[] = {2.0, -INFINITY, 1.0, 2.0};
     const double q_nan[] = {1.0, NAN}, q_inf[] = {INFINITY, 1.0};
@@ -471,7 +460,6 @@ static void bad_input_is_refused(void **state)
  */
 static void odd_input_is_taken(void **state)
 {
-    (void)state;
     const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0},
                  cover[] = {0.0, 0.0};
     rb_lcp_options opt = rb_lcp_defaults();
@@ -498,7 +486,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     rb_lcp_options opt = rb_lcp_defaults();
     opt.trace = ignore;
@@ -531,7 +518,6 @@ typedef struct {
 
 static void the_collection_is_solved(void **state)
 {
-    (void)state;
     const listed files[] = {
         {"lcp_deudeu", 2, 2}, {"lcp_deudeu_block", 2, 2}, {"lcp_ortiz", 4, 2},
         {"lcp_mmc", 26, 22},  {"lcp_exp_murty", 6, 1},    {"lcp_CPS_2", 3, 4},
@@ -586,7 +572,6 @@ static void friction_matrix(const rb_io_friction *p, double *M, double *q)
  * scale of those rows; a second one, with q balanced as well, solves them. */
 static void plane_friction_problems_are_solved(void **state)
 {
-    (void)state;
     const listed files[] = {
         {"FC2D_SliderCrankLagrangian00000", 2, 6}, {"FrictionContactProblem00394", 6, 11},
         {"FrictionContactProblem00031", 11, 21},  /* 16: see below */

@@ -95,7 +95,6 @@ static int some_row(const lemke *l, int is_w)
 /* Whether the errors are in the rows of w or in those of z. */
 static void small_errors_are_refined_and_large_ones_rebuilt(void **state)
 {
-    (void)state;
     for (int k = 0; k < 8; k++) {
         static bench b;
         lemke *l = &b.l;
@@ -139,7 +138,6 @@ static void move_basic(const lemke *l, int row, double to)
  * rounding leaves of it, in whichever row; one that is not small is no zero. */
 static void zeros_stay_zero(void **state)
 {
-    (void)state;
     for (int tie = 0; tie < N; tie++) {
         static bench b;
         lemke *l = &b.l;
@@ -161,7 +159,6 @@ static void zeros_stay_zero(void **state)
 /* For entering variables of all kinds: w, z, and z0 where it is not basic. */
 static void a_wrong_column_does_not_hold(void **state)
 {
-    (void)state;
     static bench b;
     lemke *l = &b.l;
     bench_create(&b);
@@ -191,7 +188,6 @@ static void a_wrong_column_does_not_hold(void **state)
 /* The basic point has the errors of the constants; a solution is solved for anew. */
 static void only_a_solution_is_polished(void **state)
 {
-    (void)state;
     for (int solved = 0; solved < 2; solved++) {
         static bench b;
         lemke *l = &b.l;

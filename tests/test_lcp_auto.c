@@ -46,7 +46,6 @@ static double judge(const lcp_family *f, const double *z, const double *column)
 
 static void every_claim_is_true(void **state)
 {
-    (void)state;
     static const int orders[] = {3, 8, 25, 65, 130, 320};
     static const double scales[] = {0.0, 8.0, 30.0};
     const int largest = getenv("ROLLBEM_TEST_ALL") ? 6 : 5;
@@ -85,7 +84,6 @@ static void every_claim_is_true(void **state)
  * solves at once, Lemke's elsewhere, also where its path with ones is too long. */
 static void the_solver_is_said(void **state)
 {
-    (void)state;
     static const struct {
         int kind, n;
         const char *solver;
@@ -110,7 +108,6 @@ static void the_solver_is_said(void **state)
 /* Zones from coarser problems: their edges are a few points off, not a hundred. */
 static void coarser_problems_come_first(void **state)
 {
-    (void)state;
     static const int kinds[] = {3, 4, 5}; /* obstacle, bearing, option */
     for (int k = 0; k < 3; k++) {
         lcp_family f;
@@ -152,7 +149,6 @@ static void without_solution(int k, lcp_family *f)
 
 static void no_solution_is_said_by_lemke(void **state)
 {
-    (void)state;
     static const int orders[] = {1, 20, 400};
     for (int k = 0; k < 3; k++) {
         lcp_family f;
@@ -171,7 +167,6 @@ static void no_solution_is_said_by_lemke(void **state)
 
 static void options_reach_the_methods(void **state)
 {
-    (void)state;
     lcp_family f;
     rb_lcp_info info;
     rb_lcp_options opt = rb_lcp_defaults();
@@ -214,7 +209,6 @@ static void options_reach_the_methods(void **state)
 /* Every allocation fails once; a long path of which all methods have a turn. */
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     static const struct {
         int kind, n;
     } cases[] = {{0, 20}, {2, 90}, {3, 400}, {10, 70}};

@@ -60,7 +60,6 @@ static void random_game(int m, int n, int integers)
 
 static void random_games_are_solved(void **state)
 {
-    (void)state;
     double z[2 * N];
     rb_lcp_info info;
     for (int k = 0; k < 60; k++) {
@@ -76,7 +75,6 @@ static void random_games_are_solved(void **state)
 /* Payoffs of few values tie everywhere: degenerate games. */
 static void games_of_small_integers_do_not_cycle(void **state)
 {
-    (void)state;
     double z[2 * N];
     rb_lcp_info info;
     for (int k = 0; k < 400; k++) {
@@ -99,7 +97,6 @@ static void battle_of_the_sexes(void)
 
 static void all_equilibria_of_a_game(void **state)
 {
-    (void)state;
     rb_lcp_solutions all;
     rb_message why;
     int mixed = 0;
@@ -124,7 +121,6 @@ static void all_equilibria_of_a_game(void **state)
  * them. */
 static void every_label_leads_to_an_equilibrium(void **state)
 {
-    (void)state;
     for (int k = 0; k < 30; k++) {
         const int m = 2 + k % 3, n = 2 + k % 4;
         const rb_lcp_game game = {m, n, A, B, LD};
@@ -152,7 +148,6 @@ static void every_label_leads_to_an_equilibrium(void **state)
  * before does not matter. */
 static void regrets_are_those_of_the_definition(void **state)
 {
-    (void)state;
     const int m = 3, n = 4;
     const rb_lcp_game game = {m, n, A, B, LD};
     for (int k = 0; k < 20; k++) {
@@ -210,7 +205,6 @@ static void follow(const rb_lcp_pivot *seen, void *context)
 
 static void the_trace_follows_the_labels(void **state)
 {
-    (void)state;
     for (int k = 0; k < 40; k++) {
         const int m = 1 + k % 7, n = 1 + k % 5, label = k % (m + n);
         const rb_lcp_game game = {m, n, A, B, LD};
@@ -234,7 +228,6 @@ static void the_trace_follows_the_labels(void **state)
 /* M = -1, q = 1: z = 0 and z = 1; with a box [0, 3] z = 3 is another, since w(3) < 0. */
 static void one_variable_by_hand(void **state)
 {
-    (void)state;
     const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
     rb_lcp_solutions all;
     CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
@@ -256,7 +249,6 @@ static void one_variable_by_hand(void **state)
  * a solution. */
 static void a_bound_may_change_the_sign_of_a_row(void **state)
 {
-    (void)state;
     const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
     const double q[] = {1.0 / 3.0, -1e-8, 1e8};
     rb_lcp_solutions all;
@@ -285,7 +277,6 @@ static void boxes_of_every_kind_are_enumerated(void **state)
                {0.5, 0.5, -3.0, 0.5}};
     enum { BOXES = sizeof all / sizeof *all };
     const double M[] = {1.0, 0.0, 0.0, 1.0};
-    (void)state;
     for (int k = 0; k < BOXES * BOXES; k++) { /* two at a time */
         const int a = k % BOXES, b = k / BOXES;
         const double low[] = {all[a].low, all[b].low}, q[] = {all[a].q, all[b].q};
@@ -306,7 +297,6 @@ static void boxes_of_every_kind_are_enumerated(void **state)
  * q = 0 leaves z free, which is a basis without inverse. */
 static void solutions_are_listed_once(void **state)
 {
-    (void)state;
     const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
     rb_lcp_solutions all;
     CHECK_STATUS(
@@ -326,7 +316,6 @@ static void solutions_are_listed_once(void **state)
 /* Three places of each boxed variable: 3^13 are tried, 3^14 are not. */
 static void too_many_bases_are_refused(void **state)
 {
-    (void)state;
     enum { BOXED = 14 };
     double M[BOXED * BOXED] = {0.0}, q[BOXED], low[BOXED], high[BOXED];
     rb_lcp_solutions all;
@@ -347,7 +336,6 @@ static void too_many_bases_are_refused(void **state)
 /* Lemke's answers are among them. */
 static void what_lemke_finds_is_listed(void **state)
 {
-    (void)state;
     for (int k = 0; k < 100; k++) {
         const int n = 1 + k % 7;
         double M[49], q[7], z[7];
@@ -377,7 +365,6 @@ static void what_lemke_finds_is_listed(void **state)
 
 static void bad_input_is_named(void **state)
 {
-    (void)state;
     double z[2 * N];
     rb_lcp_info info;
     rb_lcp_solutions all;
@@ -425,7 +412,6 @@ static void bad_input_is_named(void **state)
 /* z = 1e600 would solve, which is no number. */
 static void points_beyond_the_largest_number_are_no_solutions(void **state)
 {
-    (void)state;
     const double M[] = {1e-300}, q[] = {-1e300};
     rb_lcp_solutions all;
     CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
@@ -446,7 +432,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     battle_of_the_sexes();
     for (int i = 0;; i++) {
         double z[4];

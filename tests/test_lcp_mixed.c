@@ -90,7 +90,6 @@ static void random_boxes(problem *p, int kinds)
 
 static void without_boxes_it_is_the_lcp(void **state)
 {
-    (void)state;
     static problem p;
     double z[N], want[N];
     rb_lcp_info info;
@@ -113,7 +112,6 @@ static void the_floor_is_of_magnitudes(void **state)
     const double M[4] = {3.0, -1.0, 2.0, 0.5}, q[2] = {6.0, -8.0}, z[2] = {-2.0, 1.0};
     double room[2];
     rb_sparse sparse;
-    (void)state;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &sparse), RB_OK);
     CHECK_REL(
         rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
@@ -123,7 +121,6 @@ static void the_floor_is_of_magnitudes(void **state)
 
 static void boxes_of_all_kinds_are_solved(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -209,7 +206,6 @@ static int is_enumerated(const problem *p, const double *z, int *solutions)
 /* A compact box always holds a solution, whatever M is, and the path finds one. */
 static void finite_boxes_are_solved_for_every_matrix(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -233,7 +229,6 @@ static void finite_boxes_are_solved_for_every_matrix(void **state)
 
 static void open_boxes_have_the_enumerated_solution(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -251,7 +246,6 @@ static void open_boxes_have_the_enumerated_solution(void **state)
 /* Small integers tie at nearly every pivot; the box keeps every problem solvable. */
 static void integers_full_of_ties_do_not_cycle(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -273,7 +267,6 @@ static void integers_full_of_ties_do_not_cycle(void **state)
  * anew. */
 static void the_rule_decides_whether_kostreva_cycles(void **state)
 {
-    (void)state;
     static problem p = {3, {1, 0, 2, 2, 1, 0, 0, 2, 1}, {-1, -1, -1}, {0}, {0}};
     double z[3];
     rb_lcp_info info;
@@ -342,7 +335,6 @@ static void check_point(const rb_lcp_pivot *seen, void *context)
 
 static void every_point_of_the_path_solves_with_a_cover(void **state)
 {
-    (void)state;
     static problem p;
     static path own;
     double z[N], cover[N];
@@ -372,7 +364,6 @@ static void every_point_of_the_path_solves_with_a_cover(void **state)
  * numbers it. */
 static void a_cover_is_that_of_both_halves_of_a_free_z(void **state)
 {
-    (void)state;
     static problem p;
     double z[N], want[N], cover[N];
     rb_lcp_info info;
@@ -409,7 +400,6 @@ static void a_cover_is_that_of_both_halves_of_a_free_z(void **state)
  * however many rows tie. */
 static void a_path_through_ties_meets_no_basis_twice(void **state)
 {
-    (void)state;
     static problem p;
     static path own;
     double z[N];
@@ -448,7 +438,6 @@ static void check_same_path(const path *a, const path *b, const char *of)
  * integers, so that the same rows tie; a P-matrix, with which t never grows. */
 static void moved_and_mirrored_boxes_have_the_same_path(void **state)
 {
-    (void)state;
     static problem p, other;
     static path own, theirs;
     double z[N], at[N], from[N], there[N];
@@ -511,7 +500,6 @@ static void moved_and_mirrored_boxes_have_the_same_path(void **state)
  * whose matrix has no principal submatrix to start from. */
 static void programs_with_equations_are_solved(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -545,7 +533,6 @@ static void programs_with_equations_are_solved(void **state)
 
 static void a_solution_is_recognised_and_a_neighbour_is_near(void **state)
 {
-    (void)state;
     static problem p;
     double z[N], from[N];
     rb_lcp_info info;
@@ -593,7 +580,6 @@ static void plant_at_bounds(int n, double side, problem *p, double *z)
  * pivot is needed. */
 static void a_degenerate_solution_is_exactly_at_its_bounds(void **state)
 {
-    (void)state;
     static problem p;
     double z[N], want[N], from[N];
     rb_lcp_info info;
@@ -641,7 +627,6 @@ static void watch_t(const rb_lcp_pivot *seen, void *context)
  * the path begins anew at the bounds. */
 static void a_start_that_leads_away_is_given_up(void **state)
 {
-    (void)state;
     static problem p;
     double z[N], from[N];
     rb_lcp_info info;
@@ -672,7 +657,6 @@ static void a_start_that_leads_away_is_given_up(void **state)
 
 static void limits_end_the_path(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     rb_lcp_info info;
@@ -694,7 +678,6 @@ static void limits_end_the_path(void **state)
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
 static void a_start_without_basis_begins_at_the_bounds(void **state)
 {
-    (void)state;
     static problem p = {2, {0, 1, -1, 0}, {1, -1}, {0}, {0}};
     const double from[] = {1.0, 0.0};
     double z[2];
@@ -730,7 +713,6 @@ static void obstacle(int m, rb_sparse *M, double *q)
 
 static void a_large_obstacle_is_solved_as_by_newton(void **state)
 {
-    (void)state;
     enum { SIDE = 40 };
     static double q[SIDE * SIDE], z[SIDE * SIDE], want[SIDE * SIDE];
     rb_sparse M;
@@ -750,7 +732,6 @@ static void a_large_obstacle_is_solved_as_by_newton(void **state)
 
 static void a_ray_names_its_variable(void **state)
 {
-    (void)state;
     static problem p = {1, {-1}, {-1}, {0}, {0}};
     double z[1];
     rb_lcp_info info;
@@ -765,7 +746,6 @@ static void a_ray_names_its_variable(void **state)
 
 static void bad_input_is_named(void **state)
 {
-    (void)state;
     static problem p;
     double z[N];
     const double bad[] = {NAN, 0.0}, none[] = {0.0, 0.0};
@@ -841,7 +821,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     static problem p;
     positive_definite(6, &p);
     p.lower[2] = -INFINITY;
@@ -867,7 +846,6 @@ static void short_memory_is_reported(void **state)
  * once hid that by its own w. */
 static void a_large_row_hides_no_wrong_one(void **state)
 {
-    (void)state;
     int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
     double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
     const double lower[] = {0.0, 0.0}, upper[] = {INFINITY, INFINITY};

@@ -45,7 +45,6 @@ static void random_problem(int n, double *M, double *q)
 
 static void p_matrices_are_solved_as_by_lemke(void **state)
 {
-    (void)state;
     enum { N = 40 };
     double M[N * N], q[N], z[N], want[N];
     for (int k = 0; k < 300; k++) {
@@ -75,7 +74,6 @@ static void p_matrices_are_solved_as_by_lemke(void **state)
  * component changes between two sets for ever. */
 static void cycling_newton_steps_end_by_single_ones(void **state)
 {
-    (void)state;
     const double M[] = {1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0};
     const double q[] = {-1.0, -1.0, -1.0}, start[] = {1.0, 0.0, 0.0};
     rb_sparse a;
@@ -93,7 +91,6 @@ static void cycling_newton_steps_end_by_single_ones(void **state)
 
 static void what_it_cannot_solve_is_said(void **state)
 {
-    (void)state;
     const double M[] = {0.0, 1.0, 1.0, 0.0}, q[] = {-1.0, 1.0};
     const double bad[] = {NAN, 1.0};
     rb_sparse a;
@@ -114,7 +111,6 @@ static void what_it_cannot_solve_is_said(void **state)
  * in the scale of the columns both are near 1. */
 static void columns_of_any_scale_are_solved(void **state)
 {
-    (void)state;
     const double M[] = {1e-16, 0.0, 1.0, 1.0}, q[] = {-1.0, 0.1}, both[] = {1.0, 1.0};
     rb_lcp_options opt = rb_lcp_defaults();
     rb_sparse a;
@@ -132,7 +128,6 @@ static void columns_of_any_scale_are_solved(void **state)
  * - 1 = 0.1 where z_3 = 1.1: that is seen, and solved in a scale that balances q too. */
 static void a_large_row_hides_no_small_one(void **state)
 {
-    (void)state;
     const double M[] = {1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0};
     const double q[] = {-1e16, 0.1, -1.0}, all[] = {1.0, 1.0, 1.0};
     rb_lcp_options opt = rb_lcp_defaults();
@@ -165,7 +160,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     rb_sparse a;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);

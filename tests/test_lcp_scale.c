@@ -113,7 +113,6 @@ static int solve(const problem *p, int k)
 
 static void claims_of_scaled_problems_are_right(void **state)
 {
-    (void)state;
     static problem p;
     const int problems = 10000;
     int solved = 0;
@@ -130,7 +129,6 @@ static void claims_of_scaled_problems_are_right(void **state)
  */
 static void rows_in_other_units_change_nothing(void **state)
 {
-    (void)state;
     const double base[] = {2.0, 1.0, 0.0, 1.0, 3.0, 1.0, 0.0, 1.0, 2.0},
                  q0[] = {-4, -7, 1};
     const double row[] = {1e6, 1e-6, 1.0};
@@ -157,7 +155,6 @@ static void rows_in_other_units_change_nothing(void **state)
 /* Powers of two change no digit of the measure, and a wrong small row is seen. */
 static void the_scaled_residual_has_no_units(void **state)
 {
-    (void)state;
     static problem p;
     double z[LARGEST], scaled_z[LARGEST];
     for (int k = 0; k < 100; k++) {
@@ -226,7 +223,6 @@ static void follow(const rb_lcp_pivot *seen, void *context)
 
 static void the_trace_keeps_the_units_of_the_caller(void **state)
 {
-    (void)state;
     static problem p;
     double z[LARGEST];
     for (int k = 0; k < 30; k++) {
@@ -265,7 +261,6 @@ static rb_status solve_anew(void *context)
 
 static void short_memory_is_reported(void **state)
 {
-    (void)state;
     static problem p;
     make(&p, 0, 6, 40.0);
     assert_true(alloc_fail_each(solve_anew, &p) > 20);

@@ -94,7 +94,6 @@ static void advance_some(lcp_tableau *t)
  * inside blocks and at their ends. */
 static void any_pivots_give_the_tableau_of_the_basis(void **state)
 {
-    (void)state;
     lcp_tableau t, anew;
     double a[N];
     make_tableau(&t);
@@ -115,7 +114,6 @@ static void any_pivots_give_the_tableau_of_the_basis(void **state)
 
 static void a_combination_is_the_sum_of_its_columns(void **state)
 {
-    (void)state;
     lcp_tableau t;
     double a[N], scratch[N], sum[N], want[N], weight[N + 1];
     make_tableau(&t);
@@ -143,7 +141,6 @@ static void a_combination_is_the_sum_of_its_columns(void **state)
  * as many as go through the blocks together. */
 static void the_next_columns_are_looked_for_by_their_ratios(void **state)
 {
-    (void)state;
     lcp_tableau t;
     double a[N], driving[N];
     int row[N], rows = 0;
@@ -191,7 +188,6 @@ static void the_next_columns_are_looked_for_by_their_ratios(void **state)
 
 static void without_pivots_nothing_changes(void **state)
 {
-    (void)state;
     lcp_tableau t;
     double a[N];
     make_tableau(&t);
@@ -207,7 +203,6 @@ static void without_pivots_nothing_changes(void **state)
 
 static void short_memory_leaves_the_tableau(void **state)
 {
-    (void)state;
     lcp_tableau t;
     double a[N];
     make_tableau(&t);
@@ -231,7 +226,6 @@ static void short_memory_leaves_the_tableau(void **state)
 /* A column of zeros: of two equal ones rounding may leave a pivot. */
 static void a_singular_basis_is_told(void **state)
 {
-    (void)state;
     lcp_tableau t;
     make_tableau(&t);
     memset(M_ + LDM, 0, N * sizeof *M_);

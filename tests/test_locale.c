@@ -36,14 +36,12 @@ static int have_commas(void)
 
 static int enter(void **state)
 {
-    (void)state;
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
 }
 
 static int leave(void **state)
 {
     char line[60];
-    (void)state;
     snprintf(line, sizeof line, "rm -rf %s", folder);
     return chdir("/") == 0 && system(line) == 0 ? 0 : -1;
 }
@@ -107,7 +105,6 @@ static void write_all(char *text, size_t size)
 
 static void numbers_have_points(void **state)
 {
-    (void)state;
     static char plain[100000], german[100000];
     write_all(plain, sizeof plain);
     if (!have_commas()) {

@@ -24,7 +24,6 @@ static void every_status_has_its_exit_code(void **state)
                {RB_INACCURATE, CLI_UNSOLVED},
                {RB_INTERRUPTED, CLI_UNSOLVED}};
     static const int numbers[] = {0, 64, 65, 66, 73, 70};
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         assert_int_equal(cli_exit_of(all[k].status), all[k].code);
         if (k < 6)
@@ -88,7 +87,6 @@ static cli_exit say_without_reason(void)
 
 static void a_refusal_is_one_line_in_print(void **state)
 {
-    (void)state;
     assert_string_equal(printed(fail_with_number, CLI_DATA),
                         "rollbem: case.ini:7: a\\x0ab\\x09\\x1b\n");
     assert_int_equal(strlen(printed(fail_long, CLI_USAGE)), 9 + 3999 + 1);
@@ -116,7 +114,6 @@ static const cli_command two[] = {{"lcp", run_nothing, "problems"},
 /* What is printed as the command gives the same words again. */
 static void a_command_line_is_quoted_and_split(void **state)
 {
-    (void)state;
     static const struct {
         const char *words[5], *line;
     } all[] = {{{"--mu=0.3", "a.ini"}, "rollbem --mu=0.3 a.ini"},
@@ -144,7 +141,6 @@ static void a_command_line_is_quoted_and_split(void **state)
 
 static void lines_are_split_as_a_shell_does(void **state)
 {
-    (void)state;
     static const struct {
         const char *line;
         int n;
@@ -171,7 +167,6 @@ static void lines_are_split_as_a_shell_does(void **state)
 
 static void commands_are_found_by_name(void **state)
 {
-    (void)state;
     assert_true(cli_begin(two, 1, (char *[]){NULL}));
     assert_string_equal(cli_command_name(0), "lcp");
     assert_null(cli_command_name(1));
@@ -187,7 +182,6 @@ static void commands_are_found_by_name(void **state)
 /* Last: it cannot be taken back. */
 static void kept_failures_are_not_printed(void **state)
 {
-    (void)state;
     assert_string_equal(cli_kept_failure(), "");
     cli_keep_failures(1);
     assert_string_equal(printed(say_reason, CLI_USAGE), "");

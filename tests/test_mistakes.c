@@ -67,7 +67,6 @@ static const struct {
 
 static void forty_mistakes_get_a_line_that_helps(void **state)
 {
-    (void)state;
     int wrong = 0;
     write_file("hash.ini", "radius = 460 # comment\n");
     write_file("good.ini", "mu = 0.2\n");
@@ -367,7 +366,6 @@ static void refusals_have_their_code_and_reason(void **state)
         {73, "example truss --nodes 2 --output /nothing/t.tsv",
          "/nothing/t.tsv: cannot write"},
     };
-    (void)state;
     write_file("b.ini",
                "support = halfplane\nload = 100\ncontact-elements = 8\nzone = 1\n");
     write_file("s.ini",
@@ -405,7 +403,6 @@ static void refusals_have_their_code_and_reason(void **state)
 /* What is no error, and perhaps not what was meant. */
 static void doubtful_values_are_noted(void **state)
 {
-    (void)state;
     static const char *const all[][2] = {
         {"", "far beyond linear elasticity"},
         {"--mu 0.3 --creep 0.1", "does not change the tractions"},
@@ -439,7 +436,6 @@ static void doubtful_values_are_noted(void **state)
 /* A creepage that the program found is not what somebody typed. */
 static void found_creepage_is_not_doubted(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--formulation steady --support hub --mu 1e-3 --free-axle "
                              "--approach 0.04 --contact-elements 40"),
                      0);
@@ -448,7 +444,6 @@ static void found_creepage_is_not_doubted(void **state)
 
 static void examples_are_at_hand(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("examples"), 0);
     assert_non_null(strstr(out, "--example rail "));
     assert_non_null(strstr(out, "--example paper "));
@@ -469,7 +464,6 @@ static void examples_are_at_hand(void **state)
 /* On a terminal: the summary, then a short table; whoever asks for a form gets it. */
 static void terminals_get_a_short_table(void **state)
 {
-    (void)state;
     if (shell("command -v script") != 0)
         skip();
     assert_int_equal(
@@ -492,7 +486,6 @@ static void terminals_get_a_short_table(void **state)
  * --quiet nor a pipe has one.  A processor may be too fast for it. */
 static void waiting_is_told_on_a_terminal(void **state)
 {
-    (void)state;
     if (shell("command -v script") != 0)
         skip();
     for (int quiet = 0; quiet < 2; quiet++) {
@@ -531,7 +524,6 @@ static int characters(const char *line, size_t n)
  * needs little more than the window. */
 static void no_command_is_wider_than_a_terminal(void **state)
 {
-    (void)state;
     static const struct {
         const char *command;
         int lines; /* at most; 0: any */
@@ -581,7 +573,6 @@ static void no_command_is_wider_than_a_terminal(void **state)
 /* | head: no message. */
 static void closed_pipes_end_in_silence(void **state)
 {
-    (void)state;
     static const char *const commands[] = {"--help",
                                            "--contact-elements 3000 --support "
                                            "halfplane --mu 0 --quiet",

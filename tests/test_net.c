@@ -1210,7 +1210,6 @@ static covering array_of(int strength)
 /* A new option must become a factor or be named. */
 static void test_every_option_is_a_factor(void **state)
 {
-    (void)state;
     int n;
     const rb_option *options = rb_case_describe(&n);
     for (int i = 0; i < n; i++) {
@@ -1244,7 +1243,6 @@ static int row_with(covering *c, int k, int *row)
 /* What the net leaves out because the program refuses it, it does refuse, in one line. */
 static void test_every_conflict_is_refused(void **state)
 {
-    (void)state;
     char the_case[1500], arguments[2000];
     int row[COVERING_FACTORS];
     covering c = array_of(2);
@@ -1295,7 +1293,6 @@ static void work(int result)
 
 static void test_every_combination(void **state)
 {
-    (void)state;
     findings all = {0};
     int ends[2], status;
 

@@ -96,7 +96,6 @@ static void skip_without(const char *probe, const char *program_name)
 
 static void pandas_opens_all(void **state)
 {
-    (void)state;
     skip_without("/usr/bin/python3 -c 'import pandas'", "pandas");
     check_lines("/usr/bin/python3 lines", "python", 0);
     check_tables("/usr/bin/python3 script >seen",
@@ -113,7 +112,6 @@ static void pandas_opens_all(void **state)
 
 static void numpy_opens_all(void **state)
 {
-    (void)state;
     skip_without("/usr/bin/python3 -c 'import numpy'", "numpy");
     check_lines("/usr/bin/python3 lines", "python", 1);
     check_tables("/usr/bin/python3 script >seen",
@@ -125,7 +123,6 @@ static void numpy_opens_all(void **state)
 
 static void r_opens_all(void **state)
 {
-    (void)state;
     skip_without("Rscript --version", "R");
     check_lines("Rscript --vanilla lines", "r", 0);
     check_tables("Rscript --vanilla script >seen",
@@ -138,7 +135,6 @@ static void r_opens_all(void **state)
 
 static void octave_opens_all(void **state)
 {
-    (void)state;
     skip_without("octave-cli --version", "Octave");
     check_lines("octave-cli --no-init-file --quiet lines", "octave", 0);
     write_file(
@@ -161,7 +157,6 @@ static void octave_opens_all(void **state)
 
 static void gnuplot_opens_all(void **state)
 {
-    (void)state;
     skip_without("gnuplot --version", "gnuplot");
     check_lines("{ echo 'set terminal unknown'; cat lines; } | gnuplot 2>&1 | tail -1",
                 "gnuplot", 0);
@@ -173,7 +168,6 @@ static void gnuplot_opens_all(void **state)
 /* One form: names first, as many cells in every row, no NaN but "NaN". */
 static void all_have_one_form(void **state)
 {
-    (void)state;
     assert_int_equal(
         shell("for f in *.tsv; do awk -F '\\t' -v f=$f '/^#/ {next} !n {n = NF} "
               "NF != n {print f \": \" $0; bad = 1} "

@@ -75,7 +75,6 @@ static const rb_report_style full = {RB_REPORT_TSV, 0}, bare = {RB_REPORT_TSV, 1
 
 static void table_reads_back_exactly(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
     assert_int_equal(rb_report_table(file, NULL, &s, "rollbem", &bare), RB_OK);
@@ -101,7 +100,6 @@ static void table_reads_back_exactly(void **state)
 
 static void full_header_names_command_and_columns(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
     assert_int_equal(rb_report_table(file, NULL, &s, "rollbem --mu 0.3", &full), RB_OK);
@@ -120,7 +118,6 @@ static void full_header_names_command_and_columns(void **state)
 
 static void full_disc_is_told(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = carter();
     FILE *file = fopen("/dev/full", "w");
     if (!file)
@@ -133,7 +130,6 @@ static void full_disc_is_told(void **state)
 
 static void json_holds_the_same_numbers(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = carter();
     json_t *root = rb_report_json_start("rollbem 'a b'");
     json_object_set_new(root, "summary", rb_report_json_summary(&s));
@@ -168,7 +164,6 @@ static void json_holds_the_same_numbers(void **state)
 
 static void no_number_is_null(void **state)
 {
-    (void)state;
     const double bad[] = {NAN, INFINITY, -INFINITY, 1.0};
     json_t *list = rb_report_json_numbers(4, bad);
     for (int i = 0; i < 3; i++)
@@ -180,7 +175,6 @@ static void no_number_is_null(void **state)
 
 static void command_that_is_not_utf8(void **state)
 {
-    (void)state;
     json_t *root = rb_report_json_start("rollbem \xff");
     assert_string_equal(json_string_value(json_object_get(root, "command")),
                         "rollbem \\xff");
@@ -191,7 +185,6 @@ static void command_that_is_not_utf8(void **state)
 
 static void strip_shows_the_contact(void **state)
 {
-    (void)state;
     rb_rolling_solution s = carter();
     char strip[81];
     rb_report_strip(&s, 80, strip);
@@ -206,7 +199,6 @@ static void strip_shows_the_contact(void **state)
 
 static void summary_fits_the_terminal(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = carter();
     for (int width = 1; width < 300; width += 23) {
         FILE *file = tmpfile();
@@ -224,7 +216,6 @@ static void summary_fits_the_terminal(void **state)
 /* From the first to the last stuck element there may be slip. */
 static void summary_says_how_much_of_the_stick_zone_sticks(void **state)
 {
-    (void)state;
     for (int hole = 0; hole < 2; hole++) {
         rb_rolling_solution s = carter();
         FILE *file = tmpfile();
@@ -252,7 +243,6 @@ static void show(const char *text, int rows, int columns, int colour, char *show
 
 static void a_terminal_gets_five_digits_and_units_below_the_names(void **state)
 {
-    (void)state;
     char shown[4000];
     show("x_mm\tp_MPa\tspeed_mm/s\tslip\tzone\tnothing\n"
          "# a comment\n"
@@ -272,7 +262,6 @@ static void a_terminal_gets_five_digits_and_units_below_the_names(void **state)
  * the columns that matter less go first. */
 static void a_terminal_gets_what_fits(void **state)
 {
-    (void)state;
     char text[4000] = "x_mm\tgap\tp\tq\tr\ts\n", shown[4000], *line = shown;
     int lines = 0;
     for (int i = 0; i < 100; i++)
@@ -291,7 +280,6 @@ static void a_terminal_gets_what_fits(void **state)
 /* Files and solvers: the middle is left out; a wide single row stands upright. */
 static void a_terminal_gets_words_whole(void **state)
 {
-    (void)state;
     char text[4000] = "solver\tscaled_MPa\n", shown[4000];
     for (int i = 0; i < 30; i++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "s%d\t%d\n", i, i);
@@ -305,7 +293,6 @@ static void a_terminal_gets_words_whole(void **state)
 /* Continued below the text of a label; colours have no width. */
 static void lines_are_broken_between_words(void **state)
 {
-    (void)state;
     FILE *file = tmpfile();
     const char *text =
         "  load      P = 1 N/mm, Q = 2 N/mm\n\033[33mnote:\033[0m µ µ µ µ\n"
@@ -319,7 +306,6 @@ static void lines_are_broken_between_words(void **state)
 
 static void a_terminal_shows_zones_in_colour(void **state)
 {
-    (void)state;
     char shown[4000];
     const char *table = "x\tzone\tstatus\n0\t0\tsolved\n1\t1\tray\n2\t3\tsolved\n";
     show(table, 24, 80, 1, shown, sizeof shown);
@@ -334,7 +320,6 @@ static void a_terminal_shows_zones_in_colour(void **state)
 /* JSON, sentences, a table of commas, nothing at all. */
 static void a_terminal_gets_other_text_as_it_is(void **state)
 {
-    (void)state;
     static const char *const texts[] = {"{\n \"a\": 1\n}\n", "x,y\n1,2\n", "one line", "",
                                         "\n"};
     char shown[4000];
@@ -348,7 +333,6 @@ static void a_terminal_gets_other_text_as_it_is(void **state)
 
 static void notes_warn_where_due(void **state)
 {
-    (void)state;
     rb_rolling_solution s = carter();
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.formulation = RB_STEADY;
@@ -375,7 +359,6 @@ static void notes_warn_where_due(void **state)
 
 static void pictures_of_three_kinds(void **state)
 {
-    (void)state;
     static const char *const names[] = {"a.png", "b.svg", "c.pdf"};
     static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF"};
     const rb_rolling_solution s = carter();
@@ -395,7 +378,6 @@ static void pictures_of_three_kinds(void **state)
 
 static void picture_of_another_kind(void **state)
 {
-    (void)state;
     rb_report_picture_kind kind;
     rb_message why = {""};
     assert_int_equal(rb_report_picture_kind_of("a.bmp", &kind, &why), RB_EINVAL);
@@ -405,7 +387,6 @@ static void picture_of_another_kind(void **state)
 
 static void gnuplot_complaint_is_handed_on(void **state)
 {
-    (void)state;
     FILE *script = tmpfile(), *out = tmpfile();
     rb_message why = {""};
     fputs("plt 1\n", script);
@@ -418,7 +399,6 @@ static void gnuplot_complaint_is_handed_on(void **state)
 
 static void missing_gnuplot_is_named(void **state)
 {
-    (void)state;
     char path[4096];
     snprintf(path, sizeof path, "%s", getenv("PATH"));
     FILE *script = tmpfile(), *out = tmpfile();
@@ -435,7 +415,6 @@ static void missing_gnuplot_is_named(void **state)
 /* What has no steps, no grid, no contact is no picture, and no file is written. */
 static void pictures_need_something_to_draw(void **state)
 {
-    (void)state;
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution none = carter(), pressed = carter();
@@ -490,7 +469,6 @@ static void pictures_need_something_to_draw(void **state)
 /* A history by hand: one step has a range too, a step without contact a width of zero. */
 static void history_of_few_steps_is_drawn(void **state)
 {
-    (void)state;
     double column[12][2] = {{0.0}};
     int stick[2] = {3, 0}, slipping[2] = {1, 0};
     rb_rolling_history h = {.n = 1,
@@ -536,7 +514,6 @@ static void history_of_few_steps_is_drawn(void **state)
 /* What has no number is left out of the lines for people and of the title. */
 static void what_is_not_known_is_left_out(void **state)
 {
-    (void)state;
     static const struct {
         const char *in_summary, *in_title;
     } words[] = {{", Q/(mu P) = ", "Q/(μP) = "},
@@ -586,7 +563,6 @@ static void what_is_not_known_is_left_out(void **state)
 /* What the picture of a solution says of one without contact. */
 static void picture_without_contact_says_so(void **state)
 {
-    (void)state;
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s = carter();
@@ -611,7 +587,6 @@ static void picture_without_contact_says_so(void **state)
  */
 static void wear_keeps_some_profiles(void **state)
 {
-    (void)state;
     enum { STEPS = 37 };
     double way[STEPS + 1], depth[STEPS + 1];
     const rb_rolling_solution s = carter();
@@ -654,7 +629,6 @@ static void wear_keeps_some_profiles(void **state)
  * caption instead of a title. */
 static void profiles_are_drawn(void **state)
 {
-    (void)state;
     static const char *const solver[] = {"auto", "lemke"};
     static const double tau[] = {1.0, 2.0, 10.0},
                         rho[] = {0.75, 0.75, 1.0, 0.25, 0.5, 0.5};
@@ -716,7 +690,6 @@ static rb_status draw_by(const char *lines, double seconds, rb_report_picture_ki
 /* Full disks leave a part, or nothing, and exit code 0. */
 static void a_part_of_a_picture_is_none(void **state)
 {
-    (void)state;
     static const struct {
         rb_report_picture_kind kind;
         const char *part, *all;
@@ -743,7 +716,6 @@ static void a_part_of_a_picture_is_none(void **state)
 /* Each way in which a program called gnuplot may end without a picture. */
 static void gnuplot_that_fails_is_told(void **state)
 {
-    (void)state;
     static const struct {
         const char *lines;
         rb_status status;
@@ -773,7 +745,6 @@ static void gnuplot_that_fails_is_told(void **state)
 /* A file that is no program, a caller who does not wait for children, a full disk. */
 static void gnuplot_and_its_surroundings(void **state)
 {
-    (void)state;
     static const char picture[] = "printf '<?xml <svg> more </svg>'";
     char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], before[4096];
     rb_message why = {""};
@@ -807,7 +778,6 @@ static void gnuplot_and_its_surroundings(void **state)
 
 static void gnuplot_has_a_time_limit(void **state)
 {
-    (void)state;
     FILE *out = tmpfile();
     rb_message why = {""};
     const double start = rb_seconds();
@@ -820,7 +790,6 @@ static void gnuplot_has_a_time_limit(void **state)
 /* A descriptor that a caller has open, and would hand on to every child. */
 static void gnuplot_inherits_no_descriptor(void **state)
 {
-    (void)state;
     FILE *out = tmpfile();
     rb_message why = {""};
     const int foreign = fcntl(fileno(out), F_DUPFD, 200);
@@ -838,7 +807,6 @@ static void gnuplot_inherits_no_descriptor(void **state)
 /* A start-up file that would end every picture. */
 static void start_up_files_are_off(void **state)
 {
-    (void)state;
     char folder[] = "/tmp/rollbem-home-XXXXXX", name[64], home[4096];
     assert_non_null(mkdtemp(folder));
     snprintf(name, sizeof name, "%s/.gnuplot", folder);
@@ -875,7 +843,6 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 
 static void columns_are_read(void **state)
 {
-    (void)state;
     rb_io_table t;
     rb_message why = {""};
     assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why),
@@ -888,7 +855,6 @@ static void columns_are_read(void **state)
 
 static void bad_columns_are_named(void **state)
 {
-    (void)state;
     static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n",
                                       "1 2\n3 nan\n", "1 2\n3 4x\n"};
     rb_io_table t;
@@ -904,7 +870,6 @@ static void bad_columns_are_named(void **state)
 
 static void columns_without_memory(void **state)
 {
-    (void)state;
     int refused = 1;
     rb_io_table t;
     char name[] = "/tmp/rollbem-columns-XXXXXX";
@@ -949,7 +914,6 @@ static void papers_are_those_of_the_theory(void **state)
     } runs[] = {{RB_STATIC, RB_BEM_ARC, "[1] K. Addi", "F. W. Carter"},
                 {RB_STEADY, RB_BEM_HALFPLANE, "[10] R. H. Bentall", "C. A. Brebbia"}};
     char known[700];
-    (void)state;
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         rc.formulation = runs[k].formulation;

@@ -22,7 +22,6 @@ static char *content(FILE *file)
 /* From each limit on the larger unit. */
 static void axes_have_units_that_fit(void **state)
 {
-    (void)state;
     static const struct {
         rb_units units;
         const char *of;
@@ -53,7 +52,6 @@ static void axes_have_units_that_fit(void **state)
 /* Lengths in half-widths where the numbers would be long. */
 static void lengths_are_shown_in_half_widths_or_units(void **state)
 {
-    (void)state;
     static const struct {
         rb_units units;
         double a, size;
@@ -71,7 +69,6 @@ static void lengths_are_shown_in_half_widths_or_units(void **state)
 
 static void steps_are_one_two_or_five(void **state)
 {
-    (void)state;
     static const double steps[][2] = {
         {1.0, 1.0},  {1.01, 2.0}, {2.0, 2.0},   {2.1, 5.0},  {5.0, 5.0},
         {5.1, 10.0}, {9.9, 10.0}, {0.03, 0.05}, {70.0, 1e2}, {1.2e-7, 2e-7}};
@@ -90,7 +87,6 @@ static void steps_are_one_two_or_five(void **state)
 /* A cell that a reader would split or skip stands in quotes. */
 static void cells_are_quoted_where_needed(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *cell;
     } cells[] = {{"plain", "plain"},
@@ -145,7 +141,6 @@ static void quiet(noted *n)
 /* Each note on both sides of its condition. */
 static void notes_begin_where_they_should(void **state)
 {
-    (void)state;
     static const char inaccurate[] = "large for linear elasticity",
                       broken[] = "far beyond linear elasticity",
                       percent[] = "meant in per cent, write --creep 0.001%",
@@ -375,7 +370,6 @@ static rb_report_study study_of(int nx, int ny, int with_y, double *room)
 
 static void studies_that_make_no_picture_are_named(void **state)
 {
-    (void)state;
     static double room[3 * MOST];
     static const struct {
         int nx, ny, with_y, map,
@@ -439,7 +433,6 @@ static const char *drawn(const rb_report_study *s, int map)
  * same in all cases has one colour and no contours. */
 static void maps_suit_the_number_of_cases(void **state)
 {
-    (void)state;
     static double room[3 * MOST];
     rb_report_study s = study_of(3, 2, 1, room);
     const char *script = drawn(&s, 1);
@@ -476,7 +469,6 @@ static void maps_suit_the_number_of_cases(void **state)
 /* Points are marked where there are few; a power of ten stands beside the unit. */
 static void curves_suit_the_number_of_cases(void **state)
 {
-    (void)state;
     static double room[3 * MOST];
     for (int many = 0; many < 2; many++) {
         rb_report_study s = study_of(many ? 25 : 24, 2, 1, room);
@@ -510,7 +502,6 @@ static void curves_suit_the_number_of_cases(void **state)
 /* As many as there are, then again. */
 static void dashes_repeat(void **state)
 {
-    (void)state;
     for (int k = 0; k < 12; k++)
         for (int j = 0; j < k; j++)
             assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)),
@@ -521,7 +512,6 @@ static void dashes_repeat(void **state)
 
 static void vtk_files_are_known_by_their_names(void **state)
 {
-    (void)state;
     static const char *const none[] = {"a", "a.vtk", ".", "vti", "a.vti.gz"};
     rb_report_vtk_kind kind;
     rb_message why;
@@ -605,7 +595,6 @@ static rb_status dump(void *context)
 /* All files or none, and none of an older dump. */
 static void matrices_are_written_all_or_none(void **state)
 {
-    (void)state;
     char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
     rb_case_result two = {0}, flat = {0};

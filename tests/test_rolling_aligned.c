@@ -25,7 +25,6 @@ static rb_rolling_case carter(int n)
  */
 static void carters_law_has_second_order(void **state)
 {
-    (void)state;
     static const double ratio[3] = {0.2, 0.5, 0.8};
     static const double error[3][4] = {{7.5e-5, 1.9e-5, 4.7e-6, 1.2e-6},
                                        {1.3e-4, 3.2e-5, 8.1e-6, 2.0e-6},
@@ -47,7 +46,6 @@ static void carters_law_has_second_order(void **state)
 /* The first order of the upstream difference on the same elements. */
 static void the_upstream_difference_has_first_order(void **state)
 {
-    (void)state;
     double error[2];
     for (int j = 0; j < 2; j++) {
         rb_rolling_case rc = carter(100 << j);
@@ -63,7 +61,6 @@ static void the_upstream_difference_has_first_order(void **state)
 
 static void a_given_force_finds_its_creepage(void **state)
 {
-    (void)state;
     static const double error[3] = {1.3e-4, 2.7e-5, 1.1e-5};
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(50 << j);
@@ -78,7 +75,6 @@ static void a_given_force_finds_its_creepage(void **state)
 /* Slip and traction belong to the same point: no mean of two tractions. */
 static void dissipation_balances_the_creepage(void **state)
 {
-    (void)state;
     static const double error[3] = {1.3e-3, 2.7e-4, 9e-5};
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(50 << j);
@@ -98,7 +94,6 @@ static void dissipation_balances_the_creepage(void **state)
 
 static void transforms_reach_seven_digits(void **state)
 {
-    (void)state;
     const int n = getenv("ROLLBEM_TEST_ALL") ? 100000 : 20000;
     rb_rolling_case rc = carter(n);
     rc.creep_ratio = 0.5;
@@ -113,7 +108,6 @@ static void transforms_reach_seven_digits(void **state)
  * fifth of a_g, which the estimate of the edge has to resolve. */
 static void bodies_with_memory_converge_too(void **state)
 {
-    (void)state;
     static const double error[3] = {2e-3, 4e-4, 6e-5};
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(100 << j);
@@ -129,7 +123,6 @@ static void bodies_with_memory_converge_too(void **state)
 /* Bentall and Johnson, beta = 0.3, mu = beta/2: xi R/(beta a) = -0.715826. */
 static void dissimilar_bodies_roll_freely(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(100);
     rc.a.poisson = 2.0 / 7.0; /* (1-2nu)/(2(1-nu)) = 0.3 */
     rc.mu = 0.15;
@@ -143,7 +136,6 @@ static void dissimilar_bodies_roll_freely(void **state)
  */
 static void wheels_take_aligned_elements_too(void **state)
 {
-    (void)state;
     double ratio[3];
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = carter(k < 2 ? 100 << k : 200);
@@ -164,7 +156,6 @@ static void wheels_take_aligned_elements_too(void **state)
 
 static void what_cannot_be_aligned_is_refused(void **state)
 {
-    (void)state;
     rb_message why = {""};
     rb_rolling_case rc = carter(60);
     rc.contact_elements = 8;
@@ -184,7 +175,6 @@ static void what_cannot_be_aligned_is_refused(void **state)
  * that is told still lies before the midpoint of the first open element. */
 static void edge_lies_before_the_first_open_midpoint(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_message why = {""};
@@ -211,7 +201,6 @@ static void edge_lies_before_the_first_open_midpoint(void **state)
  * stay equal ones, and that is said. */
 static void nine_elements_tell_the_edges(void **state)
 {
-    (void)state;
     int nine = 0, eight = 0;
     for (int k = 0; k < 12; k++) {
         rb_rolling_case rc = carter(13);
@@ -239,7 +228,6 @@ static void nine_elements_tell_the_edges(void **state)
  * once and corrected in a few steps. */
 static void many_elements_are_solved_once(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(30000);
     rc.creep_ratio = 0.4;
     rb_rolling_case equal = rc;

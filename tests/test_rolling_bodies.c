@@ -21,7 +21,6 @@ static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
  * Carter's. */
 static void similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 9; k += 4) {
         rb_rolling_case rigid = steady_wheel(RB_BEM_HALFPLANE, 0.5);
         rb_rolling_case pair = steady_wheel(RB_BEM_HALFPLANE, 0.2);
@@ -44,7 +43,6 @@ static void similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane(void 
  * not even the shape of the wheels couples pressure and slip. */
 static void equal_wheels_lose_their_coupling(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.28);
     rc.b = rc.a;
     rc.elastic_b = 1;
@@ -59,7 +57,6 @@ static void equal_wheels_lose_their_coupling(void **state)
 /* Who is A and who is B: mirrored, the creepage and the friction change their sign. */
 static void exchanging_the_bodies_mirrors_the_result(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.1);
     rc.b = rc.a;
     rc.b.poisson = 0.4;
@@ -105,7 +102,6 @@ static double finite_free_creepage(double ratio, double mu)
 
 static void finite_cylinders_tend_to_bentall_and_johnson(void **state)
 {
-    (void)state;
     /* xi R/a of the closed forms: a/R = 0.1/25 there */
     const double mu_infinite = -3.67269e-4 / 0.004, mu_zero = -2.0 * 0.143834 * 0.457386;
     const double coarse = finite_free_creepage(1e-2, 10.0) - mu_infinite;
@@ -127,7 +123,6 @@ static double log_uniform(double a, double b)
 
 static void force_control_never_fails_on_wheels(void **state)
 {
-    (void)state;
     srand(5);
     for (int k = 0; k < 12; k++) {
         rb_rolling_case rc =
@@ -155,7 +150,6 @@ static void force_control_never_fails_on_wheels(void **state)
  * matrix of the same size is not. */
 static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
 {
-    (void)state;
     static const double time = 0.1, ratio = 1.0;
     rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
     rc.a.memory = (rb_rolling_memory){.n = 1, .ratio = {ratio}, .time = {time}};
@@ -174,7 +168,6 @@ static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
 
 static void absurd_sizes_are_refused(void **state)
 {
-    (void)state;
     enum { n = 1000000 };
     rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
     rb_rolling_mesh mesh = {.n = n};

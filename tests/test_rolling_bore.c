@@ -29,7 +29,6 @@ static double modulus_of(const rb_rolling_case *rc)
 /* Under parabolas it is Hertz's contact of 1/R = 1/R_A - 1/R_B, and Carter's. */
 static void parabolas_are_one_of_the_difference_of_curvatures(void **state)
 {
-    (void)state;
     rb_rolling_case rc = in_bore(0.1, RB_GAP_PARABOLA);
     const double R = 1.1 * rc.a.radius / 0.1, a = 0.05;
     rc.load = rb_closed_hertz_load(a, R, modulus_of(&rc));
@@ -47,7 +46,6 @@ static void parabolas_are_one_of_the_difference_of_curvatures(void **state)
 /* Under circles the load of half-planes is in closed form at any arc. */
 static void a_conforming_arc_carries_the_load_of_its_closed_form(void **state)
 {
-    (void)state;
     static const double wider[] = {0.5, 0.02, 1e-4}, part[] = {0.05, 0.3, 0.6, 0.9};
     for (int w = 0; w < 3; w++)
         for (int k = 0; k < 4; k++) {
@@ -66,7 +64,6 @@ static void a_conforming_arc_carries_the_load_of_its_closed_form(void **state)
  * a next one of 15/64 a^4 R (1/R_A^5 - 1/R_B^5) < 1.2 (a/R_A)^4. */
 static void a_journal_on_a_small_arc_is_hertzs(void **state)
 {
-    (void)state;
     const double A = 50.0, B = 51.0, E = 1e5, R = A * B / (B - A);
     for (int k = 1; k <= 3; k++) {
         const double a = pow(10.0, -k) * A;
@@ -81,7 +78,6 @@ static void a_journal_on_a_small_arc_is_hertzs(void **state)
 /* The gap keeps its digits where the radii agree in most of theirs. */
 static void a_tight_bore_keeps_its_gap(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 12; k++) {
         const rb_rolling_case rc = in_bore(pow(10.0, -k), RB_GAP_EXACT);
         const long double A = rc.a.radius, B = -rc.b.radius, x = 0.7 * rc.a.radius;
@@ -97,7 +93,6 @@ static void a_tight_bore_keeps_its_gap(void **state)
  * (Bentall and Johnson). */
 static void free_rolling_knows_the_combined_radius_alone(void **state)
 {
-    (void)state;
     double creepage[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = in_bore(0.25, RB_GAP_PARABOLA);
@@ -119,7 +114,6 @@ static void free_rolling_knows_the_combined_radius_alone(void **state)
 
 static void what_does_not_fit_is_refused(void **state)
 {
-    (void)state;
     ACCEPTED(PLANE, rc.elastic_b = 1, rc.b.radius = -50.001);
     ACCEPTED(HUB, rc.elastic_b = 1, rc.b.radius = -51.0);
     REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1,

@@ -37,7 +37,6 @@ static const bad_value bad_values[] = {
 
 static void bad_values_are_refused_by_name(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad_values / sizeof *bad_values; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         rb_message why = {""};
@@ -50,7 +49,6 @@ static void bad_values_are_refused_by_name(void **state)
 
 static void contradictions_name_both_sides(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.approach = rc.load = 1.0;
     check_refused(&rc, "approach", "load");
@@ -84,7 +82,6 @@ static void contradictions_name_both_sides(void **state)
  * whatever the third ones are. */
 static void any_two_controls_are_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *text;
         rb_rolling_formulation formulation;
@@ -139,7 +136,6 @@ static void any_two_controls_are_refused(void **state)
 
 static void a_table_gap_needs_its_table(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.gap = RB_GAP_TABLE;
     check_refused(&rc, "gap", "none is given");
@@ -149,7 +145,6 @@ static void a_table_gap_needs_its_table(void **state)
 
 static void ranges_of_the_bodies(void **state)
 {
-    (void)state;
     ACCEPTED(rc.a.poisson = 0.5);
     REFUSED("Young's modulus", rc.a.young = INFINITY);
     REFUSED("radius of body B", rc.elastic_b = 1; rc.b.radius = 0.0);
@@ -168,7 +163,6 @@ static void ranges_of_the_bodies(void **state)
 
 static void ranges_of_layers_and_covers(void **state)
 {
-    (void)state;
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 0.0; rc.a.base_poisson = 9.0);
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = 0.5);
     REFUSED("layer thickness: expected > 0", PLANE; rc.a.layer = -1.0);
@@ -197,7 +191,6 @@ static void ranges_of_layers_and_covers(void **state)
 
 static void ranges_of_relaxation(void **state)
 {
-    (void)state;
     const rb_rolling_memory one = {1, {2.0}, {0.5}}, late = {1, {0.0}, {0.5}},
                             less = {1, {1.0}, {-0.1}}, endless = {1, {1.0}, {INFINITY}},
                             none = {1, {1.0}, {0.0}};
@@ -241,7 +234,6 @@ static void ranges_of_relaxation(void **state)
 
 static void ranges_of_heat(void **state)
 {
-    (void)state;
     ACCEPTED(WARM);
     ACCEPTED(WARM; TRANSIENT);
     ACCEPTED(WARM; rc.heat_a.conductivity = 0.0; rc.heat_a.heat_capacity = -1.0);
@@ -281,7 +273,6 @@ static void ranges_of_heat(void **state)
 
 static void ranges_of_the_interface(void **state)
 {
-    (void)state;
     ACCEPTED(rc.yield_stress = 1.0; rc.hardening = -1.0);
     REFUSED("expected a normal compliance", rc.interlayer_normal = -1.0);
     REFUSED("expected a tangential compliance", rc.interlayer_tangential = INFINITY);
@@ -302,7 +293,6 @@ static void ranges_of_the_interface(void **state)
 /* What friction can carry: mu P = 3. */
 static void ranges_of_the_loading(void **state)
 {
-    (void)state;
     ACCEPTED(rc.load = 10.0; rc.force = 3.0);
     ACCEPTED(rc.load = 10.0; rc.force = -3.0);
     REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0; rc.force = 3.00001);
@@ -337,7 +327,6 @@ static void ranges_of_the_loading(void **state)
 
 static void ranges_of_tables(void **state)
 {
-    (void)state;
     const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
                  gone[3] = {-1.0, NAN, 1.0}, dent[3] = {0.0, 0.1, 0.0},
                  begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1};
@@ -369,7 +358,6 @@ static int knows_newton(const char *name)
 
 static void ranges_of_the_mesh(void **state)
 {
-    (void)state;
     ACCEPTED(rc.contact_elements = 3; rc.increments = 1000000);
     ACCEPTED(rc.contact_elements = 1 << 24; rc.outer_elements = 1 << 20);
     REFUSED("contact elements: expected 3", rc.contact_elements = 2);
@@ -452,7 +440,6 @@ static rb_rolling_case similar_half_planes(void)
 
 static void carters_law_is_for_similar_half_planes(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 1.0}, y[] = {0.0, 0.0};
     HOLDS(rb_rolling_carter_holds(&rc), 1, rc.creep = 0.001);
     HOLDS(rb_rolling_carter_holds(&rc), 1, rc.b.radius = 20.0);
@@ -482,7 +469,6 @@ static void carters_law_is_for_similar_half_planes(void **state)
 
 static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
 {
-    (void)state;
     const rb_rolling_mesh large = {.n = RB_ROLLING_LARGE}, small = {.n = large.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
     const rb_rolling_mesh some = {.n = RB_ROLLING_TRANSFORMS}, few = {.n = some.n - 1};
@@ -508,7 +494,6 @@ static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
 
 static void the_list_of_bodies_has_an_end(void **state)
 {
-    (void)state;
     int n = 0;
     for (; rb_rolling_body_kind_get(n); n++)
         assert_true(strlen(rb_rolling_kind_name(rb_rolling_body_kind_get(n))) > 0);
@@ -521,7 +506,6 @@ static void the_list_of_bodies_has_an_end(void **state)
 
 static void hertz_closes_the_circle(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.elastic_b = 1;
     rc.b.radius = 25.0;
@@ -537,7 +521,6 @@ static void hertz_closes_the_circle(void **state)
 
 static void the_half_width_of_an_approach_inverts_the_compression(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     const double a = 0.01 * rc.a.radius;
     rc.approach = a * a / (4 * rc.a.radius) * (2 * log(4 * rc.a.radius / a) - 1);

@@ -34,7 +34,6 @@ static rb_rolling_case plane(void)
  * the line to its neighbour; beyond the outermost midpoints they stay. */
 static void tractions_are_linear_between_midpoints(void **state)
 {
-    (void)state;
     line coarse, fine;
     const rb_rolling_case rc = plane();
     make(&coarse, COARSE, 3.0);
@@ -77,7 +76,6 @@ static void make_contact(line *coarse, line *fine, int first, int last,
  * there an open element takes the zone of its loaded neighbour. */
 static void zones_end_at_the_coarse_edges(void **state)
 {
-    (void)state;
     line coarse, fine;
     const rb_rolling_case rc = plane();
     double from, to;
@@ -100,7 +98,6 @@ static void zones_end_at_the_coarse_edges(void **state)
  * tractions of its last element on their side. */
 static void nothing_is_known_beyond_the_coarse_line(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane();
     line *coarse = calloc(1, sizeof *coarse);
     double *ends = rb_alloc(COARSE + 2, 1), *p = rb_alloc(COARSE, 1);
@@ -134,7 +131,6 @@ static void nothing_is_known_beyond_the_coarse_line(void **state)
 
 static void open_elements_inside_the_edges_join_their_neighbour(void **state)
 {
-    (void)state;
     line coarse, fine;
     const rb_rolling_case rc = plane();
     double from, to;
@@ -157,7 +153,6 @@ static void open_elements_inside_the_edges_join_their_neighbour(void **state)
 
 static void a_quarter_of_the_elements_or_40_start(void **state)
 {
-    (void)state;
     assert_int_equal(rb_rolling_coarse_elements(0), 40);
     assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS - 1), 40);
     assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS),

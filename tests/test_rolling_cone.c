@@ -22,7 +22,6 @@ static rb_rolling_case dissimilar_rolling(void)
 
 static void cone_solvers_agree_with_lemke(void **state)
 {
-    (void)state;
     static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
     rb_rolling_case rc = dissimilar_rolling();
     rb_rolling_model model;
@@ -50,7 +49,6 @@ static void cone_solvers_agree_with_lemke(void **state)
 
 static void a_case_may_name_a_cone_solver(void **state)
 {
-    (void)state;
     rb_rolling_case rc = dissimilar_rolling();
     rb_rolling_solution lemke, cone;
     CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
@@ -95,7 +93,6 @@ static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, do
 
 static void separated_elements_carry_nothing(void **state)
 {
-    (void)state;
     static const rb_contact_cone_solvers rough = {knows_any, solve_roughly};
     rb_rolling_case rc = dissimilar_rolling();
     rb_rolling_model model;

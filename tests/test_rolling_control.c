@@ -45,7 +45,6 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
 
 static void lemke_and_newton_agree_on_500_cases(void **state)
 {
-    (void)state;
     srand(11);
     for (int k = 0; k < 500; k++) {
         rb_rolling_case rc = random_case(1e-4, 1.0);
@@ -72,7 +71,6 @@ static void lemke_and_newton_agree_on_500_cases(void **state)
 
 static void force_control_never_fails_on_the_halfplane(void **state)
 {
-    (void)state;
     srand(12);
     for (int k = 0; k < 400; k++) {
         rb_rolling_case rc = random_case(1e-6, 10.0);
@@ -93,7 +91,6 @@ static void force_control_never_fails_on_the_halfplane(void **state)
 
 static void full_sliding_gives_the_least_creepage(void **state)
 {
-    (void)state;
     for (int sign = -1; sign <= 1; sign += 2) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         rb_rolling_solution s;
@@ -124,7 +121,6 @@ static void full_sliding_gives_the_least_creepage(void **state)
  * and none is given out as one. */
 static void full_sliding_of_tilted_elements_is_checked(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rc.formulation = RB_STEADY;
@@ -145,7 +141,6 @@ static void full_sliding_of_tilted_elements_is_checked(void **state)
 
 static void approach_control_finds_the_force_too_large(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_message why = {""};
@@ -172,7 +167,6 @@ static void approach_control_finds_the_force_too_large(void **state)
 
 static void the_creepage_ratio_is_met_under_approach_control(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rc.a.support = RB_BEM_HALFPLANE;
@@ -188,7 +182,6 @@ static void the_creepage_ratio_is_met_under_approach_control(void **state)
  * asked for, whatever else was solved to learn whether friction can carry that force. */
 static void a_failed_force_leaves_its_iterate(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rc.a.support = RB_BEM_HALFPLANE;
@@ -207,7 +200,6 @@ static void a_failed_force_leaves_its_iterate(void **state)
  * rounds and called that solved. */
 static void the_creepage_ratio_is_met_where_the_load_depends_on_it(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rc.a.poisson = 0.38;
@@ -226,7 +218,6 @@ static void the_creepage_ratio_is_met_where_the_load_depends_on_it(void **state)
  * case is solved and says only that the free creepage is unknown. */
 static void a_failed_free_creepage_leaves_the_case_solved(void **state)
 {
-    (void)state;
     int unknown = 0;
     for (int n = 20; n < 32; n++) {
         rb_rolling_case rc = rb_rolling_case_defaults();

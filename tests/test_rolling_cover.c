@@ -84,7 +84,6 @@ static double difference(const double *A, const double *B, int block, int shape)
  * which the boundary elements know to first order. */
 static void one_material_has_no_seam(void **state)
 {
-    (void)state;
     const rb_bem_material same = {.shear = 3.0, .poisson = 0.3};
     for (int fine = 1; fine <= 2; fine++) {
         double *A = flexibility(5.0, same, 0.5, fine),
@@ -100,7 +99,6 @@ static void one_material_has_no_seam(void **state)
 
 static void a_stiff_core_is_a_rigid_one(void **state)
 {
-    (void)state;
     const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
     double *B = flexibility(5.0, rigid, 5.0, 1.0), before = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -133,7 +131,6 @@ static int elements_of(rb_bem_cylinder cylinder, double half)
  * under the contact these would be 4000, and no more accurate. */
 static void a_thin_rim_has_few_elements(void **state)
 {
-    (void)state;
     const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
     rb_bem_cylinder rim = {.radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.99};
     double *F[3];
@@ -160,7 +157,6 @@ static void a_thin_rim_has_few_elements(void **state)
  * fine by half of it. */
 static void neighbours_are_nearly_as_long(void **state)
 {
-    (void)state;
     double ends[N + 2], longest[2] = {0.0, 0.0};
     int count[2];
     equal_ends(0.5, ends);
@@ -194,7 +190,6 @@ static void neighbours_are_nearly_as_long(void **state)
 /* The core's modulus says nothing of a wheel without a cover. */
 static void a_core_needs_its_cover(void **state)
 {
-    (void)state;
     double approach[2];
     for (int core = 0; core < 2; core++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
@@ -215,7 +210,6 @@ static void a_core_needs_its_cover(void **state)
 
 static void what_does_not_fit_is_refused(void **state)
 {
-    (void)state;
     const double ends[] = {-1.0, 0.0, 1.0, 2.0};
     rb_bem_cylinder c = {
         .radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.3, .cover = 5.0};
@@ -288,7 +282,6 @@ static void solved(const rb_rolling_case *rc, rb_rolling_solution *s)
 /* Deviations fall like d/R: halving it halves them; p0 and the width agree better. */
 static void a_thin_cover_is_the_layer(void **state)
 {
-    (void)state;
     static const struct {
         double nu, core;
     } kind[3] = {{0.45, 0.0}, {0.45, 210000.0}, {0.3, 30.0}};
@@ -322,7 +315,6 @@ static void a_thin_cover_is_the_layer(void **state)
  * processor; of three tries the best counts, where others work beside. */
 static void sixty_points_take_three_seconds(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     double best = INFINITY;
     rc.a.radius = 150.0;
@@ -362,7 +354,6 @@ static void sixty_points_take_three_seconds(void **state)
  * of A's polygon weigh the tractions, which differ by (a/R)^2. */
 static void either_body_may_be_covered(void **state)
 {
-    (void)state;
     rb_rolling_case rc = roll(10.0, 0.4, 1000.0);
     rb_rolling_solution s[2];
     rc.half_width = 1.0;
@@ -389,7 +380,6 @@ static void either_body_may_be_covered(void **state)
  * a seam where both are of one material. */
 static void the_bond_carries_the_load(void **state)
 {
-    (void)state;
     static const double xy[] = {0.0, 1.0, 0.4, 2.0, -1.0, 0.5, 0.2, 4.0, 1.5, 3.0};
     enum { POINTS = 5 };
     rb_rolling_stress at[2][POINTS];
@@ -422,7 +412,6 @@ static void the_bond_carries_the_load(void **state)
 
 static void bad_covers_are_refused(void **state)
 {
-    (void)state;
     static const char *const word[5] = {"add --support hub", "less than the radius",
                                         "compressible", "core", "hub of radius"};
     for (int k = 0; k < 5; k++) {
@@ -446,7 +435,6 @@ static void bad_covers_are_refused(void **state)
  * the next case. */
 static void a_cover_that_nothing_holds_is_singular(void **state)
 {
-    (void)state;
     rb_rolling_case rc = roll(5.0, 0.3, 1e-90);
     rb_rolling_model model = {0};
     rb_rolling_solution s;
@@ -481,7 +469,6 @@ static void a_cover_that_nothing_holds_is_singular(void **state)
 /* A cover of nu = 1/2 carries by waves as short as it is thick. */
 static void elements_longer_than_the_cover_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = roll(0.2, 0.5, 0.0);
     rb_rolling_solution s;
     rb_message why = {""};

@@ -66,7 +66,6 @@ static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case 
 
 static void every_point_is_its_case(void **state)
 {
-    (void)state;
     for (int over = 0; over < 2; over++) {
         rb_rolling_case rc = carter(40);
         const double scale = over == RB_OVER_CREEP_RATIO ? 1.0 : 0.01;
@@ -98,7 +97,6 @@ static void every_point_is_its_case(void **state)
 
 static void a_single_point_is_the_first(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(20);
     rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 0.9, 1);
     assert_int_equal(c.n, 1);
@@ -109,7 +107,6 @@ static void a_single_point_is_the_first(void **state)
 /* Equal steps of its logarithm, each with bodies of its own. */
 static void speeds_have_their_own_bodies(void **state)
 {
-    (void)state;
     rb_rolling_case rc = relaxing();
     rb_rolling_curve c = run(&rc, RB_OVER_SPEED, 100.0, 10000.0, 3);
     rc.formulation = RB_STEADY;
@@ -130,7 +127,6 @@ static void speeds_have_their_own_bodies(void **state)
 /* Between midpoints of four elements nothing touches. */
 static void a_curve_without_contact_says_so(void **state)
 {
-    (void)state;
     rb_rolling_case rc = relaxing();
     rb_message why = {""};
     rb_rolling_curve c;
@@ -152,7 +148,6 @@ static void a_curve_without_contact_says_so(void **state)
  * still its case. */
 static void meshes_follow_the_contact(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(40);
         rc.elastic_b = 0;
@@ -175,7 +170,6 @@ static void meshes_follow_the_contact(void **state)
 /* A friction law that falls: there and back, each point from the one before it. */
 static void falling_friction_goes_there_and_back(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(24);
     rc.friction.law = RB_FRICTION_exponential;
     rc.friction.fall[0] = 0.2;
@@ -202,7 +196,6 @@ static void falling_friction_goes_there_and_back(void **state)
  * temperature too. */
 static void warm_curves_have_the_temperatures_of_their_cases(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(24);
     rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
     rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 1.2, 2);
@@ -232,7 +225,6 @@ static void refused(rb_rolling_case rc, rb_rolling_range range, const char *word
 
 static void ranges_that_make_no_sense_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case smooth = carter(20);
     smooth.mu = 0.0;
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3}, "finite numbers");
@@ -259,7 +251,6 @@ static void ranges_that_make_no_sense_are_refused(void **state)
  * mesh of the first one has an edge that is a hundredth of the half-width away. */
 static void a_hundredth_of_the_half_width_is_followed(void **state)
 {
-    (void)state;
     int stay = 0, follow = 0;
     for (int k = 0; k < 6; k++) {
         const double last = -0.99 + 0.01 * k;

@@ -289,7 +289,6 @@ static void steady_rolling_of_dissimilar_bodies(void **state)
         {900.0, 0.1, 1e9, 0.3, 0.05, -0.5},   {900.0, 0.1, 1e9, 0.3, 0.3, 1e-6},
         {700.0, 0.33, 2100., 0.28, 0.3, 0.9}, {2100., 0.28, 700.0, 0.0, 0.3, -0.2},
         {300.0, 0.45, 2e4, 0.1, 0.6, 0.99}};
-    (void)state;
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
         compare(&pairs[k], (int)k);
 }
@@ -312,7 +311,6 @@ static void dissimilar_bodies_roll_from_rest(void **state)
     static const pair pairs[] = {{900.0, 0.1, 1e9, 0.3, 0.3, -0.5},
                                  {2100., 0.28, 700.0, 0.0, 0.3, 0.6}};
     static contact c;
-    (void)state;
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
         const pair *b = &pairs[k];
         rb_rolling_case rc = the_same(b);

@@ -22,7 +22,6 @@ static rb_rolling_case carter(int elements)
 
 static void bars_are_three_or_five_times_the_spread(void **state)
 {
-    (void)state;
     static const double runs[][3] = {
         {1.0, 1.2, 1.1}, {3.0, 2.0, 1.0}, {2.0, 2.5, 3.0}, {1.0, 1.0, 1.0}};
     static const double wanted[] = {5.0 * 0.2, 3.0 * 2.0, 3.0 * 1.0, 0.0};
@@ -40,7 +39,6 @@ static void bars_are_three_or_five_times_the_spread(void **state)
 
 static void coarser_runs_have_half_and_seven_tenths(void **state)
 {
-    (void)state;
     static const int elements[] = {20, 28, 40}, steps[] = {4, 5, 7};
     static const double boundary[] = {3.0, 3.0, 1.5};
     rb_rolling_case rc = carter(40);
@@ -69,7 +67,6 @@ static void coarser_runs_have_half_and_seven_tenths(void **state)
 
 static void too_few_elements_cannot_be_halved(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(12);
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_OK);
@@ -90,7 +87,6 @@ static void too_few_elements_cannot_be_halved(void **state)
 
 static void the_power_of_an_edge_is_that_of_a_root(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(40);
     CHECK_REL(rb_rolling_edge_power(&rc, 500.0, -0.01, 2.0, 0.25),
               0.3 * 500.0 * 0.01 * 0.125, 1e-12, "similar bodies");
@@ -157,7 +153,6 @@ static void check_bars(const rb_rolling_case *rc)
 
 static void every_scalar_has_its_bar(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(40);
     check_bars(&rc);
     rc.elastic_b = 0;
@@ -170,7 +165,6 @@ static void every_scalar_has_its_bar(void **state)
 
 static void a_history_has_bars_of_its_steps(void **state)
 {
-    (void)state;
     const double distance[] = {0.0, 0.0, 0.6}, load[] = {300.0, 500.0, 500.0},
                  force[] = {0.0, -50.0, -60.0};
     const rb_rolling_program program = {
@@ -228,7 +222,6 @@ static void a_history_has_bars_of_its_steps(void **state)
 
 static void an_accuracy_is_reached_by_more_elements(void **state)
 {
-    (void)state;
     static const double accuracy[] = {0.9, 0.05, 0.01};
     int before = 0;
     for (int k = 0; k < 3; k++) {
@@ -255,7 +248,6 @@ static void an_accuracy_is_reached_by_more_elements(void **state)
  * Johnson) is hundreds of mu a/R, and its error is judged by itself. */
 static void little_friction_asks_for_no_more_elements(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(40);
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -279,7 +271,6 @@ static void little_friction_asks_for_no_more_elements(void **state)
 
 static void what_is_no_accuracy_is_refused(void **state)
 {
-    (void)state;
     static const double accuracy[] = {0.0, 1.0, -0.1, NAN};
     for (int k = 0; k < 4; k++) {
         const rb_rolling_case rc = carter(20);
@@ -297,7 +288,6 @@ static void what_is_no_accuracy_is_refused(void **state)
 /* Each that makes coarser runs refuses a case that cannot be halved. */
 static void nothing_is_halved_below_its_least(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(4);
     rb_rolling_solution s = {0};
     rb_rolling_errors errors;
@@ -322,7 +312,6 @@ static void nothing_is_halved_below_its_least(void **state)
 /* The limit is told with what was reached; equal elements hear of fitted ones. */
 static void an_accuracy_that_no_mesh_has_is_refused_at_once(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(12);
         rb_rolling_solution s;
@@ -343,7 +332,6 @@ static void an_accuracy_that_no_mesh_has_is_refused_at_once(void **state)
 /* Memory that is refused to a later round leaves the best solution so far. */
 static void a_later_round_that_fails_leaves_the_one_before(void **state)
 {
-    (void)state;
     int none = 0, some = 0;
     for (int count = 50; count < 3000; count = count * 5 / 4) {
         rb_rolling_case rc = carter(12);
@@ -372,7 +360,6 @@ static void a_later_round_that_fails_leaves_the_one_before(void **state)
  */
 static void a_given_force_has_an_accurate_creepage(void **state)
 {
-    (void)state;
     static const double accuracy[] = {0.1, 0.05, 0.02};
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = carter(12);
@@ -395,7 +382,6 @@ static void a_given_force_has_an_accurate_creepage(void **state)
 /* Twice the elements make twice the steps: what is told is the solution of that case. */
 static void accuracy_takes_more_steps_too(void **state)
 {
-    (void)state;
     rb_rolling_case rc = carter(12);
     rb_rolling_solution s;
     rb_rolling_errors errors;

@@ -110,7 +110,6 @@ static void refuse(const char *what, rb_status (*work)(void *), rb_rolling_case 
 
 static void laws_and_heat(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(6);
     rc.friction.law = RB_FRICTION_exponential;
     rc.friction.fall[0] = 0.2;
@@ -138,7 +137,6 @@ static void laws_and_heat(void **state)
 
 static void stress_wear_and_curves(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(6);
     refuse("shakedown", find_shakedown, &rc);
     refuse("a wheel that wears", wear, &rc);
@@ -152,7 +150,6 @@ static void stress_wear_and_curves(void **state)
 
 static void steps_that_yield(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(6);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 0.5;
@@ -165,7 +162,6 @@ static void steps_that_yield(void **state)
 /* Two lobes, on a wheel: places that no element sees. */
 static void patches_of_wheels(void **state)
 {
-    (void)state;
     enum { ROWS = 41 };
     double x[ROWS], gap[ROWS];
     rb_rolling_profile *profile;
@@ -191,7 +187,6 @@ static void patches_of_wheels(void **state)
 
 static void products_of_large_contacts(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_ROLLING_LARGE);
     refuse("products", pose_large, &rc);
 }

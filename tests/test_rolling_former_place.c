@@ -62,7 +62,6 @@ static double largest(const pressed *d)
  * where the displacement is smooth. */
 static void whole_elements_ahead_are_their_midpoints(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) { /* with body B, with an interface */
         rb_rolling_case rc = plane(k % 2, N);
         rc.interlayer_tangential = k / 2 ? 1e-4 : 0.0;
@@ -87,7 +86,6 @@ static void whole_elements_ahead_are_their_midpoints(void **state)
  * line between its neighbours as far as the bodies differ from half-planes. */
 static void places_beyond_the_mesh_are_those_of_a_longer_one(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(1, N), longer = plane(1, N + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
     rb_rolling_former_place ahead;
@@ -117,7 +115,6 @@ static void places_beyond_the_mesh_are_those_of_a_longer_one(void **state)
 /* A wheel differs from its half-plane by what is smooth along the surface. */
 static void a_wheel_is_nearly_on_the_line_of_its_midpoints(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(0, N);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 60;
@@ -153,7 +150,6 @@ static void a_wheel_is_nearly_on_the_line_of_its_midpoints(void **state)
  * between midpoints. */
 static void large_contacts_look_ahead_alike(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(1, LARGE);
         const double h = 6.0 / LARGE;
@@ -193,7 +189,6 @@ static void large_contacts_look_ahead_alike(void **state)
 
 static void memory_for_what_is_ahead_may_be_refused(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(0, k ? LARGE : N);
         pressed d = press(&rc, -1.0, 1.0);

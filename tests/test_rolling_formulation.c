@@ -62,7 +62,6 @@ static double S(const posed *d, int i, int j)
 
 static void steady_slip_is_the_difference_upstream(void **state)
 {
-    (void)state;
     const rb_rolling_case steady = plane(RB_STEADY), rest = plane(RB_STATIC);
     posed rolls = pose(&steady, NULL), stands = pose(&rest, NULL);
     assert_int_equal(rolls.p.differences, 1);
@@ -85,7 +84,6 @@ static void steady_slip_is_the_difference_upstream(void **state)
  * takes t = 1. */
 static void the_second_order_operator_has_four_points(void **state)
 {
-    (void)state;
     const double t = 0.0740956,
                  a[4] = {(1 - t) / 4, (3 + 3 * t) / 4, -(5 + 3 * t) / 4, (1 + t) / 4};
     rb_rolling_case rc = plane(RB_STEADY);
@@ -124,7 +122,6 @@ static void the_second_order_operator_has_four_points(void **state)
  * two points outside of which the second-order operator asks. */
 static void displacement_outside_continues_the_wheel(void **state)
 {
-    (void)state;
     const double t = 0.0740956, first = (1 - t) / 4, last = (1 + t) / 4,
                  middle[2] = {(3 + 3 * t) / 4, -(5 + 3 * t) / 4};
     rb_rolling_case rc = plane(RB_STEADY);
@@ -168,7 +165,6 @@ static void products_move_with_the_tractions(void **state)
 {
     enum { n = RB_ROLLING_LARGE };
     static double here[2 * n], there[2 * n];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(RB_STEADY);
         rc.contact_elements = n;
@@ -193,7 +189,6 @@ static void products_move_with_the_tractions(void **state)
 
 static void a_step_begins_with_its_past(void **state)
 {
-    (void)state;
     double before[N], u[N];
     for (int i = 0; i < N; i++) {
         before[i] = 1e-4 * i * i;
@@ -224,7 +219,6 @@ static void a_step_begins_with_its_past(void **state)
  * slip, in a step of its own. */
 static void what_yields_follows_the_material(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
         static const double want[3][3] = {
@@ -243,7 +237,6 @@ static void what_yields_follows_the_material(void **state)
 /* An element softens by less than its slip sets free: the limit is 1/(own S_ii). */
 static void softening_has_a_limit(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STEADY);
     rc.yield_stress = 50.0;
     posed d = pose(&rc, NULL);
@@ -275,7 +268,6 @@ static void softening_has_a_limit(void **state)
 /* Along the surface of the wheel normals turn by x/R. */
 static void normals_of_the_surface_turn_with_it(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(RB_STATIC);
         rc.a.support = RB_BEM_ARC;
@@ -301,7 +293,6 @@ static void normals_of_the_surface_turn_with_it(void **state)
 
 static void each_control_gives_its_unknown(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STEADY);
     posed d = pose(&rc, NULL);
     rb_contact_problem *p = &d.p;
@@ -374,7 +365,6 @@ static void each_control_gives_its_unknown(void **state)
 
 static void scales_make_the_diagonals_one(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(RB_STEADY);
         rc.mu = k == 0 ? 0.3 : k == 1 ? 0.0 : 1e-6;
@@ -398,7 +388,6 @@ static void scales_make_the_diagonals_one(void **state)
 
 static void ratios_come_from_load_and_friction(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STEADY);
     rb_rolling_model model;
     rc.creep_ratio = 0.5;
@@ -421,7 +410,6 @@ static void ratios_come_from_load_and_friction(void **state)
 /* Q of Coulomb's full sliding is -mu P beyond that creepage, whatever couples. */
 static void everything_slides_at_the_sliding_creepage(void **state)
 {
-    (void)state;
     static const double mu[] = {0.05, 0.3, 1.0};
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(RB_STEADY);

@@ -59,7 +59,6 @@ static void check_residual(const rb_rolling_model *model)
 /* Lemke on both forms, Newton, a cone solver; every formulation and mesh. */
 static void each_element_has_its_bound(void **state)
 {
-    (void)state;
     rb_rolling_model first = {0};
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = steady();
@@ -108,7 +107,6 @@ static void each_element_has_its_bound(void **state)
 /* Matrices and transforms, transient steps, a curve: the same law everywhere. */
 static void large_contacts_and_steps_too(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steady();
     rc.contact_elements = 1501;
     rb_rolling_model model = solved_model(&rc);
@@ -139,7 +137,6 @@ static void large_contacts_and_steps_too(void **state)
 static void an_even_table_is_one_coefficient(void **state)
 {
     static const double even[] = {0.4, 0.4};
-    (void)state;
     rb_rolling_case rc = steady();
     rc.friction.table = (rb_rolling_table){2, places, even};
     rb_rolling_model table = solved_model(&rc);
@@ -158,7 +155,6 @@ static void an_even_table_is_one_coefficient(void **state)
 /* Its own displacement, and nothing else, is what F r has more. */
 static void an_interface_yields_by_itself(void **state)
 {
-    (void)state;
     for (int large = 0; large < 2; large++) {
         rb_rolling_case rc = steady();
         rb_rolling_mesh mesh;
@@ -195,7 +191,6 @@ static void an_interface_moves_with_the_steps(void **state)
     const int n = 1501;
     double *p = rb_alloc((size_t)n, 2), *q = p + n;
 
-    (void)state;
     for (int i = 0; i < n - 1; i++)
         q[i] = 100.0 * rand() / RAND_MAX;
     for (int large = 0; large < 2; large++) {
@@ -229,7 +224,6 @@ static void an_interface_moves_with_the_steps(void **state)
  * grows by xi / c per length from the leading edge on until it meets the bound. */
 static void a_soft_interface_is_a_brush(void **state)
 {
-    (void)state;
     const double c = 1e-2;
     for (int large = 0; large < 2; large++) {
         rb_rolling_case rc = steady();
@@ -266,7 +260,6 @@ static void bad_tables_are_refused(void **state)
     } bad[] = {{{2, back, values}, "row 2: expected x to increase"},
                {{2, places, negative}, "row 2: expected mu >= 0"},
                {{0, NULL, NULL}, "expected a row or more"}};
-    (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_rolling_case rc = steady();
         rb_message why = {""};

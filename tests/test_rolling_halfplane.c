@@ -44,7 +44,6 @@ static void check_honest(const rb_rolling_case *rc, const rb_rolling_solution *s
 
 static void hertz_at_any_alignment(void **state)
 {
-    (void)state;
     for (int k = 0; k <= 4; k++) {
         rb_rolling_case rc = incompressible_wheel();
         rc.mu = 0.0;
@@ -69,7 +68,6 @@ static void hertz_at_any_alignment(void **state)
 /* The compression of a half-cylinder, which the default datum reproduces (B6). */
 static void hertz_by_approach(void **state)
 {
-    (void)state;
     rb_rolling_case rc = incompressible_wheel();
     const double a = rc.half_width, R = rc.a.radius;
     align(&rc, 200, 0.5);
@@ -95,7 +93,6 @@ static rb_rolling_solution rolling_at(rb_rolling_case rc, double ratio)
 
 static void carter_on_200_equal_elements(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 9; k++) {
         rb_rolling_case rc = incompressible_wheel();
         const double a = rc.half_width;
@@ -114,7 +111,6 @@ static void carter_on_200_equal_elements(void **state)
 
 static void carter_halves_its_error_with_the_mesh(void **state)
 {
-    (void)state;
     for (int k = 2; k <= 8; k += 3) {
         double error[2];
         for (int fine = 0; fine < 2; fine++) {
@@ -132,7 +128,6 @@ static void carter_halves_its_error_with_the_mesh(void **state)
 
 static void beyond_full_sliding_everything_slides(void **state)
 {
-    (void)state;
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s = rolling_at(rc, -1.2);
     CHECK_REL(s.force_ratio, 1.0, 1e-12, "s = -1.2");
@@ -142,7 +137,6 @@ static void beyond_full_sliding_everything_slides(void **state)
 
 static void carter_on_a_fitted_mesh(void **state)
 {
-    (void)state;
     const int n[] = {50, 100, 200};
     const double bound[] = {3e-4, 1.5e-4, 3e-5};
     for (int mesh = 0; mesh < 3; mesh++)
@@ -161,7 +155,6 @@ static void carter_on_a_fitted_mesh(void **state)
 
 static void carter_under_force_control(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 10; k++) {
         const double ratio = k == 10 ? 0.99 : 0.1 * k;
         rb_rolling_case rc = incompressible_wheel();
@@ -177,7 +170,6 @@ static void carter_under_force_control(void **state)
 
 static void both_forms_agree(void **state)
 {
-    (void)state;
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = incompressible_wheel();
         rc.a.poisson = dissimilar ? 0.28 : 0.5;
@@ -202,7 +194,6 @@ static void both_forms_agree(void **state)
 /* On the half-plane nothing but the upstream difference knows left from right. */
 static void the_signs_of_creepage_mirror_for_similar_bodies(void **state)
 {
-    (void)state;
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution plus = rolling_at(rc, 0.4), minus = rolling_at(rc, -0.4);
     for (int i = 0; i < plus.n; i++)
@@ -235,7 +226,6 @@ static rb_rolling_case aluminium_on_steel(double mu)
 
 static void bentall_johnson_free_rolling(void **state)
 {
-    (void)state;
     rb_rolling_case rc = aluminium_on_steel(10.0);
     rb_rolling_solution s = solved(&rc);
     CHECK_REL(s.normal_load, 16.20192, 1e-6, "load");
@@ -254,7 +244,6 @@ static void bentall_johnson_free_rolling(void **state)
 
 static void cattaneo_mindlin(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 9; k += 2) {
         rb_rolling_case rc = incompressible_wheel();
         const double a = rc.half_width, c = a * sqrt(1.0 - 0.1 * k);
@@ -278,7 +267,6 @@ static void cattaneo_mindlin(void **state)
 
 static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
 {
-    (void)state;
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s;
     rb_message why = {""};
@@ -295,7 +283,6 @@ static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
 
 static void a_gap_that_never_closes_is_no_contact(void **state)
 {
-    (void)state;
     const double x[] = {-100.0, 0.0, 100.0}, gap[] = {1.1, 1.0, 1.1};
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s;
@@ -314,7 +301,6 @@ static void a_gap_that_never_closes_is_no_contact(void **state)
 /* A profile of the parabola itself gives the parabola's answer. */
 static void a_table_gap_is_the_gap_it_tabulates(void **state)
 {
-    (void)state;
     enum { POINTS = 41 };
     double x[POINTS], gap[POINTS];
     rb_rolling_profile *profile;
@@ -337,7 +323,6 @@ static void a_table_gap_is_the_gap_it_tabulates(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     rb_rolling_case rc = incompressible_wheel();
     rc.contact_elements = 12;
     rc.formulation = RB_STEADY;

@@ -43,7 +43,6 @@ static double quadrature(const source *s, double from, double to)
 
 static void strip_meets_quadrature(void **state)
 {
-    (void)state;
     static const double ends[][2] = {{-0.5, 0.5}, {0.5, 1.5},  {-1.5, -0.5}, {7.5, 8.5},
                                      {-9, -8},    {0.0, 0.01}, {-3.0, 5.0}};
     static const double P[] = {0.02, 0.3, 1.0, 8.0, 40.0};
@@ -99,7 +98,6 @@ static double closed_maximum(const rb_rolling_case *rc, const rb_rolling_solutio
 /* The elements alone, under the heat of Hertz's pressure at their midpoints. */
 static void element_sum_meets_the_closed_form(void **state)
 {
-    (void)state;
     static const int n[] = {50, 100, 200};
     static const double bound[] = {2.7e-4, 8e-5, 3.5e-5};
     const rb_rolling_heat body = {50.0, 3.5, 0.0};
@@ -124,7 +122,6 @@ static void element_sum_meets_the_closed_form(void **state)
 
 static void elliptic_source_meets_its_closed_form(void **state)
 {
-    (void)state;
     static const int n[] = {50, 100, 200, 400};
     static const double bound[] = {5e-4, 1.8e-4, 6.3e-5, 2.2e-5};
 
@@ -143,7 +140,6 @@ static void elliptic_source_meets_its_closed_form(void **state)
  * on. */
 static void high_peclet_number_is_a_limit(void **state)
 {
-    (void)state;
     static const double peclet[] = {100.0, 10.0, 1.0}, bound[] = {3e-5, 1e-3, 0.08};
 
     for (int k = 0; k < 3; k++) {
@@ -158,7 +154,6 @@ static void high_peclet_number_is_a_limit(void **state)
 /* All meshes give the same, to their order. */
 static void meshes_agree(void **state)
 {
-    (void)state;
     static const rb_rolling_mesh_kind mesh[] = {RB_MESH_UNIFORM, RB_MESH_FITTED};
 
     for (int k = 0; k < 2; k++) {
@@ -181,7 +176,6 @@ static void meshes_agree(void **state)
 
 static void surfaces_in_contact_are_equally_warm(void **state)
 {
-    (void)state;
     rb_rolling_case rc = sliding(2000.0, 100);
     rc.heat_b = (rb_rolling_heat){200.0, 2.4, 0.0};
     rb_rolling_solution s = solved(&rc);
@@ -203,7 +197,6 @@ static void surfaces_in_contact_are_equally_warm(void **state)
 /* Without friction: T_m in contact, and behind it each body cools to its own. */
 static void conduction_between_bodies(void **state)
 {
-    (void)state;
     rb_rolling_case rc = sliding(1e4, 200);
     rc.mu = 0.0;
     rc.creep = 0.0;
@@ -233,7 +226,6 @@ static void conduction_between_bodies(void **state)
 
 static void steps_tend_to_the_steady_state(void **state)
 {
-    (void)state;
     static const int steps[] = {0, 300};
     rb_rolling_case rc = sliding(1e4, 120);
     rc.mesh = RB_MESH_UNIFORM;
@@ -261,7 +253,6 @@ static void steps_tend_to_the_steady_state(void **state)
 
 static void curve_has_the_temperature_of_its_cases(void **state)
 {
-    (void)state;
     rb_rolling_case rc = sliding(500.0, 60);
     rb_rolling_curve curve;
     rb_message why = {""};
@@ -278,7 +269,6 @@ static void curve_has_the_temperature_of_its_cases(void **state)
 
 static void other_cases_have_no_temperature(void **state)
 {
-    (void)state;
     rb_rolling_case rc = sliding(500.0, 60);
     rc.heat_a.conductivity = 0.0;
     rb_rolling_solution s = solved(&rc);
@@ -290,7 +280,6 @@ static void other_cases_have_no_temperature(void **state)
 
 static void meaningless_cases_are_refused(void **state)
 {
-    (void)state;
     const rb_rolling_case good = sliding(500.0, 60);
     rb_rolling_case bad[7];
     for (int k = 0; k < 7; k++)
@@ -320,7 +309,6 @@ static void meaningless_cases_are_refused(void **state)
  */
 static void slow_steps_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = sliding(5.0, 60);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -337,7 +325,6 @@ static void slow_steps_are_refused(void **state)
 
 static void the_warmest_place_is_a_vertex_in_contact(void **state)
 {
-    (void)state;
     enum { N = 6 };
     const double x[N] = {0.0, 1.0, 2.0, 3.5, 4.0, 5.0};
     double t[N], value, at;
@@ -381,7 +368,6 @@ static void the_warmest_place_is_a_vertex_in_contact(void **state)
 
 static void peclets_number_compares_speed_and_diffusion(void **state)
 {
-    (void)state;
     const rb_rolling_heat steel = {.conductivity = 40.0, .heat_capacity = 4.0},
                           none = {0};
     CHECK_REL(rb_rolling_peclet(&steel, 500.0, 0.2), 500.0 * 0.2 / 20.0, 1e-15, "V a/2k");
@@ -392,7 +378,6 @@ static void peclets_number_compares_speed_and_diffusion(void **state)
  * (sqrt(k+1) - sqrt(k)) after k steps, linear between midpoints, from elements alone. */
 static void steps_warm_what_passes_them(void **state)
 {
-    (void)state;
     enum { N = 8, STEPS = 9 };
     static const double lengths[] = {1.0, 2.0, 0.5, 0.7};
     for (int j = 0; j < 4; j++) {
@@ -436,7 +421,6 @@ static void steps_warm_what_passes_them(void **state)
 /* Where nothing rolls no heat is kept; along the depth only where heat is slow. */
 static void a_track_is_refused_where_heat_runs_along(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
     rb_message why = {""};
@@ -454,7 +438,6 @@ static void a_track_is_refused_where_heat_runs_along(void **state)
 /* Equal temperatures beside the warmest element have no vertex. */
 static void an_even_temperature_has_its_first_place(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 1.0, 2.0}, t[] = {5.0, 7.0, 7.0, 7.0};
     const int zone[] = {RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK};
     double value, at;
@@ -484,7 +467,6 @@ static rb_rolling_case warm_sliding(rb_rolling_formulation formulation)
  * equally warm where they touch. */
 static void unlike_bodies_share_by_temperature(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = warm_sliding(RB_STEADY);
         rc.heat_b = rc.heat_a;
@@ -518,7 +500,6 @@ static void unlike_bodies_share_by_temperature(void **state)
  * made; the same elements taken as fitted ones have it made. */
 static void shares_of_equal_elements_are_those_of_any(void **state)
 {
-    (void)state;
     rb_rolling_case rc = warm_sliding(RB_STEADY);
     rc.contact_elements = 60;
     rc.heat_b =
@@ -550,7 +531,6 @@ static void shares_of_equal_elements_are_those_of_any(void **state)
 
 static void tracks_longer_than_memory_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
     rb_message why = {""};
@@ -564,7 +544,6 @@ static void tracks_longer_than_memory_are_refused(void **state)
 /* A case of steps that is solved without them has no heat behind it. */
 static void without_steps_no_heat_is_known(void **state)
 {
-    (void)state;
     rb_rolling_case rc = warm_sliding(RB_TRANSIENT);
     rb_rolling_solution s;
     rc.distance = 1.0;

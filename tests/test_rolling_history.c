@@ -44,7 +44,6 @@ static const double contact_says[][2] = {
 
 static void from_cattaneo_to_carter(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(200);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -71,7 +70,6 @@ static void from_cattaneo_to_carter(void **state)
  * particle was. */
 static void other_steps_tell_the_same_story(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(100);
     rb_rolling_model model[2];
     rb_rolling_history h[2];
@@ -102,7 +100,6 @@ static rb_rolling_case wheel_on_rail(rb_bem_support support, int across)
 /* Whole elements ahead are rows of F, which does not know of half-planes. */
 static void whole_elements_ahead_are_known(void **state)
 {
-    (void)state;
     for (int hub = 0; hub < 2; hub++) {
         const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
         rb_rolling_model model;
@@ -128,7 +125,6 @@ static void whole_elements_ahead_are_known(void **state)
  * carry what one did. */
 static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
     rb_rolling_model coarse, fine;
     rc.a.datum = rc.b.datum = 100.0;
@@ -155,7 +151,6 @@ static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
 
 static void other_steps_on_a_wheel(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 60);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -178,7 +173,6 @@ static void other_steps_on_a_wheel(void **state)
  */
 static void the_limit_is_the_steady_state(void **state)
 {
-    (void)state;
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = steel_wheel(40);
         rb_rolling_model model;
@@ -205,7 +199,6 @@ static void the_limit_is_the_steady_state(void **state)
  * rest. */
 static void without_friction_all_of_it_is_steady(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(10);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -222,7 +215,6 @@ static void without_friction_all_of_it_is_steady(void **state)
  * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
 static void unloading_follows_mindlin_and_deresiewicz(void **state)
 {
-    (void)state;
     const double force[] = {0.0, 0.3, 0.6, 0.4, 0.2, 0.0, -0.1};
     rb_rolling_case rc = steel_wheel(200);
     const rb_rolling_program program = {.n = 7, .force_ratio = force};
@@ -251,7 +243,6 @@ static void unloading_follows_mindlin_and_deresiewicz(void **state)
 /* The shift that a given force causes, given back as a shift, causes that force. */
 static void shift_and_force_are_two_sides_of_one_history(void **state)
 {
-    (void)state;
     const double force[] = {0.2, 0.5, 0.3}, load[] = {150.0, 178.0, 160.0};
     rb_rolling_case rc = steel_wheel(60);
     rb_rolling_program program = {.n = 3, .force_ratio = force, .load = load};
@@ -276,7 +267,6 @@ static void shift_and_force_are_two_sides_of_one_history(void **state)
 /* A load that grows on the way: at every step the given one. */
 static void loads_vary_along_the_way(void **state)
 {
-    (void)state;
     const double distance[] = {0.0, 1.0, 2.0}, load[] = {100.0, 178.0, 120.0},
                  creep[] = {1e-4, 2e-4, 1e-4};
     rb_rolling_case rc = steel_wheel(40);
@@ -307,7 +297,6 @@ typedef struct {
 
 static void bad_programs_name_the_row(void **state)
 {
-    (void)state;
     static const double back[] = {0.0, 1.0, 0.5}, twice[] = {0.0, 1.0, 1.0},
                         hole[] = {1.0, NAN, 1.0}, negative[] = {1.0, 1.0, -1.0},
                         way[] = {0.0, 1.0, 2.0};
@@ -346,7 +335,6 @@ static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history 
 
 static void an_interrupted_run_keeps_its_steps(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -401,7 +389,6 @@ static void count_history(double creep, double force_ratio, double zone, tally *
  * the error: the bars are about eleven times too wide in the median. */
 static void error_bars_hold_finer_runs(void **state)
 {
-    (void)state;
     tally of_force = {.wide = 15.0}, of_creepage = {.wide = 15.0};
     for (int k = 1; k <= 4; k++) {
         count_history(1e-4 * k, NAN, 1.06 + 0.067 * k, &of_force, &of_creepage);
@@ -414,7 +401,6 @@ static void error_bars_hold_finer_runs(void **state)
 /* Static increments: no steps, the same rows on all meshes. */
 static void error_bars_hold_mindlin(void **state)
 {
-    (void)state;
     const double force[] = {0.3, 0.6, 0.9, 0.4, -0.2};
     const rb_rolling_program program = {.n = 5, .force_ratio = force};
     rb_rolling_case rc = steel_wheel(60), finer = steel_wheel(240);
@@ -448,7 +434,6 @@ static int stop_in_companion(const rb_rolling_model *model,
 
 static void companions_can_be_interrupted(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -466,7 +451,6 @@ static void companions_can_be_interrupted(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(12);
     int refused = 1;
     rc.formulation = RB_TRANSIENT;
@@ -498,7 +482,6 @@ static void check_refused(rb_status s, const rb_message *why, const char *words)
 
 static void ways_that_lead_nowhere_are_refused(void **state)
 {
-    (void)state;
     static const double distance[] = {0.0, -1.0, NAN, 1e8};
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steel_wheel(20);
@@ -540,7 +523,6 @@ static void run_recorded(const rb_rolling_case *rc, rb_rolling_states *states,
 
 static void states_are_followed_to_the_same_history(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_states states = {0};
     rb_rolling_model model, again;
@@ -598,7 +580,6 @@ static void states_are_followed_to_the_same_history(void **state)
  * they follow it, and a creepage that is another one is seen. */
 static void states_of_a_ratio_are_followed(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_states states = {0};
     rb_rolling_model model, again;
@@ -659,7 +640,6 @@ static int check_yielded(const rb_rolling_model *model, const rb_rolling_history
 
 static void what_has_yielded_rides_along(void **state)
 {
-    (void)state;
     double most = 0.0;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
@@ -682,7 +662,6 @@ static void what_has_yielded_rides_along(void **state)
 /* With the coefficient of its row a force may be too large: at rest as on the way. */
 static void a_row_s_friction_bounds_its_force(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -700,7 +679,6 @@ static void a_row_s_friction_bounds_its_force(void **state)
  */
 static void friction_between_rows_bounds_the_force(void **state)
 {
-    (void)state;
     rb_rolling_case rc = steel_wheel(12);
     rb_rolling_model model;
     rb_rolling_history h;

@@ -28,7 +28,6 @@ static rb_rolling_case brushes(int n, double s)
 /* |Q|/(mu P) = 1 - (1 - s)^3, s = xi R L_N/(mu L_T a). */
 static void brushes_meet_their_law(void **state)
 {
-    (void)state;
     static const double s[] = {0.2, 0.5, 0.8};
     static const int n[] = {50, 100, 200};
     static const double bound[] = {3e-4, 2.7e-4, 9e-4}; /* with 50 elements */
@@ -75,7 +74,6 @@ static rb_rolling_case layered(double lam, int n, double ratio)
 
 static void layer_lowers_the_slope(void **state)
 {
-    (void)state;
     static const double lam[] = {0.01, 0.1, 0.3, 1.0, 3.0, 10.0};
     static const double slope[] = {0.9875, 0.9116, 0.7937, 0.5538, 0.2970, 0.11289};
 
@@ -89,7 +87,6 @@ static void layer_lowers_the_slope(void **state)
 
 static void layer_moves_the_whole_curve(void **state)
 {
-    (void)state;
     static const double s[] = {0.5, 1.0, 2.0}, ratio[] = {0.4890, 0.7849, 0.9713};
 
     for (int k = 0; k < 3; k++) {
@@ -103,7 +100,6 @@ static void layer_moves_the_whole_curve(void **state)
 /* Fitted and equal elements, a transient that has become steady, both solvers. */
 static void formulations_agree(void **state)
 {
-    (void)state;
     rb_rolling_case rc = layered(1.0, 100, 0.5);
     rc.interlayer_normal = 0.5 * rc.interlayer_tangential;
     rb_rolling_solution aligned = solved(&rc);
@@ -136,7 +132,6 @@ static void formulations_agree(void **state)
  * contact. */
 static void normal_compliance_widens_the_contact(void **state)
 {
-    (void)state;
     rb_rolling_case rc = layered(0.0, 100, 0.5);
     double before = 0.0;
     for (int k = 0; k < 4; k++) {
@@ -150,7 +145,6 @@ static void normal_compliance_widens_the_contact(void **state)
 
 static void negative_compliance_is_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = layered(1.0, 60, 0.5);
     rb_message why = {""};
     rc.interlayer_normal = -1e-9;

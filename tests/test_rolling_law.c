@@ -14,7 +14,6 @@ static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 /* A term without a fall has no scale: 0/0 would be no number. */
 static void each_law_is_its_formula(void **state)
 {
-    (void)state;
     static const double velocities[] = {0.0, 0.5, 3.0, 6.0, 7.0, 10.0, 14.0, 1e9};
     for (size_t k = 0; k < sizeof velocities / sizeof *velocities; k++) {
         const double v = velocities[k];
@@ -45,7 +44,6 @@ static void each_law_is_its_formula(void **state)
 
 static void a_table_is_linear_between_its_rows(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 3.0}, y[] = {0.7, 0.7, 0.1};
     const rb_rolling_table t = {3, x, y}, one = {1, x + 1, y + 2};
     rb_rolling_case rc = law(RB_FRICTION_table, 0.0, 0.0);
@@ -71,7 +69,6 @@ static void a_table_is_linear_between_its_rows(void **state)
 /* Whichever row has it; mu beside a table counts for nothing. */
 static void the_largest_of_a_table_is_that_of_any_row(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 3.0};
     for (int at = 0; at < 3; at++) {
         const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1,
@@ -84,7 +81,6 @@ static void the_largest_of_a_table_is_that_of_any_row(void **state)
 
 static void heat_adds_its_part(void **state)
 {
-    (void)state;
     rb_rolling_case rc = law(RB_FRICTION_constant, 0.0, 0.0);
     rc.friction.heat = -0.2;
     rc.friction.heat_from = 100.0;
@@ -102,7 +98,6 @@ static void heat_adds_its_part(void **state)
 
 static void the_largest_coefficient_is_at_rest_or_fast(void **state)
 {
-    (void)state;
     static const struct {
         double m1, m2, largest;
     } rows[] = {{0.2, 0.1, 0.6}, {0.2, -0.1, 0.5}, {-0.1, -0.2, 0.3}, {0.0, 0.0, 0.3}};
@@ -122,7 +117,6 @@ static void the_largest_coefficient_is_at_rest_or_fast(void **state)
 /* The steepest fall of each term by differences; two terms by no less than their sum. */
 static void the_steepest_fall_is_that_of_the_formula(void **state)
 {
-    (void)state;
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
     for (int k = 0; k < 3; k++) {
@@ -151,7 +145,6 @@ static void the_steepest_fall_is_that_of_the_formula(void **state)
 
 static void tables_of_no_friction_are_refused(void **state)
 {
-    (void)state;
     const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
                  gone[3] = {-1.0, NAN, 1.0}, mu[3] = {0.0, 0.2, 0.3},
                  less[3] = {0.2, -0.1, 0.3}, lost[3] = {0.2, NAN, 0.3};
@@ -175,7 +168,6 @@ static void tables_of_no_friction_are_refused(void **state)
 
 static void ranges_of_friction_laws(void **state)
 {
-    (void)state;
     ACCEPTED(FALLS);
     ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
     ACCEPTED(FALLS; rc.friction.slip_scale[0] = -1.0); /* of no fall */

@@ -36,7 +36,6 @@ static double mu_of(const rb_rolling_case *rc, double v)
 
 static void each_element_has_the_coefficient_of_its_slip(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.7;
     rb_rolling_model model = solved_model(&rc);
@@ -63,7 +62,6 @@ static void each_element_has_the_coefficient_of_its_slip(void **state)
  * tolerance shows. */
 static void the_residual_is_that_of_the_law(void **state)
 {
-    (void)state;
     double largest = 0.0;
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
@@ -84,7 +82,6 @@ static void the_residual_is_that_of_the_law(void **state)
  * upstream of it over the way max(v, s0) e_T/V that it slides. */
 static void coefficients_forget_from_the_leading_edge_on(void **state)
 {
-    (void)state;
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
         rc.creep_ratio = 0.5;
@@ -126,7 +123,6 @@ static void coefficients_forget_from_the_leading_edge_on(void **state)
 /* Warm surfaces lose heat_range's part of `heat`. */
 static void warm_elements_have_another_coefficient(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.0, 1.0);
     rc.creep_ratio = 2.0;
     rc.heat_a = (rb_rolling_heat){
@@ -148,7 +144,6 @@ static void warm_elements_have_another_coefficient(void **state)
 
 static void starts_slide_up_to_their_place(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     rb_rolling_model model = solved_model(&rc);
@@ -168,7 +163,6 @@ static void starts_slide_up_to_their_place(void **state)
 /* The given coefficients that an iteration starts from count where bodies roll. */
 static void bounds_start_where_they_are_told(void **state)
 {
-    (void)state;
     const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
     const rb_rolling_table start = {2, x, y};
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
@@ -195,7 +189,6 @@ static void bounds_start_where_they_are_told(void **state)
  * eigenvalue of S diag(p)/e_T, here by many more rounds. */
 static void kappa_is_slope_times_answer(void **state)
 {
-    (void)state;
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
         rb_rolling_model model;
@@ -245,7 +238,6 @@ static double force_at(rb_rolling_case rc, double creepage)
  * dozen contact problems. */
 static void forces_are_met_in_few_solves(void **state)
 {
-    (void)state;
     static const double ratios[] = {-0.7, 0.35, 0.0, 0.05};
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = falling(k % 2 ? RB_TRANSIENT : RB_STEADY, 0.1, 40.0);
@@ -270,7 +262,6 @@ static void forces_are_met_in_few_solves(void **state)
 /* To a tenth of the tolerance, which a loose one shows. */
 static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
 {
-    (void)state;
     double worst = 0.0;
     for (int k = 0; k < 25; k++) {
         rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
@@ -290,7 +281,6 @@ static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
  * maximum and its creepage. */
 static void the_largest_force_is_that_of_a_scan(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -321,7 +311,6 @@ static void the_largest_force_is_that_of_a_scan(void **state)
 /* The axle is driven by nothing: Q R = -M. */
 static void a_free_axle_has_no_moment(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
     rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
     rc.free_axle = 1;
@@ -337,7 +326,6 @@ static void a_free_axle_has_no_moment(void **state)
  * Newton's method find one that satisfies the law. */
 static void steep_laws_are_solved_in_few_steps(void **state)
 {
-    (void)state;
     static const double scale[] = {4.0, 1.0, 0.4, 0.2};
     for (int k = 0; k < 4; k++)
         for (int steady = 0; steady < 2; steady++) {
@@ -357,7 +345,6 @@ static void steep_laws_are_solved_in_few_steps(void **state)
  * they have reduced the residual to a thousandth. */
 static void newtons_method_needs_few_contact_problems(void **state)
 {
-    (void)state;
     for (int k = 1; k <= 3; k += 2) {
         rb_rolling_case rc = falling(RB_STEADY, 0.12, 4.8 / k);
         rc.a.young = 2.0 * 82000.0 * 1.28;
@@ -385,7 +372,6 @@ static void newtons_method_needs_few_contact_problems(void **state)
 
 static void all_solutions_of_one_are_one(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
     rb_message why = {""};
@@ -416,7 +402,6 @@ static void all_solutions_of_one_are_one(void **state)
 /* Starts that lead to no state within the tolerance are counted, and the others stay. */
 static void starts_that_fail_are_counted(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
     rb_message why = {""};
@@ -436,7 +421,6 @@ static void starts_that_fail_are_counted(void **state)
 /* Each differs from the others, the largest force first, and is proven. */
 static void several_solutions_are_told_apart(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 0.2);
     rb_rolling_solutions all;
     rc.creep_ratio = 0.3;
@@ -464,7 +448,6 @@ static void several_solutions_are_told_apart(void **state)
  */
 static void forces_that_only_great_speed_reaches_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_STEADY, -0.1, 40.0);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -495,7 +478,6 @@ static rb_rolling_model steep_model(void)
 /* With as many contact problems as it is given, and no more. */
 static void newtons_method_ends_with_its_problems(void **state)
 {
-    (void)state;
     static const int most[] = {0, 1, 3};
     for (int k = 0; k < 3; k++) {
         rb_rolling_model model = steep_model();
@@ -532,7 +514,6 @@ static rb_status set_friction(void *context)
 /* Anywhere on the way to the largest force, which is refused in the end. */
 static void the_way_to_a_force_may_have_no_memory(void **state)
 {
-    (void)state;
     int refused = 0;
     for (int count = 40; count < 8000; count = count * 6 / 5) {
         rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
@@ -552,7 +533,6 @@ static void the_way_to_a_force_may_have_no_memory(void **state)
 
 static void newtons_method_may_have_no_memory(void **state)
 {
-    (void)state;
     held_model from = {.model = steep_model()};
     rb_rolling_model *const model = &from.model;
     assert_true(model->problem.n <= 60);
@@ -568,7 +548,6 @@ static void newtons_method_may_have_no_memory(void **state)
 
 static void kappa_of_no_pressure_is_nothing(void **state)
 {
-    (void)state;
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 20.0);
     rb_rolling_model model;
     rb_rolling_solution s;
@@ -585,7 +564,6 @@ static void kappa_of_no_pressure_is_nothing(void **state)
 /* Where there is one solution, it does not depend on the start. */
 static void transients_may_start_elsewhere(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.3};
     const rb_rolling_table start = {2, x, y};
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.1, 200.0);
@@ -601,7 +579,6 @@ static void transients_may_start_elsewhere(void **state)
 /* Where there are several, it does: little friction to begin with stays less. */
 static void a_transient_finds_the_solution_of_its_start(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.2};
     const rb_rolling_table start = {2, x, y};
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 0.05);

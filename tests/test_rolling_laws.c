@@ -94,7 +94,6 @@ static void check_state(const rb_rolling_model *model, const double *before,
 /* Every law, with and without memory, on every mesh, by matrices and by transforms. */
 static void coefficients_follow_from_the_slip(void **state)
 {
-    (void)state;
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
     for (int k = 0; k < 3; k++)
@@ -126,7 +125,6 @@ static void coefficients_follow_from_the_slip(void **state)
 /* A law is a scale of its own: all terms at no slip. */
 static void ratios_refer_to_the_largest_coefficient(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rail(100.0);
     rb_rolling_solution s;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
@@ -144,7 +142,6 @@ static void ratios_refer_to_the_largest_coefficient(void **state)
 /* CONTACT: 0.5941, 45 in adhesion, 36 in slip. */
 static void the_rail_case_is_met(void **state)
 {
-    (void)state;
     static const double memory[] = {0.0, 0.0005, 0.001, 0.003, 0.01},
                         want[] = {0.59433, 0.59814, 0.60199, 0.61158, 0.61996};
     for (int k = 0; k < 5; k++) {
@@ -167,7 +164,6 @@ static void the_rail_case_is_met(void **state)
 /* From coefficients at rest and from those of fast sliding. */
 static void steep_laws_have_two_solutions(void **state)
 {
-    (void)state;
     static const double kinetic = 0.18, place = 0.0;
     static const rb_rolling_table sliding = {1, &place, &kinetic};
     static const double scale[] = {100.0, 50.0, 20.0, 15.5, 10.0, 5.0, 2.0};
@@ -196,7 +192,6 @@ static void steep_laws_have_two_solutions(void **state)
  * gently, and are two branches where it does not. */
 static void curves_have_two_branches(void **state)
 {
-    (void)state;
     enum { POINTS = 16 };
     static const double scale[] = {100.0, 50.0, 20.0, 10.0, 5.0, 2.0};
     for (int k = 0; k < 12; k++) {
@@ -236,7 +231,6 @@ static void curves_have_two_branches(void **state)
  * in the other: the difference falls with the elements (theory.md F3). */
 static void one_element_more_may_stick(void **state)
 {
-    (void)state;
     static const double creep[] = {0.0009, 0.0012}, apart[] = {1.3044e-4, 3.7478e-5};
     /* 186 elements show the same once more */
     for (int k = 0; k < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); k++) {
@@ -270,7 +264,6 @@ static void one_element_more_may_stick(void **state)
  * bodies whose pressure and friction are coupled. */
 static void steep_laws_are_solved(void **state)
 {
-    (void)state;
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
     for (int k = 0; k < 9; k++) {
@@ -296,7 +289,6 @@ static void steep_laws_are_solved(void **state)
  * step 19 here ended after 2000 rounds. */
 static void short_steps_are_solved(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rail(500.0);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -327,7 +319,6 @@ static void short_steps_are_solved(void **state)
  * the branch goes on from the coefficients before. */
 static void branches_outlive_their_mesh(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rail(2.0);
     rb_rolling_curve c;
     rb_message why = {""};
@@ -352,7 +343,6 @@ static void branches_outlive_their_mesh(void **state)
 /* All solutions of the rail case; each is one by the formula. */
 static void all_solutions_are_found(void **state)
 {
-    (void)state;
     static const struct {
         double scale;
         int n;
@@ -400,7 +390,6 @@ static void all_solutions_are_found(void **state)
 
 static void a_force_is_met_on_the_rising_branch(void **state)
 {
-    (void)state;
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = rail(100.0);
         rb_rolling_solution s;
@@ -464,7 +453,6 @@ static rb_rolling_case wheel_on_layer(void)
 /* The same by a force ratio under a load that is not known beforehand. */
 static void a_force_is_met_between_states_of_one_creepage(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         double Q = 0.0, kappa;
         rb_rolling_case rc = wheel_on_layer();
@@ -500,7 +488,6 @@ static void a_force_is_met_between_states_of_one_creepage(void **state)
 
 static void the_largest_force_is_told(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rail(100.0);
     rb_message why = {""};
     rb_rolling_model model;
@@ -529,7 +516,6 @@ static void the_largest_force_is_told(void **state)
  * the falling branch of the other direction, where the search for a force begins. */
 static void a_force_is_met_from_beyond_free_rolling(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.poisson = 0.0;
     rc.b = (rb_rolling_body){.young = 900000.0,
@@ -583,7 +569,6 @@ static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, 
 /* Every step by the formula; with memory it becomes steady rolling. */
 static void steps_remember_their_friction(void **state)
 {
-    (void)state;
     for (int memory = 0; memory < 2; memory++) {
         rb_rolling_case rc = rail(100.0);
         rb_message why = {""};
@@ -642,7 +627,6 @@ static rb_rolling_history run_of(const rb_rolling_case *rc,
 /* The same numbers, to the last bit, as the case's own mu. */
 static void a_column_of_one_mu_is_that_mu(void **state)
 {
-    (void)state;
     static const double load[] = {800.0, 2500.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.004, 0.008, -0.002},
                         creep[] = {0.0, 0.001, 0.0003, 0.0005},
@@ -735,7 +719,6 @@ static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, i
 /* Friction falls and rises again, at rest under a shift that stays and rolling. */
 static void steps_have_the_friction_of_their_way(void **state)
 {
-    (void)state;
     static const double load[] = {3000.0, 3000.0, 3000.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.005, 0.005, 0.005, -0.004},
                         creep[] = {0.001, 0.001, 0.001, 0.001, 0.001},
@@ -775,7 +758,6 @@ static void steps_have_the_friction_of_their_way(void **state)
  * is with friction that falls with the slip, whose kinetic limit the column is. */
 static void friction_that_has_changed_becomes_steady(void **state)
 {
-    (void)state;
     static const double mu[] = {0.3, 0.3, 0.15, 0.15},
                         distance[] = {0.0, 1.0, 1.01, 12.0};
     for (int falls = 0; falls < 2; falls++) {
@@ -808,7 +790,6 @@ static void friction_that_has_changed_becomes_steady(void **state)
 
 static void bad_ways_are_refused(void **state)
 {
-    (void)state;
     static const double mu[] = {0.3, -0.1}, distance[] = {0.0, 1.0}, place = 0.0;
     rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
     rb_rolling_program program = {.n = 2, .distance = distance, .mu = mu};
@@ -845,7 +826,6 @@ static void bad_ways_are_refused(void **state)
  * (case 2 and 3 of veldep_fric.inp): from below CONTACT has 0.5977, 77 stick, 4 slip. */
 static void a_step_has_two_starts(void **state)
 {
-    (void)state;
     static const double kinetic = 0.18, place = 0.0;
     static const rb_rolling_table sliding = {1, &place, &kinetic};
     double ratio[2];
@@ -913,7 +893,6 @@ static rb_rolling_case warm(double creep_ratio)
 /* Coefficients by the printed temperatures, and the residual with them. */
 static void warm_surfaces_have_another_friction(void **state)
 {
-    (void)state;
     static const double ratio[] = {0.5, 2.0, 8.0};
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = warm(ratio[k % 3]);
@@ -939,7 +918,6 @@ static void warm_surfaces_have_another_friction(void **state)
 /* Far along the way the steps are as warm as steady rolling. */
 static void steps_become_warm(void **state)
 {
-    (void)state;
     rb_rolling_case rc = warm(2.0);
     rb_rolling_solution s;
     rc.mesh = RB_MESH_UNIFORM;
@@ -963,7 +941,6 @@ static void steps_become_warm(void **state)
  * the largest coefficient. */
 static void heat_changes_no_force_at_rest(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = warm(NAN);
         rb_rolling_solution s;
@@ -992,7 +969,6 @@ static void refused(const rb_rolling_case *rc, const char *says)
 
 static void bad_laws_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rail(100.0);
     rc.friction.fall[0] = -0.2;
     refused(&rc, "expected mu >= 0 everywhere, got -0.02");

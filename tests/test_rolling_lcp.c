@@ -104,7 +104,6 @@ static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
 
 static void every_row_is_its_equation(void **state)
 {
-    (void)state;
     srand(8);
     for (int control = 0; control < 4; control++) {
         rb_rolling_model model = dissimilar_model(control & 1, control & 2);
@@ -118,7 +117,6 @@ static void every_row_is_its_equation(void **state)
 /* The order of attempts is for hard cases: the first one solves these. */
 static void lemke_needs_its_first_attempt_only(void **state)
 {
-    (void)state;
     for (int control = 0; control < 4; control++) {
         rb_rolling_model model = dissimilar_model(control & 1, control & 2);
         assert_int_equal(model.state.solver, RB_SOLVER_LEMKE);
@@ -135,7 +133,6 @@ static void keep_attempt(const rb_lcp_pivot *pivot, void *context)
 /* The trace says which form of the problem a pivot belongs to. */
 static void pivots_tell_their_attempt(void **state)
 {
-    (void)state;
     for (int kwak = 0; kwak < 2; kwak++) {
         rb_rolling_model model = dissimilar_model(0, 0), again;
         rb_rolling_case rc = *model.rc;

@@ -64,7 +64,6 @@ static const double rows[8][6] = {
 
 static void hunters_solution_is_met(void **state)
 {
-    (void)state;
     for (int k = 0; k < 8; k++) {
         const double *row = rows[k];
         rb_rolling_solution s;
@@ -88,7 +87,6 @@ static void hunters_solution_is_met(void **state)
  * begin with more of them. */
 static void the_moment_is_of_second_order(void **state)
 {
-    (void)state;
     static const int coarse[8] = {100, 50, 50, 50, 100, 50, 50, 50};
     for (int k = 0; k < 16; k++) {
         const double *want = rows[k / 2];
@@ -122,7 +120,6 @@ static void choose_solver(int k, rb_rolling_case *rc)
 /* Nothing drives the axle: Q = -M/R, whichever solver. */
 static void a_free_axle_is_turned_by_friction(void **state)
 {
-    (void)state;
     double xi[5];
     for (int k = 0; k < 5; k++) {
         rb_rolling_solution s;
@@ -150,7 +147,6 @@ static void a_free_axle_is_turned_by_friction(void **state)
  * What both drives give is the resistance of both curvatures. */
 static void only_the_axle_of_a_is_free(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_solution s;
         rb_rolling_curve c;
@@ -184,7 +180,6 @@ static void only_the_axle_of_a_is_free(void **state)
  * case at that speed. */
 static void resistance_has_a_maximum_over_the_speed(void **state)
 {
-    (void)state;
     enum { POINTS = 9 };
     rb_rolling_curve c;
     rb_message why = {""};
@@ -216,7 +211,6 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
 static void speed_has_its_limits(void **state)
 {
-    (void)state;
     const double f = 3.0;
     for (int fast = 0; fast < 2; fast++) {
         rb_rolling_solution s;
@@ -262,7 +256,6 @@ static rb_rolling_case two_cylinders(double tau)
 
 static void contacts_figures_are_met(void **state)
 {
-    (void)state;
     static const contact_row want[4] = {
         {0.009, 1.36501e-2, 78.737, 2.36732, 913.55, 62, 37},
         {2.0, 9.9451e-3, 85.299, 1.30047, 1010.3, 56, 35},
@@ -325,7 +318,6 @@ static rb_rolling_case layered(double thickness, double nu, int n)
 /* P (1 - c1 a^2/d^2) = pi E* a^2/(4R) to (a/d)^4 */
 static void thick_layers_have_their_series(void **state)
 {
-    (void)state;
     static const double nu[2] = {0.3, 0.5}, c1[2] = {0.715969, 1.023603};
     for (int k = 0; k < 2; k++)
         for (int j = 1; j <= 2; j++) {
@@ -345,7 +337,6 @@ static void thick_layers_have_their_series(void **state)
 /* delta = a^2/(2R), P = 2 a^3 M/(3 R d) */
 static void thin_layers_are_mattresses(void **state)
 {
-    (void)state;
     static const double want[3] = {0.99701, 0.99910, 0.99973};
     for (int k = 0; k < 3; k++) {
         const double nu = 0.3, d = 1.0 / (5 << k);
@@ -367,7 +358,6 @@ static void thin_layers_are_mattresses(void **state)
  * they are. */
 static void thin_incompressible_layers_have_their_limit(void **state)
 {
-    (void)state;
     static const double deviation[4] = {0.409, 0.115, 0.031, 0.006};
     double before = INFINITY;
     for (int k = 0; k < 4; k++) {
@@ -391,7 +381,6 @@ static void thin_incompressible_layers_have_their_limit(void **state)
  * any. */
 static void layers_must_be_resolved(void **state)
 {
-    (void)state;
     for (int steps = 0; steps < 3; steps++) {
         rb_rolling_case rc = layered(0.05, 0.5, 24);
         rb_rolling_solution s[2];
@@ -432,7 +421,6 @@ static void layers_must_be_resolved(void **state)
 /* Where elements are so long that no solver gets anywhere, that is the reason given. */
 static void hopeless_layers_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = layered(3e-4, 0.5, 20);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -453,7 +441,6 @@ static void hopeless_layers_are_refused(void **state)
 /* Free rolling of a covered roll, docs/physics: xi R/c at nu = 0.5, c/d = 1. */
 static void incompressible_covers_stretch_in_the_nip(void **state)
 {
-    (void)state;
     static const double mu[2] = {0.1, 0.3}, want[2] = {0.16692, 0.16488};
     for (int k = 0; k < 2; k++) {
         rb_rolling_solution s;
@@ -472,7 +459,6 @@ static void incompressible_covers_stretch_in_the_nip(void **state)
 /* A layer on a half-plane of its own material is that half-plane. */
 static void a_layer_of_the_same_material_is_none(void **state)
 {
-    (void)state;
     rb_rolling_solution s[2];
     rb_rolling_case rc = layered(0.0, 0.3, 60);
     rc.mu = 0.3;
@@ -496,7 +482,6 @@ static void a_layer_of_the_same_material_is_none(void **state)
  * fitted ones. */
 static void all_solvers_agree(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
         double Q[5], M[5];
         for (int k = 0; k < 5; k++) {
@@ -523,7 +508,6 @@ static void all_solvers_agree(void **state)
 /* What friction cannot turn, and what does not go with it. */
 static void bad_axles_are_refused(void **state)
 {
-    (void)state;
     static const char *const word[4] = {"more than friction carries",
                                         "steady rolling only", "expected mu > 0",
                                         "excludes"};
@@ -548,7 +532,6 @@ static void bad_axles_are_refused(void **state)
 
 static void bad_bodies_are_refused(void **state)
 {
-    (void)state;
     const struct {
         double time, ratio, speed, layer;
         rb_bem_support support;

@@ -29,7 +29,6 @@ static void check_refused(rb_status s, const rb_message *why, const char *words)
 
 static void equal_elements_are_equal_along_the_surface(void **state)
 {
-    (void)state;
     rb_rolling_mesh mesh;
     rb_rolling_case rc = plane(7);
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -2.0, 5.0, &mesh, NULL), RB_OK);
@@ -51,7 +50,6 @@ static void equal_elements_are_equal_along_the_surface(void **state)
 
 static void meshes_stay_on_the_lower_half(void **state)
 {
-    (void)state;
     rb_rolling_mesh mesh;
     rb_message why;
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -72,7 +70,6 @@ static void meshes_stay_on_the_lower_half(void **state)
 
 static void the_gap_is_that_of_both_bodies(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     const double x = 3.0, a = 50.0 - sqrt(2500.0 - 9.0), b = 20.0 - sqrt(400.0 - 9.0);
     CHECK_REL(rb_rolling_initial_gap(&rc, x), a, 1e-13, "a circle on a plane");
@@ -88,7 +85,6 @@ static void the_gap_is_that_of_both_bodies(void **state)
 
 static void what_is_worn_is_linear_between_its_points(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 3.0}, y[] = {0.1, 0.4, 0.1};
     static const double at[][2] = {{-1.1, 0.0}, {-1.0, 0.1}, {-0.5, 0.25}, {0.0, 0.4},
                                    {1.0, 0.3},  {3.0, 0.1},  {3.1, 0.0}};
@@ -111,7 +107,6 @@ static void what_is_worn_is_linear_between_its_points(void **state)
  * s = |x|. */
 static void an_irregularity_rides_with_the_material(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 1.0}, y[] = {0.0, 0.2, 0.0};
     const double places[] = {-4.0, -3.6, -3.0, -2.8, -2.0, -1.9};
     double gap[6];
@@ -129,7 +124,6 @@ static void an_irregularity_rides_with_the_material(void **state)
 
 static void elements_stand_within_bodies_and_table(void **state)
 {
-    (void)state;
     const double x[] = {-3.0, -1.0, 0.0, 2.0}, y[] = {1.0, 0.1, 0.0, 1.0};
     double from, to;
     rb_rolling_profile *profile;
@@ -158,7 +152,6 @@ static void elements_stand_within_bodies_and_table(void **state)
  * and grow by a half each. */
 static void fitted_elements_meet_both_edges(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(20);
     rb_rolling_mesh mesh;
     CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 3.0, &mesh, NULL), RB_OK);
@@ -182,7 +175,6 @@ static void fitted_elements_meet_both_edges(void **state)
  * lower half of the wheel. */
 static void fitted_elements_reach_as_far_as_asked(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(60);
     const double step = 2.0 * gsl_pow_2(sin(0.5 * M_PI / 60.0)); /* of a patch of 2 */
     rb_rolling_span span = {.from = -1.0, .to = 1.0, .room_left = 2.5 * step};
@@ -216,7 +208,6 @@ static void fitted_elements_reach_as_far_as_asked(void **state)
 /* A single element of more than half of what is left of the wheel has but half of it. */
 static void the_element_before_the_mesh_stays_on_the_wheel(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(4);
     rb_rolling_mesh mesh;
     CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -30.0, 47.0, &mesh, NULL), RB_OK);
@@ -246,7 +237,6 @@ static int has_end(const rb_rolling_mesh *mesh, double x)
 
 static void patches_share_the_elements_by_their_width(void **state)
 {
-    (void)state;
     static const struct {
         int elements;
         double to[2];
@@ -274,7 +264,6 @@ static void patches_share_the_elements_by_their_width(void **state)
  * equal patches symmetric. */
 static void elements_between_patches_meet(void **state)
 {
-    (void)state;
     static const double edges[] = {0.001, 0.01, 0.1, 1.0, 10.0}; /* distances from 0 */
     const rb_rolling_case rc = plane(60);
     for (size_t k = 0; k < sizeof edges / sizeof *edges; k++) {
@@ -307,7 +296,6 @@ static void elements_between_patches_meet(void **state)
 
 static void patches_far_apart_have_64_elements_between_them(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(60);
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
                                      {.from = 19.9999, .to = 20.0}};
@@ -324,7 +312,6 @@ static void patches_far_apart_have_64_elements_between_them(void **state)
 /* A narrow and a wide patch: the smaller elements grow alone until they are as long. */
 static void unequal_elements_grow_until_they_are_alike(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
     rb_rolling_mesh mesh;
@@ -344,7 +331,6 @@ static void unequal_elements_grow_until_they_are_alike(void **state)
 
 static void a_result_has_the_elements_of_its_mesh(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = plane(20);
         rb_rolling_mesh mesh, again;
@@ -379,7 +365,6 @@ static void a_result_has_the_elements_of_its_mesh(void **state)
 /* Whatever the case asks for, a result has its own elements. */
 static void a_result_may_have_other_elements_than_its_case(void **state)
 {
-    (void)state;
     const double x[] = {-1.0, 0.0, 1.0}, h[] = {1.0, 1.0, 1.0};
     for (int equal = 0; equal < 2; equal++) {
         const rb_rolling_case rc = plane(20);
@@ -395,7 +380,6 @@ static void a_result_may_have_other_elements_than_its_case(void **state)
 
 static void elements_out_of_order_are_refused(void **state)
 {
-    (void)state;
     const double x[] = {0.0, 2.0, 1.0}, h[] = {1.0, 1.0, 1.0}, far[] = {0.0, 1.0, 60.0};
     const rb_rolling_case rc = plane(20);
     rb_rolling_elements elements = {.n = 3, .x = x, .h = h};

@@ -63,7 +63,6 @@ static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, d
  * place, from as far from the mesh as they are. */
 static void every_bump_that_overlaps_is_found(void **state)
 {
-    (void)state;
     static const double x[] = {-5.0, -2.5, 0.0, 3.0, 6.0}, height[5] = {0.0};
     table *t = bumps(5, x, height);
     rb_rolling_model model = solved_between(&t->rc, -0.4, 0.4);
@@ -91,7 +90,6 @@ static void every_bump_that_overlaps_is_found(void **state)
  * too low does not overlap, one a little higher does. */
 static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
 {
-    (void)state;
     const double x[] = {0.0, 4.0}, flat[] = {0.0, 1e-4};
     table *t = bumps(2, x, flat);
     rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
@@ -121,7 +119,6 @@ static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
 /* Likewise the rim of a wheel, by what elements that reach the bump tell of it. */
 static void a_wheel_sinks_as_its_elements_tell(void **state)
 {
-    (void)state;
     enum { WIDE = 112, M = WIDE + 1 };
     const double x[] = {0.0, 6.0};
     for (int k = 0; k < 4; k++) {
@@ -151,7 +148,6 @@ static void a_wheel_sinks_as_its_elements_tell(void **state)
 
 static void more_overlaps_than_there_is_room_end_in_one(void **state)
 {
-    (void)state;
     double x[MOST], height[MOST] = {0.0};
     for (int k = 0; k < MOST; k++)
         x[k] = 1.5 * (k - MOST / 2);
@@ -170,7 +166,6 @@ static void more_overlaps_than_there_is_room_end_in_one(void **state)
 /* Each patch carries Hertz's pressure of its load on elements of its own. */
 static void elements_are_fitted_to_every_patch(void **state)
 {
-    (void)state;
     static const double x[] = {-6.0, 0.0, 6.0}, height[] = {0.0, 1e-4, 5e-4};
     table *t = bumps(3, x, height);
     t->rc.mesh = RB_MESH_FITTED;
@@ -193,7 +188,6 @@ static void elements_are_fitted_to_every_patch(void **state)
 /* More patches than elements are fitted to: equal ones instead, and it is said. */
 static void too_many_patches_have_equal_elements(void **state)
 {
-    (void)state;
     double x[17], height[17] = {0.0};
     for (int k = 0; k < 17; k++)
         x[k] = 1.0 * (k - 8);
@@ -212,7 +206,6 @@ static void too_many_patches_have_equal_elements(void **state)
 /* Aligned elements have two edges: of one patch. */
 static void several_patches_cannot_be_aligned(void **state)
 {
-    (void)state;
     static const double x[] = {-2.0, 2.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
     rb_rolling_solution s;
@@ -227,7 +220,6 @@ static void several_patches_cannot_be_aligned(void **state)
 /* Patches that nearly touch are fitted as one; with equal elements they are the same. */
 static void patches_side_by_side_are_fitted_as_one(void **state)
 {
-    (void)state;
     static const double x[] = {-0.35, 0.35}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
     t->rc.mu = 0.0;
@@ -255,7 +247,6 @@ static void patches_side_by_side_are_fitted_as_one(void **state)
  * from one of Hertz's edges to the other. */
 static void a_narrow_groove_is_fitted_over(void **state)
 {
-    (void)state;
     enum { ROWS = 1601 };
     static double x[ROWS], gap[ROWS];
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -287,7 +278,6 @@ static void a_narrow_groove_is_fitted_over(void **state)
  * elements are taken and wherever the patches are. */
 static void mirrored_tables_have_mirrored_contacts(void **state)
 {
-    (void)state;
     static const struct {
         int n;
         double x[3], height[3], load;
@@ -349,7 +339,6 @@ static void mirrored_tables_have_mirrored_contacts(void **state)
 /* A zone that is too narrow is refused with the width that would do. */
 static void a_narrow_zone_is_told_its_width(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_message why = {""};
@@ -373,7 +362,6 @@ static void a_narrow_zone_is_told_its_width(void **state)
 /* The width that would do is that of the side that reaches further. */
 static void a_zone_is_as_wide_as_its_longer_side(void **state)
 {
-    (void)state;
     static const double height[] = {0.0, 1e-4};
     for (int side = -1; side < 2; side += 2) {
         const double near = -1.0 * side, far = 3.0 * side;
@@ -401,7 +389,6 @@ static void a_zone_is_as_wide_as_its_longer_side(void **state)
 /* Far from each other and narrow: equal elements would be too many. */
 static void patches_too_far_apart_need_fitted_elements(void **state)
 {
-    (void)state;
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
     rb_rolling_solution s;
@@ -420,7 +407,6 @@ static void patches_too_far_apart_need_fitted_elements(void **state)
  * contact so far. */
 static void a_contact_as_wide_as_the_wheel_is_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     rb_message why = {""};
@@ -437,7 +423,6 @@ static void a_contact_as_wide_as_the_wheel_is_refused(void **state)
 /* A given zone and the widest one fail alike: so much more than the given one is said. */
 static void a_zone_without_an_end_is_told_a_third_more(void **state)
 {
-    (void)state;
     static const double x[] = {0.0}, height[] = {0.0};
     table *t = bumps(1, x, height);
     rb_rolling_solution s;
@@ -453,7 +438,6 @@ static void a_zone_without_an_end_is_told_a_third_more(void **state)
 /* What is irregular beyond the wheel is never met. */
 static void places_beyond_the_wheel_are_not_looked_at(void **state)
 {
-    (void)state;
     enum { ROWS = 61 };
     double x[ROWS], y[ROWS] = {0.0};
     for (int i = 0; i < ROWS; i++)
@@ -481,7 +465,6 @@ static void places_beyond_the_wheel_are_not_looked_at(void **state)
 /* On half-planes products do for so many elements. */
 static void half_planes_have_elements_for_patches_far_apart(void **state)
 {
-    (void)state;
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
     t->rc.load = 1.0;
@@ -499,7 +482,6 @@ static void half_planes_have_elements_for_patches_far_apart(void **state)
  * that reach there, with a bump that is too high to touch. */
 static void a_wheel_sinks_as_on_elements_that_reach_there(void **state)
 {
-    (void)state;
     static const double places[] = {2.17, 3.0, 3.4, 4.2};
     for (int place = 0; place < 4; place++) {
         const double x[] = {0.0, places[place]}, high[] = {0.0, 0.05};

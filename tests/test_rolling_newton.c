@@ -104,7 +104,6 @@ static void check_half(const rb_rolling_model *model)
 
 static void pairs_answer_as_their_elements_do(void **state)
 {
-    (void)state;
     srand(3);
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 40 + k / 2);
@@ -150,7 +149,6 @@ static void cold_starts_end_where_lemke_does(void **state)
 {
     static const int elements[] = {101, 102, 150, 151, 400, 500, 600};
 
-    (void)state;
     for (int k = 0; k < 7; k++) {
         rb_rolling_case rc = steady(k == 1 ? RB_BEM_HUB : RB_BEM_HALFPLANE, elements[k]);
         if (k % 2) {
@@ -175,7 +173,6 @@ static void circles_are_left_on_a_path(void **state)
         double force_ratio;
     } cases[] = {{30, NAN}, {63, NAN}, {70, NAN}, {150, -0.5}};
 
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, cases[k].elements);
         rc.elastic_b = 0;
@@ -197,7 +194,6 @@ static void circles_are_left_on_a_path(void **state)
  * contact slides the way the creepage says. */
 static void full_sliding_needs_no_other_solver(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
         const double sign = k % 2 ? -1.0 : 1.0;
@@ -218,7 +214,6 @@ static void full_sliding_needs_no_other_solver(void **state)
 /* The levels below share one number of steps, the finest one adds a few. */
 static void steps_grow_by_levels(void **state)
 {
-    (void)state;
     for (int similar = 0; similar < 2; similar++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
         rb_contact_state cold;
@@ -292,7 +287,6 @@ static void a_kept_lu_serves_other_zones(void **state)
     rb_contact_state s;
     int changes = 0;
 
-    (void)state;
     srand(5);
     CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &s), RB_OK);
     for (int k = 0; k < 60; k++) {
@@ -314,7 +308,6 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
     rb_contact_reduced r;
     rb_contact_state s;
 
-    (void)state;
     CHECK_STATUS(rb_contact_state_alloc(p->n, &s), RB_OK);
     p->load_given = 0;
     p->delta = 0.1;
@@ -355,7 +348,6 @@ static void a_kept_lu_serves_friction_that_changes(void **state)
     rb_contact_state kept, fresh;
     double *bound = rb_alloc((size_t)n, 1);
 
-    (void)state;
     CHECK_STATUS(rb_contact_state_alloc(n, &kept), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(n, &fresh), RB_OK);
     memcpy(kept.zone, model.state.zone, (size_t)n * sizeof(int));
@@ -407,7 +399,6 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     rb_contact_problem *p;
     rb_contact_state s;
 
-    (void)state;
     CHECK_STATUS(rb_contact_state_alloc(usual.mesh.n, &s), RB_OK);
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
@@ -437,7 +428,6 @@ static void failing_allocations(void **state)
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 120);
     rb_rolling_model model = solved_model(&rc);
 
-    (void)state;
     for (int k = 0, refused = 1; refused; k += 1 + k / 10) {
         rb_contact_state cold;
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);

@@ -57,7 +57,6 @@ static void check_edges(const made_up *m, double from, double to, double tol,
 
 static void a_root_ends_where_it_ends(void **state)
 {
-    (void)state;
     made_up m;
     make(&m);
     double from, to;
@@ -76,7 +75,6 @@ static void a_root_ends_where_it_ends(void **state)
 /* (E1) beta of the bodies, q = -+mu p: 1/2 + side atan(beta q/p)/pi. */
 static void slip_of_unlike_bodies_makes_edges_steep_or_flat(void **state)
 {
-    (void)state;
     static const double friction[] = {0.4, -0.4, 2.0, -2.0};
     for (int k = 0; k < 4; k++) {
         made_up m;
@@ -100,7 +98,6 @@ static void slip_of_unlike_bodies_makes_edges_steep_or_flat(void **state)
 /* The outermost element does not count; a slip zone of one element neither. */
 static void what_the_outermost_element_has_does_not_count(void **state)
 {
-    (void)state;
     made_up m;
     make(&m);
     press(&m, 5.2, 30.7, 0.5, 0.5, RB_ZONE_STICK);
@@ -115,7 +112,6 @@ static void what_the_outermost_element_has_does_not_count(void **state)
 /* An edge lies between the midpoints of the last loaded and of the first open element. */
 static void an_edge_stays_between_its_elements(void **state)
 {
-    (void)state;
     made_up m;
     make(&m);
     rb_rolling_run run;
@@ -144,7 +140,6 @@ static void an_edge_stays_between_its_elements(void **state)
 
 static void few_elements_end_at_their_ends(void **state)
 {
-    (void)state;
     for (int n = 4; n <= 5; n++) {
         made_up m;
         make(&m);
@@ -169,7 +164,6 @@ static void few_elements_end_at_their_ends(void **state)
 
 static void the_outer_edges_are_those_of_all_patches(void **state)
 {
-    (void)state;
     made_up m;
     make(&m);
     press(&m, 2.2, 12.7, 0.5, 0.5, RB_ZONE_STICK);
@@ -180,7 +174,6 @@ static void the_outer_edges_are_those_of_all_patches(void **state)
 /* Up to the end of the mesh, behind which there is no element. */
 static void a_patch_may_reach_the_ends_of_the_mesh(void **state)
 {
-    (void)state;
     made_up m;
     make(&m);
     press(&m, -0.2, N + 0.2, 0.5, 0.5, RB_ZONE_STICK);
@@ -197,7 +190,6 @@ static void a_patch_may_reach_the_ends_of_the_mesh(void **state)
  * has; a third body that is soft makes p itself smooth. */
 static void aligned_edges_are_roots_of_a_parabola(void **state)
 {
-    (void)state;
     for (int soft = 0; soft < 2; soft++)
         for (int k = 0; k < 3; k++) {
             made_up m;
@@ -221,7 +213,6 @@ static void aligned_edges_are_roots_of_a_parabola(void **state)
  * the pressure points; between the midpoints of the outermost and the open element. */
 static void aligned_edges_stay_beside_their_element(void **state)
 {
-    (void)state;
     static const struct {
         double p[3]; /* of the third, fourth and fifth element from the edge */
         double off;  /* of the edge, from the midpoint of the third */
@@ -249,7 +240,6 @@ static void aligned_edges_stay_beside_their_element(void **state)
 
 static void few_aligned_elements_follow_the_power_law(void **state)
 {
-    (void)state;
     for (int n = 8; n <= 9; n++) {
         made_up m;
         double from, to;
@@ -269,7 +259,6 @@ static void few_aligned_elements_follow_the_power_law(void **state)
 /* The parabola of p^2 is exact for Hertz's ellipse, wherever its peak lies. */
 static void the_peak_is_hertzs(void **state)
 {
-    (void)state;
     rb_rolling_model model = {0};
     made_up m;
     make(&m);
@@ -307,7 +296,6 @@ static void the_peak_is_hertzs(void **state)
 
 static void a_vertex_is_that_of_the_parabola(void **state)
 {
-    (void)state;
     /* f(x) = 3 x - 2 x^2: highest at 0.75, 1.125 */
     static const double places[][2] = {{-1.0, 1.0}, {-0.5, 2.0}, {0.3, 0.9}};
     for (int k = 0; k < 3; k++) {

@@ -59,7 +59,6 @@ static void check_equivalent(const rb_rolling_case *rc, const char *name)
 
 static void every_body_has_the_constants_of_plane_stress(void **state)
 {
-    (void)state;
     rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
     check_equivalent(&rc, "half-plane");
     rc.a.layer = 0.7;
@@ -86,7 +85,6 @@ static void every_body_has_the_constants_of_plane_stress(void **state)
  * plane stress is E* [(1 - nu_A)/E_A - (1 - nu_B)/E_B]. */
 static void a_thin_disc_is_as_stiff_as_its_young_modulus(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
     const rb_rolling_derived d = rb_rolling_derive(&rc);
     const double E = 1.0 / (1.0 / 94500.0 + 1.0 / 200000.0);
@@ -99,7 +97,6 @@ static void a_thin_disc_is_as_stiff_as_its_young_modulus(void **state)
  * one is nu (sxx + syy) or 0. */
 static void nothing_presses_a_thin_disc_from_its_side(void **state)
 {
-    (void)state;
     for (int plane = 0; plane < 2; plane++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
         rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
@@ -126,7 +123,6 @@ static void nothing_presses_a_thin_disc_from_its_side(void **state)
  */
 static void a_thin_disc_shakes_down_below_two_k(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
         rb_rolling_shakedown limit[2];
@@ -155,7 +151,6 @@ static void a_thin_disc_shakes_down_below_two_k(void **state)
 /* A thin disc of nu = 1/2 can be compressed in its plane, a long body cannot. */
 static void what_is_compressible_depends_on_the_plane(void **state)
 {
-    (void)state;
     ACCEPTED(rc.plane = RB_PLANE_STRESS, HUB, rc.a.cover = 5.0, rc.a.core_young = 1e5,
              rc.a.poisson = 0.5);
     REFUSED("has to be compressible", HUB, rc.a.cover = 5.0, rc.a.core_young = 1e5,

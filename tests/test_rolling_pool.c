@@ -64,7 +64,6 @@ static rb_rolling_row row_of(rb_rolling_pool *pool, int k)
 /* What is asked for, and NAN otherwise. */
 static void rows_have_what_is_asked_for(void **state)
 {
-    (void)state;
     for (unsigned also = 0; also < 4; also++) {
         const rb_rolling_sweep sweep = of(1, 1, also);
         rb_rolling_pool *pool;
@@ -110,7 +109,6 @@ static void rows_have_what_is_asked_for(void **state)
 
 static void refused_cases_have_their_status(void **state)
 {
-    (void)state;
     const rb_rolling_sweep sweep = of(8, 1, RB_ROW_STRESS);
     rb_rolling_pool *pool;
     CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
@@ -130,7 +128,6 @@ static void refused_cases_have_their_status(void **state)
  * two are the case's. */
 static void a_case_is_lost_with_its_second_worker(void **state)
 {
-    (void)state;
     int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     assert_true(deaths != MAP_FAILED);
@@ -156,7 +153,6 @@ static void a_case_is_lost_with_its_second_worker(void **state)
 
 static void workers_are_counted(void **state)
 {
-    (void)state;
     static const int workers[][3] = {{5, 3, 3}, {2, 3, 2}, {0, 3, 0}}; /* count, wanted */
     rb_rolling_pool *pool;
     rb_message why = {""};
@@ -186,7 +182,6 @@ static void workers_are_counted(void **state)
 /* Every worker in turn: rows come whoever finishes. */
 static void all_cases_come_back_once(void **state)
 {
-    (void)state;
     enum { CASES = 12 };
     rb_rolling_sweep sweep = of(CASES, 3, 0);
     rb_rolling_pool *pool;
@@ -216,7 +211,6 @@ static void all_cases_come_back_once(void **state)
 /* The row of the second worker does not wait for the one of the first. */
 static void a_fast_case_overtakes_a_slow_one(void **state)
 {
-    (void)state;
     const rb_rolling_sweep sweep = of(8, 2, 0);
     rb_rolling_pool *pool;
     rb_rolling_row row;
@@ -234,7 +228,6 @@ static void a_fast_case_overtakes_a_slow_one(void **state)
 /* Without descriptors no worker can be reached. */
 static void a_pool_that_cannot_start_says_why(void **state)
 {
-    (void)state;
     const rb_rolling_sweep sweep = of(4, 4, 0);
     rb_rolling_pool *pool;
     rb_message why = {""};
@@ -315,7 +308,6 @@ static pretended pretend(int idle, int submits, int collects)
 /* Rows are seen in the order of the cases, and at most 16384 wait for an earlier one. */
 static void a_pool_s_rows_are_seen_in_order(void **state)
 {
-    (void)state;
     static pretended p;
     p = pretend(100000, -1, -1);
     rb_rolling_sweep sweep = of(40000, 1, 0);
@@ -329,7 +321,6 @@ static void a_pool_s_rows_are_seen_in_order(void **state)
 
 static void a_pool_that_cannot_go_on_ends_the_study(void **state)
 {
-    (void)state;
     static pretended p;
     for (int k = 0; k < 2; k++) {
         rb_message why = {""};
@@ -360,7 +351,6 @@ static rb_status make_covered(int k, rb_rolling_case *rc, void *context)
 /* Error bars wait for the stress. */
 static void rows_without_stress_have_its_status(void **state)
 {
-    (void)state;
     rb_rolling_sweep sweep = of(1, 1, RB_ROW_STRESS | RB_ROW_ERRORS);
     rb_rolling_pool *pool;
     sweep.make = make_covered;
@@ -374,7 +364,6 @@ static void rows_without_stress_have_its_status(void **state)
 /* A pool that has stopped leaves no process behind, not even a dead one. */
 static void no_process_outlives_its_pool(void **state)
 {
-    (void)state;
     const rb_rolling_sweep sweep = of(8, 3, 0);
     rb_rolling_pool *pool;
     CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
@@ -396,7 +385,6 @@ static void ring(int number)
 /* Signals that its program handles, with a timer, say, do not disturb a study. */
 static void a_timer_does_not_disturb_a_study(void **state)
 {
-    (void)state;
     const struct itimerval often = {{0, 500}, {0, 500}}, never = {{0, 0}, {0, 0}};
     struct sigaction before, handler = {.sa_handler = ring}; /* interrupts system calls */
     const rb_rolling_sweep sweep = of(8, 2, 0);
@@ -417,7 +405,6 @@ static void a_timer_does_not_disturb_a_study(void **state)
 /* Whoever is killed takes the processes of its study along. */
 static void workers_end_with_their_parent(void **state)
 {
-    (void)state;
     int line[2];
     char byte;
     assert_int_equal(pipe(line), 0);

@@ -10,7 +10,6 @@ static double shift[N] = {0.3, -0.1, 0.0, 0.2, 0.7}, q[N] = {1.0, -2.0, 3.0, 0.5
 
 static void steady_slip_lies_between_two_midpoints(void **state)
 {
-    (void)state;
     const rb_rolling_solution s = {
         .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -31,7 +30,6 @@ static void steady_slip_lies_between_two_midpoints(void **state)
  * friction of anything that slips. */
 static void what_sticks_dissipates_nothing(void **state)
 {
-    (void)state;
     double opens[N] = {0.3, 0.0, 0.0, 0.0, -0.1}, sticks[N] = {0.0, -2.0, 3.0, 0.5, 0.0};
     const rb_rolling_solution s = {.n = N,
                                    .shift = opens,
@@ -51,7 +49,6 @@ static void what_sticks_dissipates_nothing(void **state)
 
 static void other_slip_belongs_to_its_element(void **state)
 {
-    (void)state;
     rb_rolling_solution s = {
         .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -77,7 +74,6 @@ static void other_slip_belongs_to_its_element(void **state)
 
 static void elastic_bodies_lose_nothing(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     const rb_rolling_model model = {.rc = &rc};
     double power;

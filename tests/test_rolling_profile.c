@@ -78,7 +78,6 @@ static double tabulated_peak(int n, double noise)
 
 static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = rail();
     const double want = peak(&rc);
     const double steps[] = {0.5, 1.0, 2.0}, offsets[] = {0.0, 0.13, 0.25};
@@ -94,7 +93,6 @@ static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
  * is less than at the edge of Hertz's contact, and as much beyond. */
 static void a_table_of_a_parabola_has_its_zone(void **state)
 {
-    (void)state;
     double ends[2][2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_solution s;
@@ -118,7 +116,6 @@ static void a_table_of_a_parabola_has_its_zone(void **state)
 
 static void smoothing_takes_the_noise_away(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = rail();
     const double want = peak(&rc), noise = 2e-3, steps[] = {0.5, 0.5, 0.5, 0.1, 0.01};
     for (unsigned long k = 0; k < 5; k++) {
@@ -134,7 +131,6 @@ static void smoothing_takes_the_noise_away(void **state)
  * still there. */
 static void smoothing_keeps_the_shape(void **state)
 {
-    (void)state;
     const double noise = 1e-3;
     const int n = tabulate(-30.0, 30.0, 0.25, noise, 11, x, gap);
     double sum = 0.0, worst = 0.0;
@@ -156,7 +152,6 @@ static void smoothing_keeps_the_shape(void **state)
  * ends. */
 static void smoothing_does_not_know_left_from_right(void **state)
 {
-    (void)state;
     enum { N = 40 };
     double u[2][N], g[2][N];
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -181,7 +176,6 @@ static void smoothing_does_not_know_left_from_right(void **state)
 /* On points anywhere, also on uneven ones; beyond them straight on. */
 static void the_spline_passes_through_its_points(void **state)
 {
-    (void)state;
     const double u[] = {-3.0, -2.9, -1.0, 0.5, 4.0}, g[] = {2.0, 1.9, 0.3, 0.1, 3.0};
     double from, to;
     rb_rolling_profile *profile = profile_of(5, u, g, 0.0);
@@ -214,7 +208,6 @@ static void check_refused(int n, const double *u, const double *g, double noise,
 
 static void bad_tables_are_refused(void **state)
 {
-    (void)state;
     const double u[] = {-1.0, 0.0, 1.0, 2.0}, g[] = {1.0, 0.0, 1.0, 2.0};
     const double twice[] = {-1.0, 0.0, 0.0, 2.0}, back[] = {2.0, 1.0, 0.0, -1.0};
     const double wrong_sign[] = {-1.0, 0.0, -1.0, -2.0}, flat[] = {1.0, 1.0, 1.0, 1.0};
@@ -245,7 +238,6 @@ static void bad_tables_are_refused(void **state)
  * a contact wider than the table is no result. */
 static void contact_beyond_the_table_is_no_result(void **state)
 {
-    (void)state;
     const int n = tabulate(-5.0, 5.0, 0.5, 0.0, 1, x, gap);
     rb_rolling_profile *profile = profile_of(n, x, gap, 0.0);
     for (int k = 0; k < 16; k++) {
@@ -278,7 +270,6 @@ static void contact_beyond_the_table_is_no_result(void **state)
 /* The spline's own library ends the program where its memory runs out, if it is let. */
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     const int n = tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     for (int k = 0; k < 2; k++) {
@@ -302,7 +293,6 @@ static void every_failed_allocation_is_reported(void **state)
  * ends. */
 static void smoothed_splines_have_as_many_points(void **state)
 {
-    (void)state;
     static const int counts[][2] = {{3, 3}, {9, 9}, {301, 301}, {6001, 1001}};
     for (int k = 0; k < 4; k++) {
         const int n = counts[k][0];

@@ -26,7 +26,6 @@ static rb_rolling_case rolling(void)
 
 static void no_part_of_a_row_is_longer_than_the_time_step(void **state)
 {
-    (void)state;
     const double time[] = {0.0, 1.0, 3.0, 3.0, 3.3}, load[] = {1.0, 2.0, 6.0, 7.0, 8.0};
     const rb_rolling_program program = {.n = 5, .time = time, .load = load},
                              timeless = {.n = 5, .load = load};
@@ -56,7 +55,6 @@ static void no_part_of_a_row_is_longer_than_the_time_step(void **state)
  * lie inside. */
 static void a_rolled_step_has_the_mean_creepage(void **state)
 {
-    (void)state;
     const double distance[] = {0.0, 1.0, 3.0}, creep[] = {0.0, 1.0, 5.0},
                  load[] = {10.0, 20.0, 40.0}, equal[] = {0.1, 0.1, 0.1};
     const rb_rolling_program program = {
@@ -81,7 +79,6 @@ static void a_rolled_step_has_the_mean_creepage(void **state)
 /* At rest a creepage means nothing: the first step goes on from the last row there. */
 static void rolling_begins_with_the_last_row_at_rest(void **state)
 {
-    (void)state;
     const double distance[] = {0.0, 0.0, 0.0, 1.0}, creep[] = {9.0, 5.0, 1.0, 3.0};
     const rb_rolling_program program = {.n = 4, .distance = distance, .creep = creep},
                              still = {.n = 3, .distance = distance}, timeless = {.n = 3};
@@ -96,7 +93,6 @@ static void rolling_begins_with_the_last_row_at_rest(void **state)
 
 static void results_refer_to_the_largest_mu(void **state)
 {
-    (void)state;
     const double mu[] = {0.1, 0.4, 0.2};
     rb_rolling_case rc = rolling();
     const rb_rolling_program with = {.n = 3, .mu = mu}, without = {.n = 3},
@@ -130,7 +126,6 @@ static void results_refer_to_the_largest_mu(void **state)
 
 static void programs_that_make_no_sense_are_refused(void **state)
 {
-    (void)state;
     const double d[] = {0.0, 0.0, 1.0}, late[] = {0.1, 0.2, 1.0},
                  back[] = {0.0, 2.0, 1.0}, twice[] = {0.0, 1.0, 1.0},
                  load[] = {1.0, 2.0, 3.0}, none[] = {1.0, NAN, 3.0},
@@ -178,7 +173,6 @@ static void check_rows(const double *got, const double *wanted, int n, const cha
 
 static void increments_press_first_and_load_then(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_program program;
     rc.increments = 2;
@@ -212,7 +206,6 @@ static void increments_press_first_and_load_then(void **state)
 
 static void a_transient_rolls_under_its_loads(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rolling();
     rb_rolling_program program;
     rc.distance = 3.0;

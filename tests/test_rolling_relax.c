@@ -106,7 +106,6 @@ static const struct {
 
 static void a_held_approach_relaxes(void **state)
 {
-    (void)state;
     static const double time[2] = {0.0, 1.5}, approach[2] = {0.5, 0.5},
                         shift[2] = {0.02, 0.02};
     const rb_rolling_program program = {
@@ -186,7 +185,6 @@ static double complementary_energy(const rb_rolling_case *rc, double softer, dou
  * P times the further approach less what is stored, int_0^P (delta_r - delta_g) dP. */
 static void a_held_load_creeps(void **state)
 {
-    (void)state;
     static const double time[3] = {0.0, 2.0, 11.0}, load[3] = {100.0, 100.0, 100.0};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
     for (int j = 0; j < 2; j++) {
@@ -267,7 +265,6 @@ static double minus_growth(double unused, double t)
  * counts only as far as the contact was narrower (Ting 1966, Graham 1967). */
 static void an_unloaded_contact_shrinks(void **state)
 {
-    (void)state;
     static const double time[3] = {0.0, 1.0, 2.0}, load[3] = {1e-3, 100.0, 1e-3};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
     const double widest = bisected(minus_growth, 0.0, 0.0, 1.0, 2.0);
@@ -301,7 +298,6 @@ static void an_unloaded_contact_shrinks(void **state)
  * same loads and shifts; a ratio of 0 too. */
 static void limits_are_elastic(void **state)
 {
-    (void)state;
     static const double time[5] = {0.0, 1.0, 1.0, 2.0, 3.0},
                         load[5] = {50.0, 100.0, 120.0, 80.0, 60.0},
                         shift[5] = {0.0, 0.02, 0.03, 0.01, -0.04};
@@ -339,7 +335,6 @@ static void limits_are_elastic(void **state)
 /* Which of the bodies relaxes: seen from the other one, friction is of the other sign. */
 static void bodies_may_change_places(void **state)
 {
-    (void)state;
     static const double time[4] = {0.0, 0.5, 1.0, 2.0},
                         load[4] = {50.0, 100.0, 100.0, 30.0};
     const rb_rolling_program program = {.n = 4, .time = time, .load = load};
@@ -399,7 +394,6 @@ static rb_rolling_case roller(int n)
  * becomes the hysteresis. */
 static void rolling_becomes_steady(void **state)
 {
-    (void)state;
     for (int control = 0; control < 2; control++) {
         double error[2];
         for (int j = 0; j < 2; j++) {
@@ -443,7 +437,6 @@ static void rolling_becomes_steady(void **state)
 /* Hunter's exact M: f = 1, V tau = a_g (theory.md V3). */
 static void rolling_from_rest_ends_at_hunters_moment(void **state)
 {
-    (void)state;
     rb_rolling_case rc = relaxing(100);
     rb_rolling_history h;
     rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
@@ -462,7 +455,6 @@ static void rolling_from_rest_ends_at_hunters_moment(void **state)
 /* A ratio of 0 is an elastic body, step by step. */
 static void elastic_rolling_is_the_limit(void **state)
 {
-    (void)state;
     rb_rolling_history h[2];
     rb_rolling_case rc = roller(40);
     rc.a.memory.ratio[0] = rc.a.memory.ratio[1] = 0.0;
@@ -483,7 +475,6 @@ static void elastic_rolling_is_the_limit(void **state)
 /* By transforms the same. */
 static void many_elements_tell_the_same(void **state)
 {
-    (void)state;
     static const double time[2] = {0.0, 0.4}, load[2] = {50.0, 100.0};
     const rb_rolling_program program = {.n = 2, .time = time, .load = load};
     rb_rolling_history h[2];
@@ -506,7 +497,6 @@ static void many_elements_tell_the_same(void **state)
 
 static void bad_programs_are_refused(void **state)
 {
-    (void)state;
     static const double time[3] = {0.0, 1.0, 2.0}, late[3] = {1.0, 2.0, 3.0},
                         back[3] = {0.0, 2.0, 1.0}, load[3] = {1.0, 2.0, 3.0},
                         way[3] = {0.0, 1.0, 2.0};
@@ -553,7 +543,6 @@ static void bad_programs_are_refused(void **state)
 /* Solved at once, without steps, it would be an elastic body. */
 static void one_static_solve_is_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = relaxing(24);
     rb_rolling_solution s;
     rb_rolling_model model;
@@ -571,7 +560,6 @@ static void one_static_solve_is_refused(void **state)
 /* At rest and rolling; what there is is freed. */
 static void every_failing_allocation_is_noticed(void **state)
 {
-    (void)state;
     static const double time[3] = {0.0, 0.5, 0.5}, load[3] = {50.0, 100.0, 80.0};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
     for (int rolls = 0; rolls < 2; rolls++) {
@@ -608,7 +596,6 @@ static void every_failing_allocation_is_noticed(void **state)
  * and former tractions through the glassy body (V6). */
 static void the_past_moves_with_the_material(void **state)
 {
-    (void)state;
     enum { N = 6, TAIL = 3, ALL = N + TAIL };
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_mesh mesh;
@@ -650,7 +637,6 @@ static void the_past_moves_with_the_material(void **state)
  * more digits: kept exp(-r), after 1 - (1 - exp(-r))/r. */
 static void what_fades_is_known_to_rounding(void **state)
 {
-    (void)state;
     for (double r = 1e-7; r < 50.0; r *= 1.3) {
         const rb_bem_fading f = rb_bem_fading_over(4.0, 4.0 * r);
         long double after = 0.0L, term = 1.0L; /* its series, or closed */
@@ -681,7 +667,6 @@ static double work_of(const rb_bem_flexibility *f, const double *a, const double
  * of e_0 and d are there; from rest and at a held traction, one of them alone. */
 static void a_step_loses_what_its_dashpot_does(void **state)
 {
-    (void)state;
     enum { N = 6 };
     static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
     rb_rolling_case rc = rb_rolling_case_defaults();

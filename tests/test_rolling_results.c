@@ -23,7 +23,6 @@ static double carter(double s)
 
 static void a_creep_curve_is_carters(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
     rc.contact_elements = 100;
@@ -47,7 +46,6 @@ static void a_creep_curve_is_carters(void **state)
  * contact and 0.80 of the elements. */
 static void the_stick_ratio_is_one_of_lengths(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
     rb_rolling_solution s;
@@ -71,7 +69,6 @@ static void the_stick_ratio_is_one_of_lengths(void **state)
 /* Each point of a curve is what the same case says alone, dissimilar bodies included. */
 static void a_curve_agrees_with_single_solves(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_curve c;
     rc.mesh = RB_MESH_UNIFORM;
@@ -94,7 +91,6 @@ static void a_curve_agrees_with_single_solves(void **state)
 
 static void bad_curves_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
     CHECK_STATUS(
@@ -121,7 +117,6 @@ static void check_extremum(const char *name, rb_rolling_extremum got, double val
 
 static void hertz_below_the_surface(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
     rb_rolling_stress_maxima m;
@@ -138,7 +133,6 @@ static void hertz_below_the_surface(void **state)
 /* Full sliding, friction on A towards +x (xi < 0). */
 static void full_sliding_below_the_surface(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
     rb_rolling_stress_maxima m;
@@ -159,7 +153,6 @@ static void full_sliding_below_the_surface(void **state)
 /* The wheel's own boundary elements see the same stress as the half-plane, up to a/R. */
 static void a_wheel_has_the_stress_of_the_half_plane(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
     rb_rolling_stress_maxima m;
@@ -178,7 +171,6 @@ static void a_wheel_has_the_stress_of_the_half_plane(void **state)
  * mark. */
 static void the_pulled_edge_of_a_wheel_is_that_of_the_half_plane(void **state)
 {
-    (void)state;
     double tension[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
@@ -202,7 +194,6 @@ static void the_pulled_edge_of_a_wheel_is_that_of_the_half_plane(void **state)
 /* On y = 0 inside the contact: syy = -p, sxy = -q (A lies above its surface). */
 static void the_surface_carries_the_tractions(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
     rc.formulation = RB_STEADY;
@@ -226,7 +217,6 @@ static void the_surface_carries_the_tractions(void **state)
 /* Of points outside the body the first is named, on every support by the same number. */
 static void a_point_outside_has_its_index(void **state)
 {
-    (void)state;
     const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
     const double xy[] = {0.0, 1.0, 0.1, 1.0, 0.0, -1.0, 0.0, -2.0};
     for (int k = 0; k < 3; k++) {
@@ -249,7 +239,6 @@ static void a_point_outside_has_its_index(void **state)
 /* D = -xi Q + (1/R) int x p dx for bodies similar or not. */
 static void dissipation_is_the_work_of_the_forces(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel_on_plane(k & 1 ? 0.3 : 0.5);
         rb_rolling_solution s;
@@ -306,7 +295,6 @@ static void count_random_case(int fitted, tally *t)
 
 static void error_bars_hold_the_truth(void **state)
 {
-    (void)state;
     srand(3);
     for (int fitted = 0; fitted < 2; fitted++) {
         tally t = {0};
@@ -320,7 +308,6 @@ static void error_bars_hold_the_truth(void **state)
  * second order, as on fitted meshes: more where the error changes its sign. */
 static void error_bars_of_curves_hold_the_truth(void **state)
 {
-    (void)state;
     for (int fitted = 0; fitted < 2; fitted++) {
         rb_rolling_case rc = wheel_on_plane(0.5);
         rb_rolling_curve c, e;
@@ -345,7 +332,6 @@ static void error_bars_of_curves_hold_the_truth(void **state)
 
 static void refinement_reaches_the_accuracy(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_solution s;
     rb_rolling_errors e;
@@ -378,7 +364,6 @@ static void check_names(const rb_rolling_results *table)
 
 static void every_result_stands_once(void **state)
 {
-    (void)state;
     int studied = 0;
     check_names(&rb_rolling_solution_scalars);
     check_names(&rb_rolling_solution_columns);
@@ -397,7 +382,6 @@ static void every_result_stands_once(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_model model;
     rb_rolling_stress_maxima maxima;
@@ -492,7 +476,6 @@ static double factor_of(const rb_rolling_result *r, double length, double stress
  * as large or small every number and every column is the same but for its unit. */
 static void no_result_knows_its_unit(void **state)
 {
-    (void)state;
     static const double units[][2] = {{0x1p-12, 0x1p-30}, {0x1p20, 0x1p24}};
     for (int k = 0; k < 7; k++)
         for (int u = 0; u < 2; u++) {

@@ -74,7 +74,6 @@ static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit
 
 static void johnsons_map_is_met(void **state)
 {
-    (void)state;
     /* both sides of the coefficient from which on the surface yields first */
     const int step = getenv("ROLLBEM_TEST_ALL") ? 1 : 2;
     for (int k = 0; k <= 5; k += step) {
@@ -98,7 +97,6 @@ static void johnsons_map_is_met(void **state)
 
 static void what_is_no_half_plane_is_refused(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = sliding(0.1);
         rb_rolling_shakedown limit;

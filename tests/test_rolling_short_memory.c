@@ -317,7 +317,6 @@ static rb_rolling_case wheel(rb_rolling_case rc)
 
 static void solutions_are_short_of_memory(void **state)
 {
-    (void)state;
     FAIL(solve, dissimilar(few(RB_STEADY, 8)));
     FAIL(solve, second(few(RB_STEADY, 8)));
     FAIL(solve, yielding(few(RB_STEADY, 8)));
@@ -332,7 +331,6 @@ static void solutions_are_short_of_memory(void **state)
 
 static void friction_laws_are_short_of_memory(void **state)
 {
-    (void)state;
     FAIL(solve, falling(RB_STEADY, 8));
     FAIL(solve, falling(RB_TRANSIENT, 8));
     FAIL(solve, forced(falling(RB_STEADY, 8), -0.4));
@@ -343,7 +341,6 @@ static void friction_laws_are_short_of_memory(void **state)
 
 static void tasks_are_short_of_memory(void **state)
 {
-    (void)state;
     FAIL(curve, dissimilar(few(RB_STEADY, 12)));
     FAIL(curve, warm(few(RB_STEADY, 8)));
     FAIL(curve, on(RB_MESH_ALIGNED, few(RB_STEADY, 24)));
@@ -367,7 +364,6 @@ static void tasks_are_short_of_memory(void **state)
 /* The table of docs/performance.md, "Memory"; c + s = 60 unknowns of 40 elements. */
 static void bytes_are_those_of_the_documentation(void **state)
 {
-    (void)state;
     rb_rolling_case rc = few(RB_STEADY, 40);
     const double n = 40.0;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * (6.0 * n * n + 3600.0 + 12.0 * n),

@@ -32,7 +32,6 @@ static rb_rolling_solution of(const rb_rolling_model *model)
 /* Every part of the work of a wheel takes some of its time. */
 static void the_parts_of_the_time_are_within_the_whole(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
@@ -55,7 +54,6 @@ static void the_parts_of_the_time_are_within_the_whole(void **state)
 
 static void columns_are_those_of_the_state(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane((rb_rolling_formulation)k);
         rb_rolling_model model;
@@ -115,7 +113,6 @@ static void columns_are_those_of_the_state(void **state)
 
 static void sums_are_those_of_the_tractions(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(k ? RB_STEADY : RB_STATIC);
         if (!k)
@@ -158,7 +155,6 @@ static void sums_are_those_of_the_tractions(void **state)
  * one, or its ratio. */
 static void shift_and_creepage_at_rest(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.shift = 0.001;
     rb_rolling_model model = solved_model(&rc);
@@ -185,7 +181,6 @@ static void shift_and_creepage_at_rest(void **state)
 /* Slip against the zone is counted, of each zone; as small as rounding it is none. */
 static void slip_that_pushes_is_a_violation(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = plane(RB_STEADY);
     rb_rolling_model model = solved_model(&rc);
     static const int zones[] = {RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
@@ -214,7 +209,6 @@ static void slip_that_pushes_is_a_violation(void **state)
 /* Two thousand boundary elements have no dense matrix. */
 static void many_boundary_elements_are_called_hierarchical(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 1500;
@@ -230,7 +224,6 @@ static void many_boundary_elements_are_called_hierarchical(void **state)
 /* The support of a wheel holds the load; both wheels' elements are counted. */
 static void a_support_holds_the_load(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
     rc.a.core_young = 1e3; /* not read: there is no cover */
@@ -260,7 +253,6 @@ static void a_support_holds_the_load(void **state)
 /* Solved again with another load: as from the start, whatever the model held. */
 static void a_model_solves_the_next_case_as_the_first(void **state)
 {
-    (void)state;
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = plane(RB_STEADY), next;
         rb_rolling_model model = {0};
@@ -287,7 +279,6 @@ static void a_model_solves_the_next_case_as_the_first(void **state)
 /* A given ratio of the creepage refers to the load that an approach leads to. */
 static void a_ratio_is_met_under_an_approach(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STEADY);
     rc.load = NAN;
     rc.approach = 0.05;
@@ -303,7 +294,6 @@ static void a_ratio_is_met_under_an_approach(void **state)
 /* On elements between given places; where they do not hold the contact, that is said. */
 static void elements_may_stand_where_they_are_told(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -327,7 +317,6 @@ static void elements_may_stand_where_they_are_told(void **state)
 /* Along normals that turn with the surface pressure and friction have both components. */
 static void tilted_tractions_add_up_to_both_forces(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.normals = RB_BEM_NORMALS_SURFACE;
     rc.approach = 2.0; /* a wide contact */
@@ -355,7 +344,6 @@ static void tilted_tractions_add_up_to_both_forces(void **state)
 /* Fewer than five elements in contact do not tell its edges, and that is said. */
 static void few_elements_do_not_tell_the_edges(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(RB_STEADY);
         rc.contact_elements = k ? 40 : 5;
@@ -369,7 +357,6 @@ static void few_elements_do_not_tell_the_edges(void **state)
  * relaxes or yields has no such energy. */
 static void strain_energy_is_the_work_of_pressing(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.mu = 0.0;
     rc.contact_elements = 400;

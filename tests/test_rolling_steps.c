@@ -70,7 +70,6 @@ static void check_same(const rb_rolling_solution *a, const rb_rolling_solution *
  * problem; the creepage enters (12) in all of them. */
 static void one_step_at_rest_is_a_static_case(void **state)
 {
-    (void)state;
     static const double start[] = {0.0}, force[] = {0.4};
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
@@ -116,7 +115,6 @@ static void one_step_at_rest_is_a_static_case(void **state)
 /* The shift of a history is the whole one, in its column and in the solution. */
 static void shifts_add_up(void **state)
 {
-    (void)state;
     const double shift[] = {1e-3, 3e-3, 4e-3};
     const rb_rolling_program program = {.n = 3, .shift = shift};
     for (int k = 0; k < KINDS; k++) {
@@ -214,7 +212,6 @@ static double stick_under_a_flat_punch(int elements)
 
 static void increments_press_as_spence(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(400);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -241,7 +238,6 @@ static void increments_press_as_spence(void **state)
 /* After pressing as many increments of shift or force lead to what the case asks for. */
 static void increments_end_where_the_case_says(void **state)
 {
-    (void)state;
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
             rb_rolling_case rc = kind_of_case(k);
@@ -278,7 +274,6 @@ static int count_steps(const rb_rolling_model *model, const rb_rolling_history *
  * transient presses as a static case does. */
 static void similar_bodies_press_at_once(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(40);
     rb_rolling_solution one, many;
     rb_rolling_model model;
@@ -311,7 +306,6 @@ static void similar_bodies_press_at_once(void **state)
 
 static void histories_end_on_their_last_row(void **state)
 {
-    (void)state;
     static const double distance[] = {0.0, 1.0, 2.0},
                         up_and_down[] = {100.0, 400.0, 100.0}, force[] = {0.0, 0.5, 0.5},
                         away[] = {0.0, 2.0}, let_go[] = {100.0, 0.01},
@@ -345,7 +339,6 @@ static void histories_end_on_their_last_row(void **state)
  */
 static void the_last_creepage_is_one_of_many(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(50);
     double end[5];
 
@@ -371,7 +364,6 @@ static void the_last_creepage_is_one_of_many(void **state)
  */
 static void large_contacts_know_what_is_ahead(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(RB_ROLLING_LARGE);
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
@@ -404,7 +396,6 @@ static void large_contacts_know_what_is_ahead(void **state)
 /* A creepage ratio refers to the load of the step, which a given approach only brings. */
 static void ratios_refer_to_the_load_of_the_step(void **state)
 {
-    (void)state;
     for (int k = KINDS / 2; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model;
@@ -425,7 +416,6 @@ static void ratios_refer_to_the_load_of_the_step(void **state)
 
 static void columns_are_those_of_the_solution(void **state)
 {
-    (void)state;
     for (int k = 0; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model;
@@ -454,7 +444,6 @@ static void columns_are_those_of_the_solution(void **state)
 /* In a steady state D = -xi Q + (1/R) int x p dx (theory.md 6). */
 static void power_and_moment_balance_when_steady(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(160);
     rb_rolling_model model;
     rb_rolling_history h;
@@ -502,7 +491,6 @@ static rb_rolling_case with_spot(const rb_rolling_case *rc, const spot *s)
 /* An irregularity of height 0 is none: the history comes to the steady state. */
 static void nothing_passes_unnoticed(void **state)
 {
-    (void)state;
     const spot flat = make_spot(0.3, 0.2, 0.0);
     for (int k = 0; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
@@ -553,7 +541,6 @@ static int take(const rb_rolling_model *model, const rb_rolling_history *h, int 
  * is as before. */
 static void a_bump_passes_from_front_to_back(void **state)
 {
-    (void)state;
     static film smooth, bumpy;
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = kind_of_case(k);
@@ -600,7 +587,6 @@ static void a_bump_passes_from_front_to_back(void **state)
  * while, and a ratio to no load is no number, nor is it infinite. */
 static void contact_may_be_lost_and_found(void **state)
 {
-    (void)state;
     const spot hole = make_spot(9.0, 6.0, 0.5);
     for (int k = KINDS / 2; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
@@ -645,7 +631,6 @@ static int find_widest(const rb_rolling_model *model, const rb_rolling_history *
  * grows, a given one is refused with a line. */
 static void zones_grow_with_what_passes(void **state)
 {
-    (void)state;
     rb_rolling_case rc = spence(60);
     const spot flat = make_spot(0.9, 0.45, 3e-3);
     rb_rolling_model model;
@@ -674,7 +659,6 @@ static void zones_grow_with_what_passes(void **state)
 
 static void bad_irregularities_are_refused(void **state)
 {
-    (void)state;
     static const double x[] = {0.0, 1.0, 2.0}, back[] = {0.0, 1.0, 1.0},
                         open[] = {0.0, 1.0, 0.5}, closed[] = {0.0, 1.0, 0.0},
                         hole[] = {0.0, NAN, 0.0};
@@ -703,7 +687,6 @@ static void bad_irregularities_are_refused(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     const spot bump = make_spot(0.3, 0.2, -1e-4);
     rb_rolling_case rc = kind_of_case(2);
     int refused = 1;
@@ -730,7 +713,6 @@ static void every_failed_allocation_is_reported(void **state)
 /* Steps without contact have no edge whose power is uncertain. */
 static void lost_contact_has_error_bars(void **state)
 {
-    (void)state;
     const spot hole = make_spot(9.0, 6.0, 0.5);
     rb_rolling_case rc = kind_of_case(KINDS - 1);
     rb_rolling_model model;

@@ -46,7 +46,6 @@ static void check_parts(const rb_rolling_stress *s, double nu)
  */
 static void the_axis_has_its_closed_form(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = hertz(200);
     rb_rolling_model model = solved_model(&rc);
     const double p0 = rb_rolling_derive(&rc).stress;
@@ -68,7 +67,6 @@ static void the_axis_has_its_closed_form(void **state)
  * distance where strips of constant traction take over. */
 static void far_away_it_is_a_point_load(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = hertz(60);
     rb_rolling_model model = solved_model(&rc);
     const double P = rb_rolling_derive(&rc).load;
@@ -96,7 +94,6 @@ static void far_away_it_is_a_point_load(void **state)
 
 static void places_outside_are_named(void **state)
 {
-    (void)state;
     const double xy[] = {0.0, 0.0, 0.1, 0.2, 0.3, -1e-9};
     rb_rolling_stress s[3];
     rb_message why = {""};
@@ -118,7 +115,6 @@ static void places_outside_are_named(void **state)
  * tension but rounding.  A depth that ends before them ends the search. */
 static void maxima_are_hertzs(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = hertz(100);
     rb_rolling_model model = solved_model(&rc);
     rb_rolling_stress_maxima m;
@@ -159,7 +155,6 @@ static rb_rolling_case stuck(void)
  * images have the same. */
 static void the_highest_of_several_peaks_is_found(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = stuck();
     rb_rolling_model model = solved_model(&rc);
     rb_rolling_stress_maxima m, again;
@@ -187,7 +182,6 @@ static void the_highest_of_several_peaks_is_found(void **state)
 /* At the ends of a wheel's elements, which are its corners, as next to them. */
 static void ends_of_elements_are_not_seen(void **state)
 {
-    (void)state;
     rb_rolling_case rc = hertz(24);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
@@ -214,7 +208,6 @@ static void ends_of_elements_are_not_seen(void **state)
 /* A half-width beyond either edge, evenly down to 2.5 half-widths. */
 static void a_grid_lies_under_the_contact(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = hertz(60);
     rb_rolling_model model = solved_model(&rc);
     rb_rolling_stress_grid grid;
@@ -257,7 +250,6 @@ static void a_grid_lies_under_the_contact(void **state)
  * and in the hub there is none. */
 static void a_wheel_has_stress_up_to_its_circle(void **state)
 {
-    (void)state;
     rb_rolling_case rc = hertz(16);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
@@ -297,7 +289,6 @@ static void a_wheel_has_stress_up_to_its_circle(void **state)
 /* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
 static void a_wide_grid_stays_on_the_lower_half(void **state)
 {
-    (void)state;
     rb_rolling_case rc = hertz(16);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
@@ -325,7 +316,6 @@ static void a_wide_grid_stays_on_the_lower_half(void **state)
  * the residual stress does for sxx - syy. */
 static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = hertz(80);
     rb_rolling_model model = solved_model(&rc);
     rb_rolling_shakedown limit;
@@ -360,7 +350,6 @@ static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
  * stress of two materials is not looked for. */
 static void a_rigid_base_has_no_stress(void **state)
 {
-    (void)state;
     rb_rolling_case rc = hertz(16);
     rb_message why;
     rb_rolling_stress s;
@@ -391,7 +380,6 @@ static void a_rigid_base_has_no_stress(void **state)
 
 static void a_cover_that_relaxes_on_an_elastic_core_is_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = hertz(16);
     rb_message why;
     rc.a.support = RB_BEM_HUB;

@@ -62,7 +62,6 @@ static void sum_of_waves(cplx (*memory)[4], double angle, double b, double F[4])
  * the circumference. */
 static void the_kernel_is_the_sum_of_its_waves(void **state)
 {
-    (void)state;
     enum { N = 5, M = N + 1 };
     static const double ratio[2] = {0.7, 2.0};
     static const double lengths[4][2] = {
@@ -117,7 +116,6 @@ static void the_kernel_is_the_sum_of_its_waves(void **state)
 
 static void bad_wheels_are_refused(void **state)
 {
-    (void)state;
     static const double ratio[1] = {1.0}, length[1] = {1.0}, none[1] = {0.0};
     const rb_bem_material steel = {1.0, 0.3}, bad = {-1.0, 0.3};
     const rb_bem_wheel wheel[] = {{1.0, 1.0, steel, 1, ratio, length, 0.0, steel},
@@ -143,7 +141,6 @@ static void bad_wheels_are_refused(void **state)
  * it is added to its matrix. */
 static void memory_is_added_to_any_flexibility(void **state)
 {
-    (void)state;
     enum { n = 6, m = n + 1 };
     static const double ratio[1] = {1.0}, length[1] = {0.3};
     const rb_bem_material steel = {1.0, 0.3};
@@ -213,7 +210,6 @@ static void figures(const rb_rolling_case *rc, double value[3])
  */
 static void a_large_wheel_is_a_halfplane(void **state)
 {
-    (void)state;
     double plane[3], before[3] = {0.0}, value[3];
     rb_rolling_case rc = wheel(40);
     rc.a.support = RB_BEM_HALFPLANE;
@@ -236,7 +232,6 @@ static void a_large_wheel_is_a_halfplane(void **state)
 /* So does a cover become the layer that relaxes, on a rigid and on an elastic core. */
 static void a_thin_cover_is_the_layer(void **state)
 {
-    (void)state;
     for (int core = 0; core < 2; core++) {
         double before[3] = {0.0};
         for (int k = 0; k < 2; k++) {
@@ -271,7 +266,6 @@ static void a_thin_cover_is_the_layer(void **state)
  * elements on the hub. */
 static void a_cover_to_the_hub_is_the_wheel(void **state)
 {
-    (void)state;
     double value[2][3];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(20);
@@ -288,7 +282,6 @@ static void a_cover_to_the_hub_is_the_wheel(void **state)
  * the error of the boundary elements, which the memory's part does not have. */
 static void speed_has_its_limits(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++)
         for (int fast = 0; fast < 2; fast++) {
             rb_rolling_case rc = wheel(30);
@@ -323,7 +316,6 @@ static double levers(const rb_rolling_solution *s, double radius)
  * an elastic core, of A or of B, beside an elastic or a rigid other body. */
 static void what_does_not_relax_loses_nothing(void **state)
 {
-    (void)state;
     for (int k = 0; k < 24; k++) {
         rb_rolling_case rc = wheel(20);
         const int of_b = k / 12, driven = k % 2, kind = k / 2 % 3, pair = k / 6 % 2;
@@ -355,7 +347,6 @@ static void what_does_not_relax_loses_nothing(void **state)
  * covers, either body, both, a free axle, several terms. */
 static void the_energy_balances(void **state)
 {
-    (void)state;
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = wheel(k == 7 ? 60 : 20);
         rc.a.cover = k % 4 == 0 ? 0.0 : 3.0;
@@ -416,7 +407,6 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
  * of second order, whatever the wheel and its normals. */
 static void the_balance_closes_to_second_order(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         double rest[2], per_radius[2];
         for (int small = 0; small < 2; small++) {
@@ -446,7 +436,6 @@ static void the_balance_closes_to_second_order(void **state)
  * miss 5 % of the power, which no mesh brings back. */
 static void surface_normals_feed_by_their_own_tractions(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(k ? 60 : 15);
         rc.normals = RB_BEM_NORMALS_SURFACE;
@@ -480,7 +469,6 @@ static void surface_normals_feed_by_their_own_tractions(void **state)
 /* The wheel that relaxes below is the one above with everything mirrored. */
 static void either_body_may_relax(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel(40);
     rb_rolling_solution s[2];
     rc.elastic_b = 1;
@@ -507,7 +495,6 @@ static void either_body_may_relax(void **state)
  */
 static void resistance_has_a_maximum_over_the_speed(void **state)
 {
-    (void)state;
     rb_rolling_curve c;
     rb_message why = {""};
     rb_rolling_case rc = wheel(24);
@@ -531,7 +518,6 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
 
 static void what_does_not_turn_is_refused(void **state)
 {
-    (void)state;
     static const char *const word[2] = {"clamped arc cannot turn", "halfplane only"};
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(40);

@@ -76,7 +76,6 @@ static double roughness(const rb_rolling_solution *s)
  * 1.56 a is the half-width after two units (1.62 in one step). */
 static void sliding_wears_its_volume(void **state)
 {
-    (void)state;
     static const int steps[] = {100, 10, 1};
     static const double width[] = {1.56, 1.56, 1.62};
     const rb_rolling_case rc = cylinder(200, 6.0);
@@ -103,7 +102,6 @@ static void sliding_wears_its_volume(void **state)
 /* Late: p = P/(2b) and V = 2 b^3/(3R), from any number of steps. */
 static void cylinder_wears_to_uniform_pressure(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = cylinder(160, 0.0); /* the zone grows with the scar */
     const rb_rolling_wear wear = sliding(&rc, 400.0, 40);
     worn w = run(&rc, &wear);
@@ -123,7 +121,6 @@ static void cylinder_wears_to_uniform_pressure(void **state)
 /* A flat punch with rounded corners: from 1/sqrt at its edges to P/(2c). */
 static void punch_wears_to_uniform_pressure(void **state)
 {
-    (void)state;
     enum { ROWS = 401 };
     double x[ROWS], gap[ROWS];
     rb_rolling_profile *profile;
@@ -161,7 +158,6 @@ static void punch_wears_to_uniform_pressure(void **state)
  * friction work of the cycle. */
 static void fretting_spares_what_sticks(void **state)
 {
-    (void)state;
     rb_rolling_case rc = cylinder(120, 1.5);
     rc.force_ratio = 0.75; /* c = a/2 */
     const rb_rolling_wear wear = {.law = RB_WEAR_DISSIPATION,
@@ -187,7 +183,6 @@ static void fretting_spares_what_sticks(void **state)
 /* Far beyond the elastic displacement a cycle is four strokes long. */
 static void gross_slip_wears_four_strokes(void **state)
 {
-    (void)state;
     rb_rolling_case rc = cylinder(100, 2.0);
     const double p0 = rb_closed_hertz_max_pressure(rc.load, 1.0);
     rc.shift = 50.0;
@@ -204,7 +199,6 @@ static void gross_slip_wears_four_strokes(void **state)
 /* A round wheel stays round: dz = K D per turn. */
 static void wheel_loses_its_radius(void **state)
 {
-    (void)state;
     rb_rolling_case rc = cylinder(60, 0.0);
     rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_FITTED;
@@ -228,7 +222,6 @@ static void wheel_loses_its_radius(void **state)
  * turn, in partial and in full sliding. */
 static void archard_s_wheel_loses_what_creepage_feeds(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = cylinder(50, 0.0);
         const double s = k % 2 ? 2.0 : 0.5;
@@ -249,7 +242,6 @@ static void archard_s_wheel_loses_what_creepage_feeds(void **state)
 /* Ten steps, or five and then five more from the profile they left. */
 static void wear_goes_on(void **state)
 {
-    (void)state;
     rb_rolling_case rc = cylinder(160, 5.0);
     const rb_rolling_wear ten = sliding(&rc, 2.0, 10), five = sliding(&rc, 1.0, 5);
     worn all = run(&rc, &ten), first = run(&rc, &five);
@@ -278,7 +270,6 @@ static rb_rolling_wear shared(rb_rolling_wear wear, double share)
  * from its radius outside A or around it.  The sum is what A would lose alone. */
 static void volumes_are_as_the_shares(void **state)
 {
-    (void)state;
     static const double radius_b[] = {INFINITY, INFINITY, INFINITY, 80.0, -70.0};
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = cylinder(60, 3.0);
@@ -322,7 +313,6 @@ static void volumes_are_as_the_shares(void **state)
 /* Fretting, the gap is that of both; sliding, that of A's part of the coefficient. */
 static void the_gap_knows_what_wears_in_it(void **state)
 {
-    (void)state;
     rb_rolling_case rc = cylinder(60, 3.0);
     rb_rolling_wear one = sliding(&rc, 0.5, 3);
     const rb_rolling_wear some = shared(one, 0.25);
@@ -350,7 +340,6 @@ static void the_gap_knows_what_wears_in_it(void **state)
 
 static void shares_lie_between_0_and_1(void **state)
 {
-    (void)state;
     static const double shares[] = {-0.1, 1.1, NAN};
     const rb_rolling_case rc = cylinder(60, 3.0);
     for (int k = 0; k < 3; k++) {
@@ -367,7 +356,6 @@ static void shares_lie_between_0_and_1(void **state)
 
 static void meaningless_wear_is_refused(void **state)
 {
-    (void)state;
     const rb_rolling_case good = cylinder(60, 0.0);
     enum { BAD = 6 };
     rb_rolling_case bad[BAD] = {good, good, good, good, good, good};
@@ -406,7 +394,6 @@ static void meaningless_wear_is_refused(void **state)
 /* A stroke by its force and by the ratio of that is one stroke. */
 static void strokes_may_be_forces(void **state)
 {
-    (void)state;
     double depth[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = cylinder(24, 1.5);
@@ -429,7 +416,6 @@ static void strokes_may_be_forces(void **state)
  * wheels that roll, take any. */
 static void friction_laws_wear_where_they_can(void **state)
 {
-    (void)state;
     rb_message why = {""};
     worn w;
     for (int k = 0; k < 3; k++) {

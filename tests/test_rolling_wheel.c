@@ -75,7 +75,6 @@ static distance from_halfplane(rb_rolling_case rc)
 
 static void tractions_tend_to_the_halfplane_with_first_order(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         distance last = from_halfplane(wheel(wheels[k], 1e-3));
         for (double ratio = 1e-4; ratio > 1e-7; ratio *= 0.1) {
@@ -95,7 +94,6 @@ static void tractions_tend_to_the_halfplane_with_first_order(void **state)
  * only to first order: what is left at a/R -> 0 falls with all elements. */
 static void compressible_wheels_need_small_elements_too(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         double last = 0.0;
         for (int fine = 1; fine <= 4; fine *= 2) {
@@ -143,7 +141,6 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
  * the half-plane and the size of the wheel, a/R = 2e-5. */
 static void bentall_johnson_on_two_wheels(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         CHECK_MAX(bentall_johnson_error(wheels[k], 50), 5e-4, "%s", name_of(wheels[k]));
         CHECK_MAX(bentall_johnson_error(wheels[k], 100), 2e-4, "%s", name_of(wheels[k]));
@@ -154,7 +151,6 @@ static void bentall_johnson_on_two_wheels(void **state)
  * size to differ from the half-plane by. */
 static void the_exact_near_field_spares_the_small_elements(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-5);
         rc.a.poisson = rc.b.poisson = 0.3;
@@ -179,7 +175,6 @@ static double support_constant(const rb_rolling_case *rc)
 
 static void approach_differs_by_a_constant_of_the_support(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-4);
         rc.mesh = RB_MESH_FITTED;
@@ -196,7 +191,6 @@ static void approach_differs_by_a_constant_of_the_support(void **state)
 /* (B9) */
 static void a_contact_of_1e_8_of_the_radius_keeps_its_digits(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-8);
         rc.mesh = RB_MESH_FITTED;
@@ -230,7 +224,6 @@ static double creepage_of_force(rb_rolling_case rc, double ratio, double *approa
  * the order of (a/R)^2, that is of delta/R but for a logarithm (4.3). */
 static void the_two_signs_mirror_up_to_delta_over_R(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         double last_sum = 0.0, last_approach = 0.0;
         for (double ratio = 1e-1; ratio > 5e-4; ratio *= 0.1) {
@@ -263,7 +256,6 @@ static double free_creepage(rb_rolling_case rc)
  * times a number of the support. */
 static void free_rolling_of_an_incompressible_wheel(void **state)
 {
-    (void)state;
     const double want[] = {0.4999, 0.8518};
     for (int k = 0; k < 2; k++)
         for (double ratio = 1e-2; ratio > 5e-5; ratio *= 0.1)
@@ -274,7 +266,6 @@ static void free_rolling_of_an_incompressible_wheel(void **state)
 /* (4.3): the surface's own normals make a creepage delta/R of the approach. */
 static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-3);
         rb_rolling_solution flat, round;
@@ -295,7 +286,6 @@ static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
 /* They turn pressure into a part of Q and friction into a part of P. */
 static void normals_of_the_surface_share_the_forces(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.1);
     rc.normals = RB_BEM_NORMALS_SURFACE;
     rb_rolling_solution s = solved(&rc);
@@ -323,7 +313,6 @@ static double support_balance(rb_rolling_case rc, int outer, int fine)
  * on the whole circle in Addi's case. */
 static void the_support_carries_the_load(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel(wheels[k % 2], 0.02);
         rc.a.poisson = 0.3;
@@ -351,7 +340,6 @@ typedef struct {
 
 static void the_case_of_addi(void **state)
 {
-    (void)state;
     const zones want[] = {
         {RB_BEM_ARC, 0.3, RB_BEM_NORMALS_OBSTACLE, -0.52, 0.55, -0.21, 0.34},
         {RB_BEM_ARC, 0.1, RB_BEM_NORMALS_OBSTACLE, -0.54, 0.57, 0.06, 0.14},
@@ -387,7 +375,6 @@ static void the_case_of_addi(void **state)
 /* Without a shift both halves of the contact are mirror images: p even, q odd. */
 static void a_symmetric_case_has_a_symmetric_answer(void **state)
 {
-    (void)state;
     const int mirrored[] = {[RB_ZONE_SEPARATED] = RB_ZONE_SEPARATED,
                             [RB_ZONE_STICK] = RB_ZONE_STICK,
                             [RB_ZONE_SLIP_NEGATIVE] = RB_ZONE_SLIP_POSITIVE,
@@ -419,7 +406,6 @@ static void a_symmetric_case_has_a_symmetric_answer(void **state)
  * does not. */
 static void slip_afterwards_contradicts_stick(void **state)
 {
-    (void)state;
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.creep = 0.1;
     rb_rolling_solution s = valid(&rc);
@@ -439,7 +425,6 @@ static void slip_afterwards_contradicts_stick(void **state)
 /* nu = 1/2 on a hub is the limit of nu -> 1/2, not a singular system. */
 static void an_incompressible_wheel_on_a_hub(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.01);
     rc.zone = 1.3 * rc.half_width;
     rb_rolling_solution s = valid(&rc);
@@ -456,7 +441,6 @@ static void an_incompressible_wheel_on_a_hub(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
     rc.contact_elements = 10;
     rc.outer_elements = 16;
@@ -480,7 +464,6 @@ static void every_failed_allocation_is_reported(void **state)
  * them, and its mesh ends where its own contact does. */
 static void many_outer_elements_fit_their_own_contact(void **state)
 {
-    (void)state;
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.02);
     rb_rolling_model model;
     rb_rolling_solution s;

@@ -62,7 +62,6 @@ static void finish(run *r)
 /* Implicit: each step takes K ds p off with the pressure at its end. */
 static void a_step_takes_off_what_its_pressure_wears(void **state)
 {
-    (void)state;
     for (int law = 0; law < 2; law++) {
         run r = {.stop_at = -1};
         const rb_rolling_case rc = plane(40);
@@ -127,7 +126,6 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
  * what its pressure wears, and fretting goes as on fewer elements. */
 static void many_elements_wear_without_a_matrix(void **state)
 {
-    (void)state;
     for (int slides = 0; slides < 2; slides++) {
         double depth[2];
         for (int many = 0; many < 2; many++) {
@@ -161,7 +159,6 @@ static void many_elements_wear_without_a_matrix(void **state)
 /* What wears without sliding friction is pressed without a force. */
 static void smooth_surfaces_wear_by_archard(void **state)
 {
-    (void)state;
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
     const rb_rolling_wear wear = {
@@ -180,7 +177,6 @@ static void smooth_surfaces_wear_by_archard(void **state)
  * so that each place of the middle slides 4 s, and the work is mu P 4 s. */
 static void fretting_counts_one_closed_cycle(void **state)
 {
-    (void)state;
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
     const rb_rolling_wear wear = {
@@ -199,7 +195,6 @@ static void fretting_counts_one_closed_cycle(void **state)
 /* (W3) a round wheel stays round: R = R_before - turns K power, the power of its end. */
 static void a_rolling_wheel_shrinks(void **state)
 {
-    (void)state;
     for (int law = 0; law < 2; law++) {
         run r = {.stop_at = -1};
         rb_rolling_case rc = plane(40);
@@ -236,7 +231,6 @@ static void a_rolling_wheel_shrinks(void **state)
 
 static void a_scar_that_outgrows_its_zone(void **state)
 {
-    (void)state;
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
     const rb_rolling_wear wear = {
@@ -261,7 +255,6 @@ static void a_scar_that_outgrows_its_zone(void **state)
 
 static void an_observer_ends_the_run(void **state)
 {
-    (void)state;
     run r = {.stop_at = 2};
     const rb_rolling_case rc = plane(20);
     const rb_rolling_wear wear = {
@@ -276,7 +269,6 @@ static void an_observer_ends_the_run(void **state)
 
 static void wear_that_makes_no_sense_is_refused(void **state)
 {
-    (void)state;
     const rb_rolling_wear fine = {
         .slides = 1, .coefficient = 1e-8, .way = 1.0, .steps = 1, .increments = 1};
 #define REFUSED(words, ...)                                                              \

@@ -59,7 +59,6 @@ static const struct {
 
 static void contact_program_is_met(void **state)
 {
-    (void)state;
     static const rb_contact_solver by[] = {RB_SOLVER_NEWTON, RB_SOLVER_LEMKE};
 
     for (size_t k = 0; k < sizeof carter_plast / sizeof *carter_plast; k++)
@@ -93,7 +92,6 @@ static void count_zones(const rb_contact_state *state, int *stick, int *slip, in
  * one element with the creepage -0.0004; what has yielded rides with the material. */
 static void rolling_from_a_shift_is_met(void **state)
 {
-    (void)state;
     static const struct {
         double ratio;
         int stick, slip, yield;
@@ -164,7 +162,6 @@ static double brush_force(const rb_rolling_case *rc, double a)
 
 static void brushes_converge_to_second_order(void **state)
 {
-    (void)state;
     static const double hardening[] = {2e4, 4e5, 2e6};
     static const int n[] = {50, 100, 200};
 
@@ -258,7 +255,6 @@ static int draw(unsigned *seed, int n)
  * same one. */
 static void law_holds_by_the_columns(void **state)
 {
-    (void)state;
     unsigned seed = 5;
     int yielding = 0, both_bounds = 0;
     for (int k = 0; k < 40; k++) {
@@ -311,7 +307,6 @@ static void law_holds_by_the_columns(void **state)
 /* A yield stress that nothing reaches leaves every bit as it is without. */
 static void large_yield_stress_is_elastic(void **state)
 {
-    (void)state;
     const rb_rolling_formulation of[] = {RB_STATIC, RB_STEADY, RB_TRANSIENT};
 
     for (int k = 0; k < 3; k++) {
@@ -343,7 +338,6 @@ static void large_yield_stress_is_elastic(void **state)
  * only one, and a tenth of it in full sliding is that times the width of the contact. */
 static void small_yield_stress_is_a_bound(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plastic_example(0.0);
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 60;
@@ -401,7 +395,6 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
 /* To and fro: what has yielded grows in both directions. */
 static void shift_to_and_fro_hardens(void **state)
 {
-    (void)state;
     static const double shift[] = {1e-3, 2e-3, 3e-3, 1e-3, -1e-3, -3e-3, 0.0, 3e-3};
     rb_rolling_case rc = plastic_example(5000.0);
     rb_rolling_program program = {.n = 8, .shift = shift};
@@ -427,7 +420,6 @@ static void shift_to_and_fro_hardens(void **state)
 /* What has yielded leaves the contact with the material. */
 static void a_transient_becomes_steady(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plastic_example(123000.0);
     rc.contact_elements = 60;
     rc.zone = 1.25;
@@ -453,7 +445,6 @@ static void a_transient_becomes_steady(void **state)
 
 static void forces_find_their_creepage(void **state)
 {
-    (void)state;
     static const double hardening[] = {0.0, 123000.0, 4018000.0, -20500.0};
 
     for (int k = 0; k < 4; k++)
@@ -486,7 +477,6 @@ static void refused(rb_rolling_case rc, const char *words)
 
 static void bad_layers_are_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = plastic_example(0.0);
     rc.yield_stress = -1.0;
     refused(rc, "yield stress: expected > 0, got -1");

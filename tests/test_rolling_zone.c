@@ -49,7 +49,6 @@ static void check_ends(const rb_rolling_solution *s, const char *what)
  * of p^2 misses by up to some elements. */
 static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
 {
-    (void)state;
     static const double poisson[] = {0.0, 0.3, -0.2}, mu[] = {1.0, 3.0, 2.0};
     for (int k = 0; k < 3; k++) {
         double edge[2] = {0.0, 0.0};
@@ -77,7 +76,6 @@ static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
  * between midpoints, nor taken for open.  The edges are those of Hertz to an element. */
 static void few_elements_see_the_contact(void **state)
 {
-    (void)state;
     for (int n = 3; n <= 12; n++)
         for (int k = 0; k < 3; k++) {
             rb_rolling_case rc = halfplane(0.3, 0.3, n);
@@ -111,7 +109,6 @@ static double sum(int n, const double *a, const double *h)
  * (p0 115.9 and 108, Q -0.922), and one whose edges jump to and fro by some elements. */
 static void fitted_elements_hold_the_contact(void **state)
 {
-    (void)state;
     static const struct {
         double poisson, mu, creep_ratio, load;
         int elements;
@@ -147,7 +144,6 @@ static void fitted_elements_hold_the_contact(void **state)
 /* Fitted against fine equal elements for bodies of any kind. */
 static void fitted_and_equal_elements_agree(void **state)
 {
-    (void)state;
     srand(9);
     for (int k = 0; k < 15; k++) {
         rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 3.0), 60);
@@ -176,7 +172,6 @@ static void fitted_and_equal_elements_agree(void **state)
  * pressure stays, element by element. */
 static void exchanged_bodies_have_the_same_pressure(void **state)
 {
-    (void)state;
     srand(10);
     for (int k = 0; k < 20; k++) {
         rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 2.0), 40);
@@ -238,7 +233,6 @@ static void set_table(rb_rolling_case *rc, double half_length, double flat)
 
 static void a_worn_flat_is_held_by_the_potential_contact(void **state)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.3, 80);
         rc.half_width = 0.02;
@@ -274,7 +268,6 @@ static void set_lobes(rb_rolling_case *rc, double c, double d, int mirror)
  * elements, fitted ones, half-planes and wheels. */
 static void every_patch_is_found(void **state)
 {
-    (void)state;
     static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
     for (int k = 0; k < 6; k++) {
         const double c = k % 2 ? 4.0 : 3.0;
@@ -314,7 +307,6 @@ static void every_patch_is_found(void **state)
 
 static void a_mirrored_profile_has_mirrored_patches(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.3, 0.3, 40);
     rc.formulation = RB_STATIC;
     rc.shift = 0.0;
@@ -340,7 +332,6 @@ static void a_mirrored_profile_has_mirrored_patches(void **state)
 /* More patches than elements are fitted to. */
 static void a_wavy_surface_gets_equal_elements(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.3, 0.3, 400);
     rc.mesh = RB_MESH_FITTED;
     rc.load = 40.0;
@@ -361,7 +352,6 @@ static void a_wavy_surface_gets_equal_elements(void **state)
 /* Below patches that lie far apart in comparison with their widths. */
 static void stress_is_looked_for_below_every_patch(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.3, 0.0, 80);
     rb_rolling_model model;
     rb_rolling_solution s;
@@ -385,7 +375,6 @@ static void stress_is_looked_for_below_every_patch(void **state)
 
 static void a_given_zone_must_hold_every_patch(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.3, 0.3, 40);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -405,7 +394,6 @@ static void a_given_zone_must_hold_every_patch(void **state)
 
 static void a_contact_without_an_end_is_refused(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.5, 0.3, 60);
     rb_rolling_solution s;
     rb_message why = {""};
@@ -423,7 +411,6 @@ static void a_contact_without_an_end_is_refused(void **state)
 
 static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     rb_rolling_curve curve;
     rb_rolling_model model;
@@ -454,7 +441,6 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
  * end of it, and grows otherwise. */
 static void a_zone_ends_with_three_separated_elements(void **state)
 {
-    (void)state;
     int kept = 0, grown = 0;
     for (int n = 20; n <= 44; n += 2) {
         rb_rolling_case rc = halfplane(0.3, 0.0, n);
@@ -486,7 +472,6 @@ static void a_zone_ends_with_three_separated_elements(void **state)
  * they touch to sqrt(2 R delta); by a load, P = 2 a^3/(3 R L). */
 static void a_soft_interlayer_has_the_zone_of_its_own_contact(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.3, 0.0, 40);
         const double R = rc.a.radius, L = 10.0, a = 2.0;
@@ -506,7 +491,6 @@ static void a_soft_interlayer_has_the_zone_of_its_own_contact(void **state)
  * which is tightened, and all results are as many times larger. */
 static void a_contact_has_the_same_zone_in_every_unit(void **state)
 {
-    (void)state;
     double ends[2], width[2];
     for (int k = 0; k < 2; k++) {
         const double unit = k ? 1e-3 : 1e3;
@@ -532,7 +516,6 @@ static void a_contact_has_the_same_zone_in_every_unit(void **state)
  * d_T everywhere, which -d_T/e_T undoes. */
 static void free_rolling_undoes_what_displaces(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.5, 0.3, 20);
     double creepage;
     rc.half_width = 1.0;
@@ -551,7 +534,6 @@ static void free_rolling_undoes_what_displaces(void **state)
  * rolls freely does: that one is looked for on elements of its own. */
 static void free_rolling_may_need_other_elements(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.0, 1.0, 80);
     rb_rolling_model model;
     rb_rolling_mesh mesh;
@@ -575,7 +557,6 @@ static void free_rolling_may_need_other_elements(void **state)
 
 static void every_failed_allocation_is_reported(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.3, 0.3, 8);
         int refused = 1;
@@ -599,7 +580,6 @@ static void every_failed_allocation_is_reported(void **state)
  * then there is nothing more. */
 static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
 {
-    (void)state;
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     rb_rolling_model model;
     rb_rolling_history history;
@@ -621,7 +601,6 @@ static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
  * may be, and no longer. */
 static void elements_are_as_long_as_the_layer_at_most(void **state)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.0, 20);
         rb_rolling_solution s;

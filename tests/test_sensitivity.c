@@ -150,7 +150,6 @@ static int compare_input(const words *w, const rb_case_derivative *d,
 
 static void derivatives_are_those_of_solutions(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof regimes / sizeof *regimes; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -175,7 +174,6 @@ static void derivatives_are_those_of_solutions(void **state)
 /* A layer that yields needs the matrix that its solution has not. */
 static void a_model_without_a_matrix_is_given_one(void **state)
 {
-    (void)state;
     static const words w[] = {
         {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
           "contact-elements", "160"}},
@@ -212,7 +210,6 @@ static void a_model_without_a_matrix_is_given_one(void **state)
 static void forward_is_adjoint(void **state)
 {
     static const size_t some[] = {1, 2, 6, 8, 12};
-    (void)state;
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -273,7 +270,6 @@ static void vectors_add_up(void **state)
           "force-ratio", "-0.5"}},
         {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03",
           "mesh", "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}}};
-    (void)state;
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -333,7 +329,6 @@ static double carter_error(const char *elements, const char *mesh)
 
 static void carter_slopes(void **state)
 {
-    (void)state;
     CHECK_MAX(carter_error("50", "aligned"), 2.45e-2, "50 elements");
     CHECK_MAX(carter_error("100", "aligned"), 1.03e-2, "100 elements");
     CHECK_MAX(carter_error("50", "fitted"), 2.45e-2, "50 fitted elements");
@@ -353,7 +348,6 @@ static void equal_elements_move_with_their_zone(void **state)
         {{"support", "hub", "load", "500", "mesh", "uniform", "contact-elements", "30",
           ROLLING, "creep-ratio", "0.4", "outer-elements", "60"}},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -374,7 +368,6 @@ static void equal_elements_move_with_their_zone(void **state)
 static void fitted_elements_move_with_the_edges(void **state)
 {
     static const char *const meshes[] = {"uniform", "aligned", "fitted"};
-    (void)state;
     for (int k = 0; k < 6; k++) {
         const words w = {{"support", "halfplane", "gap", "parabola", "load", "500",
                           ROLLING, "mesh", meshes[k % 3], "creep-ratio", "0.5", "young",
@@ -413,7 +406,6 @@ static void fitted_slopes_are_those_of_fitted_solves(void **state)
     rb_message why = {""};
     rb_case_result r, left, right;
     rb_case_derivatives all;
-    (void)state;
     rb_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 3, names, &all, &why), RB_OK);
     for (int k = 0; k < 3; k++) {
@@ -446,8 +438,6 @@ static void both_sides_of_a_border(void **state)
     double low = 4e-4, high = 5e-4;
     rb_case_result r, left, right;
     rb_case_derivatives all, one;
-    (void)state;
-
     rb_case *c = solved(&w, "creep", low, &r);
     const int stick = r.solution.stick;
     rb_case_result_free(&r);
@@ -495,8 +485,6 @@ static void ends_of_ranges(void **state)
     rb_message why = {""};
     rb_case_result r, some;
     rb_case_derivatives all;
-    (void)state;
-
     rb_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
     const rb_case_derivative *d = of(&all, "interlayer-tangential");
@@ -522,8 +510,6 @@ static void units_of_derivatives(void **state)
     rb_message why = {""};
     rb_case_result r;
     rb_case_derivatives all;
-    (void)state;
-
     rb_case *c = solved(&regimes[0], NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
     assert_int_equal(all.n, 1);
@@ -543,8 +529,6 @@ static void steps_are_refused(void **state)
     rb_message why = {""};
     rb_case_result r;
     rb_sensitivity *s;
-    (void)state;
-
     rb_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_EINVAL);
     assert_null(s);

@@ -43,7 +43,6 @@ static double worst_column(const double *K, int kept, const int *order, const do
 
 static void the_rank_is_found(void **state)
 {
-    (void)state;
     double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
     int rank, order[COLUMNS], seen[COLUMNS] = {0};
 
@@ -62,7 +61,6 @@ static void the_rank_is_found(void **state)
 /* Below the tolerance nothing counts; more may be kept than needed. */
 static void what_is_small_is_left_out(void **state)
 {
-    (void)state;
     double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
     int rank, order[COLUMNS];
 
@@ -84,7 +82,6 @@ static void what_is_small_is_left_out(void **state)
  * and the columns are those of any other. */
 static void wide_matrices_are_shortened(void **state)
 {
-    (void)state;
     static const int size[][2] = {{130, 100}, {100, 100}, {90, 100}, {130, 95}};
     for (int k = 0; k < 4; k++) {
         const int rows = size[k][0], columns = size[k][1];

@@ -55,7 +55,6 @@ static const words histories[] = {
 
 static void histories_have_derivatives(void **state)
 {
-    (void)state;
     for (size_t h = 0; h < sizeof histories / sizeof *histories; h++) {
         rb_message why = {""};
         differences d;
@@ -117,7 +116,6 @@ static void refusals_of_histories(void **state)
            "0.01", "contact-elements", "30"}},
          "give a load"},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};
         differences d;
@@ -148,7 +146,6 @@ static void points_are_single_cases(void **state)
                     "1e-3", "relaxation-ratio", "1", "creep", "1e-3", "zone", "2"}},
                   {RB_OVER_SPEED, 100, 10000, 3},
                   "speed"}};
-    (void)state;
     for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
         rb_message why = {""};
         rb_case_slopes s, want = {0};

@@ -40,7 +40,6 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
 
 static void products_agree_with_the_dense_matrix(void **state)
 {
-    (void)state;
     enum { M = 31, N = 17 };
     double dense[M * N], x[N], xt[M], y[M], yt[N], want[M], want_t[N];
     rb_sparse a, t, c;
@@ -86,7 +85,6 @@ static void products_agree_with_the_dense_matrix(void **state)
 
 static void products_of_matrices_agree_with_dense_ones(void **state)
 {
-    (void)state;
     enum { M = 23, N = 17, L = 29 };
     double left[M * N], right[N * L], got[M * L] = {0.0};
     rb_sparse a, b, c;
@@ -121,7 +119,6 @@ static void products_of_matrices_agree_with_dense_ones(void **state)
 
 static void places_outside_are_refused(void **state)
 {
-    (void)state;
     int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
     double x[] = {1.0, 2.0};
     rb_sparse a;
@@ -164,7 +161,6 @@ static void chain(int n, int held, rb_sparse *k)
 
 static void ranks_are_seen(void **state)
 {
-    (void)state;
     rb_sparse k;
     int rank;
     chain(60, 1, &k);
@@ -179,7 +175,6 @@ static void ranks_are_seen(void **state)
 
 static void lu_solves_and_names_singular_matrices(void **state)
 {
-    (void)state;
     enum { N = 40 };
     double dense[N * N], x[N], b[N], y[N], flops = 0.0;
     rb_sparse a, k;
@@ -218,7 +213,6 @@ static void lu_solves_and_names_singular_matrices(void **state)
 
 static void cholesky_solves_condenses_and_refuses(void **state)
 {
-    (void)state;
     enum { N = 30, M = 6 };
     double dense[N * M], b[N], y[N], x[M], got[M], want[M];
     rb_sparse k, h, w;
@@ -256,7 +250,6 @@ static void cholesky_solves_condenses_and_refuses(void **state)
  * entries with their places would need 576 MB. */
 static void a_sparse_congruence_takes_little_memory(void **state)
 {
-    (void)state;
 #if SANITIZED
     skip(); /* it takes address space of its own */
 #elif defined(__linux__)
@@ -324,7 +317,6 @@ static rb_status build_and_factor(void)
 
 static void failing_allocations_are_reported(void **state)
 {
-    (void)state;
     int count = 0;
     for (rb_status s = RB_ENOMEM; s != RB_OK; count++) {
         alloc_fail_after(count);
@@ -359,7 +351,6 @@ static void *no_more_memory(void *p, size_t size)
 /* SuiteSparse asks by itself. */
 static void suitesparse_without_memory_is_reported(void **state)
 {
-    (void)state;
     const double dense[] = {2.0, 1.0, 1.0, 3.0};
     const struct SuiteSparse_config_struct as_it_was = SuiteSparse_config;
     rb_sparse a;
@@ -400,7 +391,6 @@ static void impossible_sizes_are_refused(void **state)
                {2, 2, 2, 0},  {2, 2, 0, -1}, {2, 2, 0, 2}};
     const double one[] = {1.0};
     rb_sparse a;
-    (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         int row = all[k].row, col = all[k].col;
         double x = 1.0;
@@ -428,7 +418,6 @@ static void triplets_without_room_stay_refused(void **state)
 {
     rb_triplets t = {.rows = 2, .cols = 2};
     rb_sparse a;
-    (void)state;
     rb_triplets_add(&t, 0, 0, 1.0);
     CHECK_STATUS(rb_triplets_reserve(&t, (size_t)INT_MAX), RB_ENOMEM);
     assert_int_equal(t.nz, 1);
@@ -449,7 +438,6 @@ static void what_looks_diagonal_is_factored(void **state)
     double x[2];
     rb_sparse a;
     rb_sparse_cholesky *f;
-    (void)state;
     for (int k = 0; k < 3; k++) {
         CHECK_STATUS(rb_sparse_from_dense(2, 2, refused[k], 2, &a), RB_OK);
         CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_SINGULAR);
@@ -474,7 +462,6 @@ static void units_of_the_unknowns_do_not_matter(void **state)
     double x[2]; /* times the roots of the diagonal: [1 .5; .5 1] (2/3, 2/3) = (1, 1) */
     rb_sparse a;
     rb_sparse_cholesky *f;
-    (void)state;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, k, 2, &a), RB_OK);
     CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
     CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
@@ -489,7 +476,6 @@ static void only_square_matrices_have_components(void **state)
     const double dense[] = {1.0, 2.0};
     rb_sparse wide, none;
     int count = 7, part[2];
-    (void)state;
     CHECK_STATUS(rb_sparse_from_dense(1, 2, dense, 1, &wide), RB_OK);
     CHECK_STATUS(rb_sparse_components(&wide, &count, part), RB_EINVAL);
     assert_int_equal(count, 0);
@@ -506,7 +492,6 @@ static void a_factor_without_numbers_solves_nothing(void **state)
     double x[2];
     rb_sparse a, none;
     rb_sparse_lu *lu;
-    (void)state;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
     CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
     CHECK_STATUS(rb_sparse_lu_solve(lu, b, x), RB_EINVAL);

@@ -19,7 +19,6 @@ static rb_rolling_case pressed(rb_bem_support support)
 /* Rows follow the surface; every answer is that of the point alone. */
 static void grid_holds_the_stress_of_its_points(void **state)
 {
-    (void)state;
     static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_ARC};
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case rc = pressed(supports[k]);
@@ -47,7 +46,6 @@ static void grid_holds_the_stress_of_its_points(void **state)
 /* rb_rolling_inside says where rb_rolling_stress_at has an answer. */
 static void inside_is_where_there_is_stress(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
     rb_rolling_model model;
     int count = 0;
@@ -69,7 +67,6 @@ static void inside_is_where_there_is_stress(void **state)
 /* A roof of pressure and friction against a thousand constant strips. */
 static void linear_tractions_are_the_limit_of_strips(void **state)
 {
-    (void)state;
     enum { STRIPS = 2000 };
     static const double nodes[] = {-1.0, 0.25, 1.0}, p[] = {0.0, 1.0, 0.0},
                         q[] = {0.0, -0.3, 0.0};
@@ -96,7 +93,6 @@ static void linear_tractions_are_the_limit_of_strips(void **state)
 /* Sliding: sxx = 2 mu p0 at the edge that is pulled, and -p - 2 mu p0 x/a between. */
 static void sliding_pulls_at_the_edge(void **state)
 {
-    (void)state;
     enum { N = 401 };
     static double x[N], p[N], q[N], xy[2 * N], s[3 * N];
     for (int j = 0; j < N; j++) {
@@ -117,7 +113,6 @@ static void sliding_pulls_at_the_edge(void **state)
 
 static void bad_linear_tractions_are_refused(void **state)
 {
-    (void)state;
     const double nodes[] = {0.0, 1.0}, back[] = {1.0, 0.0}, none[] = {0.0, 0.0},
                  above[] = {0.0, -1.0}, xy[] = {0.0, 1.0};
     double s[3];
@@ -142,7 +137,6 @@ static void bad_linear_tractions_are_refused(void **state)
 
 static void bad_grids_are_refused(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     rb_rolling_model model;
     rb_rolling_stress_grid grid;
@@ -160,7 +154,6 @@ static void bad_grids_are_refused(void **state)
 /* Grid and maxima, then the ParaView file, on each failing allocation. */
 static void stress_without_memory(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
     rb_rolling_model model;
     rb_rolling_solution solution;
@@ -197,7 +190,6 @@ static void stress_without_memory(void **state)
 
 static void full_disc_is_told(void **state)
 {
-    (void)state;
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     static const rb_rolling_stress at[4];
     rb_rolling_solution solution = {.max_pressure = 1.0};

@@ -52,7 +52,6 @@ static rb_status run(record *r, int workers, rb_message *why)
 
 static void rows_are_those_of_single_solutions(void **state)
 {
-    (void)state;
     record r = {.first = 2, .kill_at = -1};
     CHECK_STATUS(run(&r, 3, NULL), RB_OK);
     assert_int_equal(r.seen, CASES);
@@ -76,7 +75,6 @@ static void rows_are_those_of_single_solutions(void **state)
 /* The memory killer of the system may have taken it. */
 static void a_case_is_tried_again_after_its_process_died(void **state)
 {
-    (void)state;
     int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     record r = {.kill_at = 9, .deaths = deaths};
@@ -89,7 +87,6 @@ static void a_case_is_tried_again_after_its_process_died(void **state)
 
 static void a_process_that_dies_loses_one_case(void **state)
 {
-    (void)state;
     record r = {.kill_at = 9};
     CHECK_STATUS(run(&r, 2, NULL), RB_OK);
     for (int i = 0; i < CASES; i++)
@@ -100,7 +97,6 @@ static void a_process_that_dies_loses_one_case(void **state)
 
 static void stops_when_told(void **state)
 {
-    (void)state;
     record r = {.stop_at = 4, .kill_at = -1};
     rb_message why;
     CHECK_STATUS(run(&r, 0, &why), RB_INTERRUPTED);
@@ -147,7 +143,6 @@ static const struct {
 
 static void bad_studies_are_refused(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         char line[400];
         snprintf(line, sizeof line, STUDY "%s", bad[k].arguments);
@@ -158,7 +153,6 @@ static void bad_studies_are_refused(void **state)
 /* A grid from a file, times a table: every combination, the last varying fastest. */
 static void grid_times_table(void **state)
 {
-    (void)state;
     rb_io_table t;
     write_file("study.ini",
                "support = halfplane\nformulation = steady\n[normal]\nload = 500\n"
@@ -185,7 +179,6 @@ static void grid_times_table(void **state)
 /* What stands only beside an option that varies is not refused for its absence. */
 static void options_may_need_the_one_that_varies(void **state)
 {
-    (void)state;
     static const char *const all[] = {
         "--support hub --core-young 70000 --vary-1 'cover-thickness 5 10'",
         "--poisson-b .2 --vary-1 'young-b 1e5 2e5'",
@@ -206,7 +199,6 @@ static void options_may_need_the_one_that_varies(void **state)
 
 static void an_interrupted_study_goes_on(void **state)
 {
-    (void)state;
     static const char study[] =
         STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:31' --output study.tsv";
     static char whole[100000], again[100000];
@@ -235,7 +227,6 @@ static void an_interrupted_study_goes_on(void **state)
  * before stays. */
 static void an_interrupted_study_in_json_leaves_no_file(void **state)
 {
-    (void)state;
     write_file("whole.json", "before");
     assert_int_equal(shell("\"$R\" " STUDY
                            "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:20000' "
@@ -249,7 +240,6 @@ static void an_interrupted_study_in_json_leaves_no_file(void **state)
 /* A table that a case file in SI names is in SI; the study shows what it shows. */
 static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
 {
-    (void)state;
     write_file("si.ini", "units = si\nsupport = halfplane\nyoung = 2e11\nradius = 0.3\n"
                          "contact-elements = 12\n[sweep]\ncases = si.txt\n");
     write_file("si.txt", "load\n100000\n200000\n");
@@ -266,7 +256,6 @@ static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
 
 static void cases_that_fail_are_rows_and_an_exit_code(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
                              "--zone 0.001 --contact-elements 10"),
                      1);
@@ -279,7 +268,6 @@ static void cases_that_fail_are_rows_and_an_exit_code(void **state)
 /* Also where messages are not wanted; of the others nobody hears. */
 static void the_first_case_that_fails_says_why(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 10 8 20'"),
                      64);
@@ -304,7 +292,6 @@ static void check_not_resumed(const char *change, const char *part)
 /* Every line is one that this study would have written. */
 static void what_is_no_row_of_the_study_is_refused(void **state)
 {
-    (void)state;
     check_not_resumed("echo hello >>s.tsv", "s.tsv:9: not the row of case 4");
     check_not_resumed("sed -i '7s/.*/hello/' s.tsv", "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i 6d s.tsv", "s.tsv:6: not the row of case 1");
@@ -329,7 +316,6 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
  */
 static void a_full_disk_leaves_whole_rows(void **state)
 {
-    (void)state;
     static const char study[] = STUDY "--contact-elements 30 --vary-1 'mu 0.1:0.3:12' ";
     static char whole[20000], part[20000];
     char line[600];
@@ -369,7 +355,6 @@ static void a_full_disk_leaves_whole_rows(void **state)
 /* The other formats have the same numbers and come whole. */
 static void studies_come_in_three_formats(void **state)
 {
-    (void)state;
     char head[20000];
     assert_int_equal(shell("\"$R\" " STUDY "--vary-1 'mu 0.1 0.3' --quiet"), 0);
     snprintf(head, sizeof head, "%.*s", (int)strcspn(out, "\n"), out);
@@ -388,7 +373,6 @@ static void studies_come_in_three_formats(void **state)
 
 static void any_result_is_a_column_by_its_name(void **state)
 {
-    (void)state;
     json_t *root = run_json(STUDY "--similar --vary-1 'creep-ratio 0.2 0.6' --results "
                                   "stick_length,contact_to,normal_load");
     json_t *table = json_object_get(root, "table");
@@ -402,7 +386,6 @@ static void any_result_is_a_column_by_its_name(void **state)
 
 static void studies_name_their_papers(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --vary-1 'mu .1 .2' "
                                    "--cite"),
                      0);
@@ -413,7 +396,6 @@ static void studies_name_their_papers(void **state)
 /* Quantities with units are values of the study in its own system. */
 static void values_may_have_units(void **state)
 {
-    (void)state;
     json_t *root =
         run_json(STUDY "--similar --contact-elements 20 --vary-1 'load 100kN/m "
                        "200 0.3MN/m' --vary-2 'young 100GPa:0.2e6:2'");
@@ -472,7 +454,6 @@ static int begins_like_a_picture(const char *name, const char *begin)
 /* The map has the numbers of the table, every x in the rows of every y. */
 static void a_map_shows_the_table(void **state)
 {
-    (void)state;
     rb_io_table t;
     double at[20][3];
     assert_int_equal(rollbem(GRID "--show dissipation --map m.svg --plot-script m.gp "
@@ -503,7 +484,6 @@ static void a_map_shows_the_table(void **state)
 /* A table of cases is a grid in whatever order its rows come. */
 static void a_table_of_cases_may_be_a_grid(void **state)
 {
-    (void)state;
     double at[20][3];
     write_file("grid",
                "load creep-ratio\n400 .5\n100 .9\n100 .5\n400 .2\n100 .2\n400 .9\n");
@@ -526,7 +506,6 @@ static void a_table_of_cases_may_be_a_grid(void **state)
 /* A curve for each value of the family; the option that varies fastest lies along x. */
 static void curves_are_those_of_the_family(void **state)
 {
-    (void)state;
     double at[20][3];
     assert_int_equal(rollbem(GRID "--plot c.png --plot-script c.gp"), 0);
     assert_true(begins_like_a_picture("c.png", "\x89PNG"));
@@ -549,7 +528,6 @@ static void curves_are_those_of_the_family(void **state)
 /* A study that goes on, and one that is finished, draw what is in the file. */
 static void a_resumed_study_draws_all_its_rows(void **state)
 {
-    (void)state;
     static char whole[40000], again[40000];
     static const char study[] = GRID "--plot r.png --plot-script r.gp --output r.tsv";
     for (int cut = 0; cut < 3; cut++) {
@@ -565,7 +543,6 @@ static void a_resumed_study_draws_all_its_rows(void **state)
 /* Cases without a solution leave a hole; the exit code tells of them. */
 static void unsolved_cases_leave_holes(void **state)
 {
-    (void)state;
     double at[20][3];
     assert_int_equal(rollbem(STUDY "--zone 1 --vary-1 'load 100 200 1e5' --plot h.png "
                                    "--show max_pressure --plot-script h.gp"),
@@ -580,7 +557,6 @@ static void unsolved_cases_leave_holes(void **state)
 /* What the file of a study says stands there, whatever varies. */
 static void files_of_studies_are_blamed_by_line(void **state)
 {
-    (void)state;
     static const struct {
         const char *line, *part;
     } wrong[] = {
@@ -603,7 +579,6 @@ static void files_of_studies_are_blamed_by_line(void **state)
 
 static void what_cannot_be_drawn_is_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *arguments;
         const char *part;
@@ -639,7 +614,6 @@ static void what_cannot_be_drawn_is_refused(void **state)
 /* The same numbers as those of a single case: its largest stresses and its error bars. */
 static void rows_have_stresses_and_error_bars(void **state)
 {
-    (void)state;
 #define SLIDING                                                                          \
     "--support halfplane --similar --mu 0.3 --formulation steady "                       \
     "--creep-ratio 0.5 --contact-elements 40 --error "
@@ -678,7 +652,6 @@ static void rows_have_stresses_and_error_bars(void **state)
 
 static void an_empty_file_is_a_start(void **state)
 {
-    (void)state;
     char whole[20000], got[20000];
     assert_int_equal(rollbem(THREE "--restart"), 0);
     slurp("s.tsv", whole, sizeof whole);
@@ -691,7 +664,6 @@ static void an_empty_file_is_a_start(void **state)
 /* More than a page of command line, as a study of many values has. */
 static void a_long_command_line_is_resumed(void **state)
 {
-    (void)state;
     assert_int_equal(
         shell("v=$(seq -s' ' 0.0001 0.0001 0.1); "
               "\"$R\" " STUDY "--contact-elements 10 --vary-1 \"mu $v\" "
@@ -703,7 +675,6 @@ static void a_long_command_line_is_resumed(void **state)
 
 static void files_of_the_case_belong_to_the_study(void **state)
 {
-    (void)state;
     static const char study[] =
         "sweep --support halfplane --formulation steady --load 100 "
         "--quiet --gap gap.tsv --zone 0.4 --contact-elements 20 "
@@ -717,7 +688,6 @@ static void files_of_the_case_belong_to_the_study(void **state)
 
 static void two_programs_on_one_file_are_refused(void **state)
 {
-    (void)state;
     static const char line[] =
         "\"$R\" " STUDY "--contact-elements 200 --jobs 1 --vary-1 'creep-ratio 0:1:4000' "
         "--output both.tsv & p=$!; until [ -s both.tsv ]; do sleep 0.02; done; "
@@ -732,7 +702,6 @@ static void two_programs_on_one_file_are_refused(void **state)
 
 static void a_finished_study_keeps_its_exit_code(void **state)
 {
-    (void)state;
     static const char study[] = "sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
                                 "--zone 0.001 --contact-elements 10 --output f.tsv";
     assert_int_equal(rollbem(study), 1);

@@ -37,7 +37,6 @@ static void check_study(void)
 
 static void writes_what_one_machine_writes(void **state)
 {
-    (void)state;
     need_mpi();
     solve_alone();
     assert_int_equal(shell("rm study.tsv; " MPIRUN "\"$R\" sweep study.ini --quiet"), 1);
@@ -46,7 +45,6 @@ static void writes_what_one_machine_writes(void **state)
 
 static void goes_on_after_a_process_was_killed(void **state)
 {
-    (void)state;
     need_mpi();
     solve_alone();
     write_file("rank", "echo $$ >pid$OMPI_COMM_WORLD_RANK\n"
@@ -61,7 +59,6 @@ static void goes_on_after_a_process_was_killed(void **state)
 
 static void says_once_what_is_wrong(void **state)
 {
-    (void)state;
     need_mpi();
     solve_alone();
     assert_int_equal(shell(MPIRUN "-quiet \"$R\" sweep study.ini --load -1"), 64);
@@ -73,7 +70,6 @@ static void says_once_what_is_wrong(void **state)
 
 static void another_study_on_one_of_them_is_refused(void **state)
 {
-    (void)state;
     need_mpi();
     solve_alone();
     write_file("rank", "exec \"$1\" sweep study.ini --output other.tsv "
@@ -86,7 +82,6 @@ static void another_study_on_one_of_them_is_refused(void **state)
 /* Several processes that do not know of each other would write the same file. */
 static void a_build_without_mpi_says_so(void **state)
 {
-    (void)state;
     solve_alone();
     assert_int_equal(shell("cp \"$R\" alone; OMPI_COMM_WORLD_SIZE=3 ./alone sweep "
                            "study.ini"),

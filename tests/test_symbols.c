@@ -122,7 +122,6 @@ static void exports_are_the_headers(void **state)
     static names in_headers, in_library;
     int strange = 0;
 
-    (void)state;
     skip_under_sanitizers();
     declared(&in_headers);
     exported(&in_library);
@@ -142,7 +141,6 @@ static void exports_are_the_headers(void **state)
 
 static void one_header_has_them_all(void **state)
 {
-    (void)state;
     assert_int_equal(
         system("cd include && for h in rollbem/*.h; do [ $h = rollbem/rollbem.h ] || "
                "grep -q \"include \\\"$h\\\"\" rollbem/rollbem.h || exit 1; done"),
@@ -154,7 +152,6 @@ static void headers_serve_cxx(void **state)
 {
     char command[900];
 
-    (void)state;
     skip_under_sanitizers();
     if (system("g++ --version >/dev/null 2>&1") != 0)
         skip();

@@ -89,7 +89,6 @@ static void threads_give_the_same_bytes(void **state)
     static worker alone, together[THREADS];
     pthread_t thread[THREADS];
 
-    (void)state;
     work(&alone);
     for (int t = 0; t < THREADS; t++) {
         together[t].first = 2 * t;

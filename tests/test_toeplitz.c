@@ -83,7 +83,6 @@ static void compare(int n, rb_bem_material a, const rb_bem_material *b, double d
 
 static void equals_the_dense_matrix(void **state)
 {
-    (void)state;
     const int n[] = {1, 2, 3, 7, 64, 201};
     for (size_t k = 0; k < sizeof n / sizeof *n; k++) {
         compare(n[k], steel, NULL, 10.0);
@@ -96,7 +95,6 @@ static void equals_the_dense_matrix(void **state)
 /* A pair of two kinds keeps both; two matrices become one, in the place of the first. */
 static void pairs_of_any_kind_agree(void **state)
 {
-    (void)state;
     enum { n = 12, m = n + 1 };
     make *const kind[] = {rb_bem_flexibility_surface, rb_bem_flexibility_toeplitz};
     double F[4][4 * m * n], w[4][2 * m], r[2 * n], *ends = equal_ends(n, -1.0, 2.0);
@@ -131,7 +129,6 @@ static void pairs_of_any_kind_agree(void **state)
 /* A deep datum adds a constant that must not drown the rest. */
 static void keeps_differences_under_a_deep_datum(void **state)
 {
-    (void)state;
     enum { n = 500 };
     rb_bem_flexibility near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
     rb_bem_flexibility deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12);
@@ -149,7 +146,6 @@ static void keeps_differences_under_a_deep_datum(void **state)
 
 static void long_lines_work(void **state)
 {
-    (void)state;
     enum { n = 200000 };
     rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
     double *r = rb_alloc(2 * n, 1), *w = rb_alloc(2 * (size_t)f.m, 1), one[2];
@@ -212,7 +208,6 @@ static rb_bem_flexibility disc(int n, double radius, double from, double to,
 /* Products are those of the matrix, in both frames; the matrix is symmetric. */
 static void the_disc_is_symmetric(void **state)
 {
-    (void)state;
     enum { n = 90, m = n + 1 };
     static double F[2 * m * 2 * n], r[2 * n], w[2 * m];
     for (int normals = 0; normals < 2; normals++) {
@@ -250,7 +245,6 @@ static void turn(double angle, double way, const double in[2], double out[2])
  */
 static void the_obstacles_frame_is_turned_by_the_angle(void **state)
 {
-    (void)state;
     enum { n = 24, m = n + 1 };
     static double F[2][2 * m * 2 * n];
     const double from = -1.2, h = (0.7 - from) / n;
@@ -280,7 +274,6 @@ static void the_obstacles_frame_is_turned_by_the_angle(void **state)
 /* A rigid motion apart it is the reference: u and what is expected differ by c, t e_x. */
 static void the_disc_is_the_reference_but_for_a_translation(void **state)
 {
-    (void)state;
     enum { n = 40, m = n + 1, j = 13 };
     static double r[2 * n], w[2 * m];
     const double radius = 40.0, h = 2.0 / n;
@@ -311,7 +304,6 @@ static void the_disc_is_the_reference_but_for_a_translation(void **state)
 /* Near its load the disc answers like a half-plane, to the order of the angle. */
 static void a_short_arc_is_a_half_plane(void **state)
 {
-    (void)state;
     enum { n = 50, m = n + 1 };
     static double r[2 * n], w[2 * m], v[2 * m];
     double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
@@ -336,7 +328,6 @@ static void a_short_arc_is_a_half_plane(void **state)
 
 static void bad_discs_are_refused(void **state)
 {
-    (void)state;
     const double equal[] = {-1.5, -0.5, 0.5, 1.5};
     rb_bem_flexibility f;
     rb_message why;
@@ -376,7 +367,6 @@ static void bad_discs_are_refused(void **state)
  * lie, but for the rounding of their places. */
 static void equal_lengths_are_those_of_any_unit(void **state)
 {
-    (void)state;
     enum { n = 6 };
     for (int e = -9; e <= 9; e += 3)
         for (int side = -1; side <= 1; side++) {
@@ -396,7 +386,6 @@ static void equal_lengths_are_those_of_any_unit(void **state)
 
 static void bad_input(void **state)
 {
-    (void)state;
     const double equal[] = {0, 1, 2, 3}, unequal[] = {0, 1, 2, 3.0001},
                  falling[] = {0, 1, 1, 3};
     refuse(2, unequal, steel, 1.0, "different lengths");
@@ -415,7 +404,6 @@ static void bad_input(void **state)
 
 static void failing_allocations(void **state)
 {
-    (void)state;
     double *ends = equal_ends(6, 0.0, 1.0);
     rb_message why;
     for (int k = 0, refused = 1; refused; k++) {

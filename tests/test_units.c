@@ -19,7 +19,6 @@ static double read_unit(const char *text, const char *unit)
 
 static void units_are_as_defined(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *unit;
         double wanted;
@@ -54,7 +53,6 @@ static void units_of_no_kind_are_their_own(void **state)
 {
     double value = 0.0;
     int plain;
-    (void)state;
     CHECK_ABS(rb_unit_stored(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "stored");
     CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "shown");
     CHECK_ABS(rb_unit_of("furlong", "mm", 2.5), 2.5, 0.0, "of a name");
@@ -73,7 +71,6 @@ static void units_of_no_kind_are_their_own(void **state)
 /* The point moves: no digit is lost where a unit is a power of ten of another. */
 static void powers_of_ten_are_exact(void **state)
 {
-    (void)state;
     char text[40];
     for (int k = 1; k < 2000; k++) {
         const double mm = k * 0.0137;
@@ -136,7 +133,6 @@ static void compare_tables(const char *a_path, const char *b_path, rb_units syst
 
 static void every_command_converts_the_same_numbers(void **state)
 {
-    (void)state;
     /* $R1 ...: lengths, stresses, loads and a compliance, once as plain numbers of each
      * system */
     static const struct {
@@ -193,7 +189,6 @@ static void every_command_converts_the_same_numbers(void **state)
 /* A value's own unit: the same case to the last digit. */
 static void values_say_their_own_units(void **state)
 {
-    (void)state;
     const char *same = "--support halfplane --similar --formulation steady --quiet "
                        "--header=bare";
     char line[600];
@@ -209,7 +204,6 @@ static void values_say_their_own_units(void **state)
 
 static void files_take_units(void **state)
 {
-    (void)state;
     write_file("a.txt", "shift load\n0 100\n0.001 120\n");
     write_file("b.txt", "shift_um load_kN/m\n0 100\n1 120\n");
     write_file("c.txt", "shift load\n0 100e3\n1e-6 120e3\n");
@@ -268,7 +262,6 @@ static void files_take_units(void **state)
  */
 static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
 {
-    (void)state;
     write_file("study.ini", "units = inch\nsupport = halfplane\n[sweep]\n"
                             "vary-1 = load 1000 2000\n");
     write_file("loads.txt", "load\n1000\n2000\n");
@@ -310,7 +303,6 @@ static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
  * off goes on in any system; every snapshot and picture is in that of the run. */
 static void wear_speaks_every_system(void **state)
 {
-    (void)state;
     static const rb_units system[] = {RB_UNITS_SI, RB_UNITS_INCH};
     static const char *const name[] = {"si", "inch"};
     json_t *mm = run_json("wear --similar --support halfplane --gap parabola --load "
@@ -368,7 +360,6 @@ static void wear_speaks_every_system(void **state)
 
 static void ends_of_a_curve_may_have_units(void **state)
 {
-    (void)state;
 #define RELAXES                                                                          \
     "curve --similar --support halfplane --load 100 --contact-elements 20 "              \
     "--relaxation-time .1 --relaxation-ratio 1 --points 2 --over speed "
@@ -395,7 +386,6 @@ static void ends_of_a_curve_may_have_units(void **state)
 
 static void case_files_have_their_own_units(void **state)
 {
-    (void)state;
     static const char body[] = "radius = %s\nyoung = %s\nsupport = halfplane\n"
                                "load = %s\n[units]\nunits = %s\n";
     char text[300];
@@ -431,7 +421,6 @@ static void case_files_have_their_own_units(void **state)
 
 static void what_people_see_says_the_units(void **state)
 {
-    (void)state;
     assert_int_equal(rollbem("--support halfplane --similar --load 100kN/m --units inch"),
                      0);
     assert_non_null(strstr(err, " lbf/in, Q = "));
@@ -447,7 +436,6 @@ static void what_people_see_says_the_units(void **state)
 
 static void wrong_units_are_named(void **state)
 {
-    (void)state;
     check_refused("--young 210GPA", 64, "did you mean 'GPa'?");
     check_refused("--young 5mm", 64, "expected a number in one of MPa, Pa,");
     check_refused("--mu 3mm", 64, "a number without a unit");
@@ -474,7 +462,6 @@ static void wrong_units_are_named(void **state)
 /* As people type them. */
 static void units_have_several_spellings(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *unit;
         double value;

@@ -12,7 +12,6 @@ static void keep(const rb_verify_check *check, void *context)
 
 static void bounds_are_of_differences_or_ratios(void **state)
 {
-    (void)state;
     static const struct {
         int relative;
         double got, wanted, bound, error;
@@ -44,7 +43,6 @@ static void bounds_are_of_differences_or_ratios(void **state)
 /* The solver's own line, or, where it has none, what its status means. */
 static void failures_have_a_reason(void **state)
 {
-    (void)state;
     rb_verify_check check;
     rb_verify v = {.each = keep, .context = &check};
     rb_rolling_case rc = rb_verify_uncoupled();
@@ -86,7 +84,6 @@ static void count(const rb_verify_check *check, void *context)
 /* Without memory no reference is met, and each says why. */
 static void nothing_holds_without_a_solution(void **state)
 {
-    (void)state;
     counts c = {0};
 
     alloc_fail_after(0);
