@@ -1041,7 +1041,15 @@ static void derivatives(void **state)
         CHECK_ABS(q[i + rows * 2 * mu], -p[i], 1e-9 * fabs(p[rows / 2]), "q of %d", i);
     assert_non_null(rb_api_array(a, "derivative.value", &rows, &columns));
     assert_null(rb_api_array(a, "derivative.solver", &rows, &columns));
+    assert_null(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
+    assert_int_equal(rb_api_tolerances(a, "zone=1"), RB_EINVAL);
+    assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_OK);
+    x = rb_api_array(a, "tolerance.tangential_load", &rows, &columns);
+    assert_non_null(x);
+    CHECK_REL(*x, 10.0, 1e-10, "of Q = -mu P");
+    assert_null(rb_api_array(a, "tolerance.contact", &rows, &columns));
     rb_api_set(a, "mu", "0.2"); /* forgets them */
+    assert_null(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
     assert_null(rb_api_array(a, "derivative.q", &rows, &columns));
     rb_api_free(a);
 }

@@ -10,6 +10,8 @@
 
 enum { POINTS = 14 };
 
+static char project[600]; /* its root, where the test was started */
+
 static const double MU = 0.24, FALL = 0.16, SCALE = 1.5, LAYER = 5e-4, OFFSET = 1e-4;
 
 static const char *const bodies[][2] = {
@@ -310,6 +312,39 @@ static void command_prints_derivatives(void **state)
     assert_int_equal(rollbem("--tolerance mu=0.1 --increments 3" BODIES), 64);
 }
 
+/* The example, which CONTACT's falling law has made with noise: the numbers of its first
+ * lines lie in the intervals. */
+static void the_example_is_found_again(void **state)
+{
+    static const struct {
+        const char *name;
+        double truth;
+    } numbers[] = {{"mu", 0.2},
+                   {"mu-fall", 0.15},
+                   {"slip-scale", 8.0},
+                   {"interlayer-tangential", 4e-7},
+                   {"creep-offset", 1e-4}};
+    (void)state;
+    char line[900];
+    snprintf(line, sizeof line,
+             "fit %s/examples/fit/creep.tsv --fit mu,mu-fall,slip-scale,"
+             "interlayer-tangential,creep-offset --similar --support halfplane "
+             "--radius 23.5 --radius-b 23.5 --young 206000 --poisson 0.3 --load 240 "
+             "--speed 1000 --contact-elements 40",
+             project);
+    json_t *root = run_json(line);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        json_t *interval = json_object_get(
+            json_object_get(json_object_get(root, "parameters"), numbers[k].name),
+            "interval");
+        CHECK_MAX(json_number_value(json_array_get(interval, 0)), numbers[k].truth, "%s",
+                  numbers[k].name);
+        CHECK_MAX(numbers[k].truth, json_number_value(json_array_get(interval, 1)), "%s",
+                  numbers[k].name);
+    }
+    json_decref(root);
+}
+
 /* Entries of {result: {input: [..]}}. */
 static double slope_of(json_t *owner, const char *result, const char *input, size_t row)
 {
@@ -418,6 +453,8 @@ static void samples_scatter_as_tolerances(void **state)
 
 int main(void)
 {
+    if (!getcwd(project, sizeof project))
+        return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_data_give_the_truth),
         cmocka_unit_test(noise_leaves_it_in_the_intervals),
@@ -426,6 +463,7 @@ int main(void)
         cmocka_unit_test(refusals),
         cmocka_unit_test(command_prints_parameters),
         cmocka_unit_test(command_prints_derivatives),
+        cmocka_unit_test(the_example_is_found_again),
         cmocka_unit_test(derivatives_stand_in_columns),
         cmocka_unit_test(samples_scatter_as_tolerances),
     };

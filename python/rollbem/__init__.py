@@ -14,7 +14,8 @@ Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then
 from . import _library, pictures  # _library first: see _kernels
 from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
                     Sweep, Wear, curve, friction, history, lcp, solve, stress, sweep, wear)
-from ._inverse import Crack, Design, Fit, Parameter, crack, derivatives, design, fit
+from ._inverse import (Crack, Design, Fit, Parameter, crack, curve_derivatives, derivatives, design, fit,
+                       history_derivatives, tolerances)
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
                        Note, OutOfMemory, Unsolved)
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
@@ -23,6 +24,6 @@ __all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack"
            "Error", "Extremum", "Fit", "Friction", "History", "InvalidInput", "MissingFile", "Note",
            "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution",
            "Stress", "Sweep",
-           "Unsolved", "Wear", "check", "contact", "crack", "curve", "derivatives", "design",
-           "examples", "fit", "friction", "history",
-           "lcp", "pictures", "solve", "stress", "sweep", "verify", "wear"]
+           "Unsolved", "Wear", "check", "contact", "crack", "curve", "curve_derivatives", "derivatives",
+           "design", "examples", "fit", "friction", "history", "history_derivatives",
+           "lcp", "pictures", "solve", "stress", "sweep", "tolerances", "verify", "wear"]

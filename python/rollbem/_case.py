@@ -189,9 +189,10 @@ class Solution(_Named):
     def __init__(self, case: Case, handle: Handle) -> None:
         self.case, self._handle = case, handle
         self._more: dict = {}
+        self.tolerances: "dict[str, float]" = {}  # standard deviations, of solve(tolerance=...)
 
     def __getstate__(self) -> dict:
-        return {"case": self.case, "_handle": self._handle, "_more": {}}
+        return {"case": self.case, "_handle": self._handle, "_more": {}, "tolerances": self.tolerances}
 
     def _live(self) -> Handle:
         """The library's handle; the case of a solution that was pickled is solved once more for it."""
@@ -491,14 +492,21 @@ class Sweep(_Named):
 
 
 def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progress = None,
-          **options: Any) -> Solution:
+          tolerance: Any = None, **options: Any) -> Solution:
     """Solves one case: ``solve(mu=0.3, creep=0.1)``, ``solve("rail.ini", load=800)``.
 
     Of a sequence of steps, ``progress(done, total)`` is called now and then.
+    ``tolerance``, such as ``{"mu": 0.02, "radius": "1%"}``: standard deviations of inputs; those of the numbers are
+    then ``tolerances`` of the solution, to first order.
     Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
     without a full answer.
     """
-    return _case(case, options).solve(progress)
+    solution = _case(case, options).solve(progress)
+    if tolerance is not None:
+        from ._inverse import tolerances
+
+        solution.tolerances = tolerances(solution, tolerance=tolerance)
+    return solution
 
 
 def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,

@@ -92,6 +92,52 @@ def crack(case: _CaseLike = None, **options: Any) -> Crack:
 # ---- Derivatives --------------------------------------------------------------------------
 
 
+def _columns(root: dict) -> "dict[str, dict[str, Array]]":
+    """Derivatives that stand in columns; for a growing input where the two sides differ."""
+    def one(entry: Any) -> float:
+        sides = entry if isinstance(entry, list) else [entry]
+        return next((float(x) for x in reversed(sides) if x is not None), float("nan"))
+
+    return {result: {name: np.array([one(x) for x in rows]) for name, rows in inputs.items()}
+            for result, inputs in root["derivatives"].items()}
+
+
+def curve_derivatives(case: _CaseLike = None, results: str = "all", start: float = 0.0, stop: float = 1.5,
+                      points: int = 61, over: str = "creep-ratio", **options: Any) -> "dict[str, dict[str, Array]]":
+    """Derivatives at every point of :func:`curve`: ``d["tangential_load"]["mu"]``, an array.
+
+    ``results`` as of ``rollbem curve --derivatives``: names with commas between, ``RESULT:OPTION`` for one input.
+    """
+    words = [f"--derivatives={results}", f"--from={_text(start)}", f"--to={_text(stop)}", f"--points={points}",
+             f"--over={over}"]
+    return _columns(_ask("curve", _case(case, options), words, [], "curve")[1]["curve"])
+
+
+def history_derivatives(case: _CaseLike = None, results: str = "all", **options: Any) -> "dict[str, dict[str, Array]]":
+    """Derivatives after every step of a sequence of steps: ``d["tangential_load"]["mu"]``, an array.
+
+    ``results``: columns of the history with commas between, ``RESULT:OPTION`` for one input.
+    """
+    return _columns(_ask(f"--derivatives={results}", _case(case, options), [], [])[1]["history"])
+
+
+def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, **options: Any) -> "dict[str, float]":
+    """Standard deviations of all numbers, to first order, from those of inputs, which are independent.
+
+    ``tolerance`` as of ``rollbem --tolerance``: ``"mu=0.02,radius=1%"``, or ``{"mu": 0.02, "radius": "1%"}``.
+    """
+    if not isinstance(solution, Solution):
+        solution = _case(solution, options).solve()
+    handle = solution._live()
+    words = tolerance if isinstance(tolerance, str) else ",".join(
+        f"{name.replace('_', '-')}={_text(value)}" for name, value in tolerance.items())
+    status = handle.run("rb_api_tolerances", words.encode())
+    if status != SOLVED:
+        raise handle.error(status)
+    found = {name: handle.array(f"tolerance.{name}") for name in solution._numbers}
+    return {name: float(x.ravel()[0]) for name, x in found.items() if x is not None and np.isfinite(x).all()}
+
+
 def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> "dict[str, dict[str, Any]]":
     """Derivatives of every number of a solution by every number of its case: ``d["tangential_load"]["mu"]``.
 
@@ -141,8 +187,9 @@ def _arguments(case: Case) -> "list[str]":
     return words
 
 
-def _ask(command: str, case: Case, words: "list[str]", operands: "list[str]") -> "tuple[int, dict]":
-    case.handle("solve")  # refusals of single options in this package's words
+def _ask(command: str, case: Case, words: "list[str]", operands: "list[str]",
+         purpose: str = "solve") -> "tuple[int, dict]":
+    case.handle(purpose)  # refusals of single options in this package's words
     if case.file is not None:
         operands = [*operands, _values.path("case", case.file)]
     code, printed, message = _program._run(command, *words, *_arguments(case), "--json", "--quiet", "--", *operands)

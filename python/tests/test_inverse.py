@@ -54,6 +54,32 @@ def test_derivatives():
         rollbem.derivatives(**PLANES, formulation="static", increments=3)
 
 
+def test_derivatives_in_columns():
+    d = rollbem.curve_derivatives(**{**PLANES, "contact_elements": 30}, results="tangential_load:mu,max_pressure",
+                                  start=0.2, stop=0.6, points=3)
+    one = rollbem.derivatives(**{**PLANES, "contact_elements": 30}, formulation="steady", creep_ratio=0.6)
+    assert d["tangential_load"]["mu"].shape == (3,) and list(d["tangential_load"]) == ["mu"]
+    assert d["tangential_load"]["mu"][2] == pytest.approx(one["tangential_load"]["mu"], rel=1e-8)
+    assert d["max_pressure"]["load"][0] == pytest.approx(one["max_pressure"]["load"], rel=1e-8)
+    rolled = {**PLANES, "contact_elements": 30, "formulation": "transient", "distance": 1, "creep": 1e-3}
+    steps = rollbem.history_derivatives(**rolled, results="tangential_load")
+    low, high = (rollbem.solve(**{**rolled, "mu": mu}).history.tangential_load for mu in (0.2999, 0.3001))
+    assert steps["tangential_load"]["mu"] == pytest.approx((high - low) / 2e-4, rel=1e-4, abs=1e-6)
+    with pytest.raises(rollbem.InvalidInput, match="expected a result that has derivatives"):
+        rollbem.curve_derivatives(**PLANES, results="nonsense")
+
+
+def test_tolerances():
+    s = rollbem.solve(**STEADY, tolerance={"mu": 0.02, "radius": "1%"})
+    want = run_json(**STEADY, tolerance="mu=0.02,radius=1%")["tolerances"]
+    assert s.tolerances == pytest.approx(want, rel=1e-6, abs=1e-12) and s.tolerances["normal_load"] == 0
+    assert rollbem.tolerances(s, tolerance="mu=0.01")["tangential_load"] == pytest.approx(
+        0.01 * abs(s.derivatives["tangential_load"]["mu"]))
+    assert rollbem.solve(**STEADY).tolerances == {}
+    with pytest.raises(rollbem.InvalidInput, match="zone"):
+        rollbem.solve(**STEADY, tolerance={"zone": 1})
+
+
 def test_fits():
     xi = -0.5e-3 * np.arange(1, 13)
     ratio = [-rollbem.solve(**PLANES, formulation="steady", mu=0.25, creep=float(x) + 1e-4).tangential_load / 500

@@ -155,6 +155,7 @@ static void forget(rb_api *a, int same_bodies)
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
     rb_case_derivatives_free(&a->derivatives);
+    a->has_deviation = 0;
     rb_rolling_wear_history_free(&a->wear);
     rb_case_result_free(&a->result);
     memset(&a->lcp, 0, sizeof a->lcp);
@@ -648,6 +649,17 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
     return made;
 }
 
+static api_array *tolerance_array(rb_api *a, const char *name, const char *result)
+{
+    for (int k = 0; k < rb_rolling_solution_scalars.n && a->has_deviation; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        const double x = rb_rolling_number(r, &a->deviation);
+        if (rb_sensitivity_has(r) && strcmp(r->name, result) == 0)
+            return rb_api_copy_array(a, name, 1, 1, &x);
+    }
+    return NULL;
+}
+
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 {
     api_array *made = rb_api_find_array(a, name);
@@ -670,6 +682,8 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = closed_array(a, name);
     if (!made && strncmp(name, "derivative.", 11) == 0)
         made = derivative_array(a, name, name + 11);
+    if (!made && strncmp(name, "tolerance.", 10) == 0)
+        made = tolerance_array(a, name, name + 10);
     if (!made && a->result.model.mesh.n > 0)
         made = model_array(a, name);
     *rows = made ? made->rows : 0;
@@ -1003,6 +1017,24 @@ int rb_api_derivatives(rb_api *a)
     rb_api_call_ends();
     if (s != RB_OK)
         rb_case_derivatives_free(&a->derivatives);
+    return rb_api_ended(a, s);
+}
+
+int rb_api_tolerances(rb_api *a, const char *inputs)
+{
+    rb_case_tolerances t;
+    int status = rb_api_derivatives(a);
+
+    rb_api_forget_arrays(a, "tolerance.");
+    a->has_deviation = 0;
+    if (status != RB_OK)
+        return status;
+    rb_api_call_begins();
+    rb_status s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
+    if (s == RB_OK)
+        s = rb_case_propagate(&t, &a->derivatives, &a->deviation, &a->why);
+    rb_api_call_ends();
+    a->has_deviation = s == RB_OK;
     return rb_api_ended(a, s);
 }
 

@@ -35,7 +35,9 @@ struct rb_api {
     rb_rolling_model kept; /* of the last case, where only what drives it has changed */
     rb_rolling_curve curve, curve_errors; /* curve_errors.n = 0: not asked for */
     rb_case_derivatives derivatives;      /* n = 0: not asked for */
-    rb_rolling_wear_history wear;         /* n = 0: not asked for */
+    rb_rolling_solution deviation;        /* after rb_api_tolerances, has_deviation */
+    int has_deviation;
+    rb_rolling_wear_history wear; /* n = 0: not asked for */
     rb_contact_lcp lcp;
     int pivots; /* seen so far */
     double *tableau;
