@@ -346,6 +346,64 @@ static void displacement_anywhere(void **state)
     }
 }
 
+/* On equal, fitted and rough elements, under tractions that jump. */
+static void products_are_the_matrix(void **state)
+{
+    (void)state;
+    enum { n = 300, m = n + 1 };
+    static double ends[n + 2], r[2 * n], w[2 * m], want[2 * m];
+    srand(3);
+    for (int k = 0; k < 6 * WHEELS; k++) {
+        const rb_bem_wheel *wheel = wheels + k % WHEELS;
+        const int kind = k / WHEELS % 3;
+        const rb_bem_normals normals = (rb_bem_normals)(k / WHEELS / 3);
+        for (int i = 0; i < n + 2; i++) {
+            const double t = 2.0 * i / (n + 1) - 1.0;
+            ends[i] = 1.5 * (kind == 0   ? t
+                             : kind == 1 ? sin(0.49 * M_PI * t)
+                                         : t + 0.3 * (rand() % 100) / 100.0 / n);
+        }
+        for (int i = 0; i < 2 * n; i++)
+            r[i] = (rand() % 1000) / 1000.0 - 0.3;
+        rb_bem_flexibility f;
+        double largest = 0.0;
+        double *F = wheel_matrix(wheel, normals, n, ends);
+        CHECK_STATUS(rb_bem_flexibility_wheel_products(n, ends, wheel, normals, &f, NULL),
+                     RB_OK);
+        rb_bem_flexibility_apply(&f, r, w);
+        memset(want, 0, sizeof want);
+        for (int j = 0; j < 2 * n; j++)
+            for (int i = 0; i < 2 * m; i++)
+                want[i] += F[i + j * 2 * m] * r[j];
+        for (int i = 0; i < 2 * m; i++)
+            largest = fmax(largest, fabs(want[i]));
+        for (int i = 0; i < 2 * m; i++)
+            CHECK_ABS(w[i], want[i], 1e-11 * largest, "wheel %d, elements %d, row %d",
+                      k % WHEELS, kind, i);
+        double *G = matrix_of(&f);
+        CHECK_ABS(apart(n, G, F), 0.0, 1e-15, "matrix");
+        free(G);
+        rb_bem_flexibility_free(&f);
+        const rb_bem_surface plane = rb_bem_halfplane(wheel->material, 0.1 + k);
+        CHECK_STATUS(rb_bem_flexibility_plane_products(n, ends, &plane, &f, NULL), RB_OK);
+        rb_bem_flexibility_apply(&f, r, w);
+        G = matrix_of(&f);
+        largest = 0.0;
+        memset(want, 0, sizeof want);
+        for (int j = 0; j < 2 * n; j++)
+            for (int i = 0; i < 2 * m; i++)
+                want[i] += G[i + j * 2 * m] * r[j];
+        for (int i = 0; i < 2 * m; i++)
+            largest = fmax(largest, fabs(want[i]));
+        for (int i = 0; i < 2 * m; i++)
+            CHECK_ABS(w[i], want[i], 1e-11 * largest, "plane, elements %d, row %d", kind,
+                      i);
+        free(F);
+        free(G);
+        rb_bem_flexibility_free(&f);
+    }
+}
+
 static void bad_wheels_are_refused(void **state)
 {
     rb_bem_wheel wheel = wheels[3];
@@ -381,6 +439,7 @@ int main(void)
         cmocka_unit_test(boundary_elements_come_to_it),
         cmocka_unit_test(a_thin_cover_is_a_layer),
         cmocka_unit_test(displacement_anywhere),
+        cmocka_unit_test(products_are_the_matrix),
         cmocka_unit_test(bad_wheels_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,6 +7,7 @@
  * which only long waves feel. */
 #include "bem/internal.h"
 #include "bem/ring.h"
+#include "bem/wheel.h"
 #include "rollbem/blas.h"
 
 #include <complex.h>
@@ -243,6 +244,67 @@ static double integral(const gsl_spline *spline, gsl_interp_accel *near, double 
     return gsl_spline_eval_integ(spline, x - b, x + b, near);
 }
 
+/* ---- The kernel, glassy ------------------------------------------------------------ */
+
+double *rb_wheel_angles(double radius, int n, const double *ends)
+{
+    const size_t m = (size_t)n + 1;
+    double *middle = rb_alloc(2 * m + 1, 1);
+
+    if (!middle)
+        return NULL;
+    double *end = middle + m;
+    for (size_t i = 0; i <= m; i++)
+        end[i] = asin(ends[i] / radius);
+    for (size_t i = 0; i < m; i++)
+        middle[i] = 0.5 * (end[i] + end[i + 1]);
+    return middle;
+}
+
+void rb_wheel_chords(double radius, int n, const double *ends, double *h)
+{
+    for (int i = 0; i <= n; i++)
+        h[i] = 2.0 * radius *
+               sin(0.5 * (asin(ends[i + 1] / radius) - asin(ends[i] / radius)));
+}
+
+rb_status rb_wheel_kernel_create(const rb_bem_wheel *w, double smallest, double reach,
+                                 rb_wheel_kernel *kernel)
+{
+    kernel->kappa = 3.0 - 4.0 * w->material.poisson;
+    kernel->scale = w->radius / (4.0 * M_PI * w->material.shear);
+    kernel->datum = 1.0;
+    return rb_ring_table_create(w, glassy_waves, last_wave(w), disc_primitive,
+                                fmin(smallest, log(w->radius / w->inner)), reach,
+                                &kernel->inner);
+}
+
+rb_status rb_wheel_kernel_of_plane(const rb_bem_surface *plane, rb_wheel_kernel *kernel)
+{
+    *kernel = (rb_wheel_kernel){.kappa = 3.0 - 4.0 * plane->material.poisson,
+                                .scale = 1.0 / (4.0 * M_PI * plane->material.shear),
+                                .datum = plane->datum};
+    return RB_OK;
+}
+
+void rb_wheel_kernel_free(rb_wheel_kernel *kernel)
+{
+    rb_ring_table_free(&kernel->inner);
+}
+
+rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x)
+{
+    rb_ring_answer inner = {0.0, 0.0, 0.0};
+    if (kernel->inner.panels > 0)
+        inner = rb_ring_table_at(&kernel->inner, x);
+    const double plane =
+        x != 0.0 ? (kernel->kappa + 1.0) * x * (1.0 - log(fabs(x) / kernel->datum)) : 0.0;
+
+    return (rb_ring_answer){
+        kernel->scale * (inner.N + plane), kernel->scale * (inner.T + plane),
+        kernel->scale * (inner.C + 0.5 * M_PI * (kernel->kappa - 1.0) * fabs(x))};
+}
+
 /* ---- The matrix -------------------------------------------------------------------- */
 
 typedef struct {
@@ -270,18 +332,16 @@ static rb_status place_circumference(double radius, int n, const double *ends, i
     const size_t m = (size_t)n + 1;
 
     *c = (circumference){.n = n,
-                         .arc = rb_alloc(2 * m + 1, 1),
+                         .arc = rb_wheel_angles(radius, n, ends),
                          .W = rb_alloc(2 * m * 2 * (size_t)n, (size_t)parts),
                          .at = calloc(m, sizeof *c->at)};
     if (!c->arc || !c->W || !c->at)
         return RB_ENOMEM;
     c->end = c->arc + m;
-    for (size_t i = 0; i <= m; i++)
-        c->end[i] = radius * asin(ends[i] / radius);
-    for (size_t i = 0; i < m; i++) {
-        c->arc[i] = 0.5 * (c->end[i] + c->end[i + 1]);
-        c->at[i] = (direction){cos(c->arc[i] / radius), sin(c->arc[i] / radius)};
-    }
+    for (size_t i = 0; i < m; i++)
+        c->at[i] = (direction){cos(c->arc[i]), sin(c->arc[i])};
+    for (size_t i = 0; i < 2 * m + 1; i++)
+        c->arc[i] *= radius;
     return RB_OK;
 }
 
@@ -437,6 +497,18 @@ static rb_status check_held(const rb_bem_wheel *w, rb_message *why)
     return RB_OK;
 }
 
+rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                         rb_message *why)
+{
+    rb_status s = check_wheel(wheel, why);
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
+    if (s == RB_OK && !(-ends[0] < wheel->radius && ends[n_c + 1] < wheel->radius))
+        s = rb_fail(why, RB_EINVAL, "wheel of radius %g: contact from %g to %g is wider",
+                    wheel->radius, ends[0], ends[n_c + 1]);
+    return s == RB_OK ? check_held(wheel, why) : s;
+}
+
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                    rb_bem_normals normals, rb_bem_flexibility *f,
                                    rb_message *why)
@@ -447,14 +519,7 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
     double *F = NULL;
 
     *f = (rb_bem_flexibility){0};
-    rb_status s = check_wheel(wheel, why);
-    if (s == RB_OK)
-        s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK && !(-ends[0] < wheel->radius && ends[n_c + 1] < wheel->radius))
-        s = rb_fail(why, RB_EINVAL, "wheel of radius %g: contact from %g to %g is wider",
-                    wheel->radius, ends[0], ends[n_c + 1]);
-    if (s == RB_OK)
-        s = check_held(wheel, why);
+    rb_status s = rb_wheel_check(n_c, ends, wheel, why);
     if (s != RB_OK)
         return s;
     rb_phase("flexibility of the contact");
@@ -463,9 +528,7 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
         s = place_circumference(wheel->radius, n_c, ends, 1, &c);
     if (s == RB_OK) {
         rb_bem_flexibility_place(ends, f);
-        for (int i = 0; i < f->m; i++) /* chords */
-            f->h[i] = 2.0 * wheel->radius *
-                      sin(0.5 * (c.end[i + 1] - c.end[i]) / wheel->radius);
+        rb_wheel_chords(wheel->radius, n_c, ends, f->h);
         s = rb_bem_surface_displacement(&plane, n_c, c.end, f->m, c.arc, c.W);
     }
     if (s == RB_OK)
@@ -483,9 +546,8 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
 rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
                               int points, const double *x, double *w)
 {
-    const double R = wheel->radius, scale = R / (4.0 * M_PI * wheel->material.shear);
-    const rb_bem_surface plane = rb_bem_halfplane(wheel->material, R);
-    rb_ring_table inner = {0};
+    const double R = wheel->radius;
+    rb_wheel_kernel kernel = {.scale = 0.0, .inner.panels = 0};
     double shortest = 1.0;
     rb_status s = check_wheel(wheel, NULL);
 
@@ -499,30 +561,22 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
             shortest = fmin(shortest, (load->x[j] - load->x[j - 1]) / R);
     }
     if (s == RB_OK)
-        s = rb_ring_table_create(wheel, glassy_waves, last_wave(wheel), disc_primitive,
-                                 1e-3 * fmin(shortest, log(R / wheel->inner)), M_PI,
-                                 &inner);
+        s = rb_wheel_kernel_create(wheel, 1e-3 * shortest, M_PI, &kernel);
     for (int i = 0; i < points && s == RB_OK; i++) {
-        const double to = asin(x[i] / R), at = R * to;
+        const double to = asin(x[i] / R);
         w[i] = 0.0;
-        for (int j = 0; j < load->n && s == RB_OK; j++) {
-            const double end[2] = {R * asin(load->x[j] / R),
-                                   R * asin(load->x[j + 1] / R)};
-            const rb_ring_answer low = rb_ring_table_at(&inner, (at - end[0]) / R),
-                                 high = rb_ring_table_at(&inner, (at - end[1]) / R);
-            const double C = scale * (low.C - high.C);
-            double B[4];
-            s = rb_bem_surface_displacement(&plane, 1, end, 1, &at, B);
-            B[0] += scale * (low.N - high.N);
-            B[1] -= C;
-            B[2] += C;
-            B[3] += scale * (low.T - high.T);
-            const double from = 0.5 * (end[0] + end[1]) / R;
+        for (int j = 0; j < load->n; j++) {
+            const double end[2] = {asin(load->x[j] / R), asin(load->x[j + 1] / R)},
+                         from = 0.5 * (end[0] + end[1]);
+            const rb_ring_answer low = rb_wheel_kernel_at(&kernel, to - end[0]),
+                                 high = rb_wheel_kernel_at(&kernel, to - end[1]);
+            const double C = low.C - high.C;
+            double B[4] = {low.N - high.N, -C, C, low.T - high.T};
             turn(&(direction){cos(to), sin(to)}, &(direction){cos(from), sin(from)}, B);
             w[i] += B[0] * load->p[j] + B[2] * load->q[j];
         }
     }
-    rb_ring_table_free(&inner);
+    rb_wheel_kernel_free(&kernel);
     return s;
 }
 

@@ -153,6 +153,25 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     return s;
 }
 
+/* Hysteresis of pairs with a wheel is made of the matrix. */
+static int wheel_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return goes_by_waves(rc, body) && rc->formulation == RB_STEADY &&
+           !rb_rolling_relaxes(rc);
+}
+
+static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  const rb_rolling_body *body,
+                                  const rb_rolling_mesh *mesh,
+                                  rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
+    (void)plan;
+    return rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals,
+                                             &one_body->f, why);
+}
+
 enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
 /* ---- A clamped arc ----------------------------------------------------------------- */
@@ -207,6 +226,8 @@ const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .parameters = hub_parameters,
                                              .check = check_hub,
                                              .flexibility = wheel_flexibility,
+                                             .transformed = wheel_transformed,
+                                             .transforms = wheel_transforms,
                                              .surface = rb_rolling_halfplane_surface};
 
 /* ---- A cover on a core ------------------------------------------------------------- */

@@ -175,6 +175,12 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
 #define RB_TRANSFORMS 1
 #endif
 
+static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return kind->transforms && (!kind->transformed || kind->transformed(rc, body));
+}
+
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
 {
     /* products know no more than one datum */
@@ -183,8 +189,8 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
     return RB_TRANSFORMS && !two_datums &&
            (rc->contact.solver == RB_SOLVER_AUTO ||
             rc->contact.solver == RB_SOLVER_NEWTON) &&
-           rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
-           (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
+           rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
+           (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)

@@ -15,8 +15,8 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
 /* 1: Q, a force ratio or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
 
-/* 1 if products are computed by Fourier transforms: half-planes with equal elements,
- * solved by Newton's method. */
+/* 1 if products are computed by Fourier transforms: half-planes, and covers in steady
+ * rolling, with equal elements, solved by Newton's method. */
 int rb_rolling_has_transforms(const rb_rolling_case *rc);
 
 /* ---- profile.c --------------------------------------------------------------------- */
@@ -65,8 +65,9 @@ struct rb_rolling_body_kind {
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                              rb_rolling_body_flexibility *one_body, rb_message *why);
-    /* The same for equal elements by Fourier transforms, without a matrix; NULL: the
-     * flexibility does not depend on the distance alone. */
+    /* The same for equal elements by Fourier transforms, without a matrix, for bodies for
+     * which `transformed` returns 1 (NULL: half-planes); NULL: never. */
+    int (*transformed)(const rb_rolling_case *rc, const rb_rolling_body *body);
     rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                             const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                             rb_rolling_body_flexibility *one_body, rb_message *why);

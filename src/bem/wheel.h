@@ -1,0 +1,32 @@
+/* The kernel of a wheel, which its matrix and its products share (B12). */
+#ifndef ROLLBEM_BEM_WHEEL_H
+#define ROLLBEM_BEM_WHEEL_H
+
+#include "bem/ring.h"
+#include "rollbem/bem.h"
+
+/* RB_EINVAL, RB_SINGULAR: wheel and ends of n_c contact elements. */
+rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                         rb_message *why);
+
+/* The angles of m = n + 1 midpoints, then of m + 1 ends, owned by the caller; NULL
+ * without memory.  h: the m chords. */
+double *rb_wheel_angles(double radius, int n, const double *ends);
+void rb_wheel_chords(double radius, int n, const double *ends, double *h);
+
+/* The primitive over the angle of the answer of the glassy wheel to a unit load. */
+typedef struct {
+    double kappa, scale, datum;
+    rb_ring_table inner; /* owned: what the wheel has over the half-plane */
+} rb_wheel_kernel;
+
+/* For smallest <= abs(x) <= reach, or 0.  RB_ENOMEM. */
+rb_status rb_wheel_kernel_create(const rb_bem_wheel *wheel, double smallest, double reach,
+                                 rb_wheel_kernel *kernel);
+/* Of a homogeneous elastic half-plane, x a length: nothing to free. */
+rb_status rb_wheel_kernel_of_plane(const rb_bem_surface *plane, rb_wheel_kernel *kernel);
+void rb_wheel_kernel_free(rb_wheel_kernel *kernel);
+/* [length/stress] */
+rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x);
+
+#endif

@@ -1,0 +1,399 @@
+/* Products with the flexibility of a wheel, or of a half-plane in contact with one, by
+ * Fourier transforms, on arcs and elements of any lengths:
+ * the precorrected method (Phillips and White 1997).  Uniform tractions are charges at
+ * the ends of their arcs under the primitive G of the kernel.  Charges and answers go to
+ * and from equal steps of the angle by Lagrange's polynomials; what these do not resolve,
+ * G close to a charge, is added pair by pair. */
+#include "bem/fourier.h" /* before complex.h: pairs of doubles */
+
+#include "bem/internal.h"
+#include "bem/wheel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the polynomials; distance in steps within which pairs are exact: further away the
+ * derivatives of x ln x leave 1e-11 of a step. */
+enum { ORDER = 10, NEAR = 20, MOST_STEPS = 1 << 21 };
+
+typedef struct {
+    int first; /* of ORDER steps */
+    double weight[ORDER];
+} spread;
+
+typedef struct {
+    double N, T, C;
+} block;
+
+typedef struct {
+    int n, m, steps;
+    rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a half-plane */
+    rb_bem_surface plane; /* the same */
+    rb_bem_normals normals;
+    double *ends;    /* n + 2, as given */
+    double *place;   /* cosines and sines of m midpoints, for the obstacle's normals */
+    spread *from;    /* n + 1 ends */
+    spread *to;      /* m midpoints */
+    int *near_first; /* m + 1: pairs of a midpoint in `near` */
+    int *near_end;   /* m: the first end of them */
+    block *near;
+    rb_fourier fourier;
+    fftw_complex *kernel[3];
+    double *work[2], *charge; /* charge: 2 (n + 1) */
+} products;
+
+static void products_free(void *data)
+{
+    products *o = data;
+
+    if (!o)
+        return;
+    rb_fourier_free(&o->fourier);
+    for (int k = 0; k < 3; k++)
+        fftw_free(o->kernel[k]);
+    for (int k = 0; k < 2; k++)
+        fftw_free(o->work[k]);
+    free(o->charge);
+    free(o->near);
+    free(o->near_end);
+    free(o->near_first);
+    free(o->to);
+    free(o->from);
+    free(o->place);
+    free(o->ends);
+    free(o);
+}
+
+/* ---- Products ---------------------------------------------------------------------- */
+
+/* Frames of the obstacle into those of the surface. */
+static void tractions_on_arcs(const products *o, const double *r, double *N, double *T)
+{
+    const double *cosine = o->place, *sine = o->place + o->m;
+    double before[2] = {0.0, 0.0};
+
+    for (int j = 0; j <= o->n; j++) {
+        double now[2] = {j < o->n ? r[j] : 0.0, j < o->n ? r[o->n + j] : 0.0};
+        if (o->normals == RB_BEM_NORMALS_OBSTACLE) {
+            const double p = now[0], q = now[1];
+            now[0] = cosine[j] * p - sine[j] * q;
+            now[1] = sine[j] * p + cosine[j] * q;
+        }
+        N[j] = now[0] - before[0];
+        T[j] = now[1] - before[1];
+        memcpy(before, now, sizeof now);
+    }
+}
+
+static fftw_complex *transform_of(const products *o, const double *charge, double *work)
+{
+    memset(work, 0, (size_t)(o->fourier.size + 2) * sizeof *work);
+    for (int j = 0; j <= o->n; j++)
+        for (int k = 0; k < ORDER; k++)
+            work[o->from[j].first + k] += o->from[j].weight[k] * charge[j];
+    return rb_fourier_forward(&o->fourier, o->steps, work, work);
+}
+
+static void products_apply(const rb_bem_flexibility *f, const double *r, double *w)
+{
+    const products *o = f->data;
+    const double *cosine = o->place, *sine = o->place + o->m;
+    double *N = o->charge, *T = o->charge + o->n + 1;
+
+    tractions_on_arcs(o, r, N, T);
+    fftw_complex *a = transform_of(o, N, o->work[0]), *b = transform_of(o, T, o->work[1]);
+    for (int k = 0; k <= o->fourier.size / 2; k++) {
+        const double *n = o->kernel[0][k], *t = o->kernel[1][k], *c = o->kernel[2][k];
+        const double x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
+        a[k][0] = n[0] * x[0] - n[1] * x[1] + c[0] * y[0] - c[1] * y[1];
+        a[k][1] = n[0] * x[1] + n[1] * x[0] + c[0] * y[1] + c[1] * y[0];
+        b[k][0] = t[0] * y[0] - t[1] * y[1] - c[0] * x[0] + c[1] * x[1];
+        b[k][1] = t[0] * y[1] + t[1] * y[0] - c[0] * x[1] - c[1] * x[0];
+    }
+    rb_fourier_backward(&o->fourier, o->work[0]);
+    rb_fourier_backward(&o->fourier, o->work[1]);
+    for (int i = 0; i < o->m; i++) {
+        double u = 0.0, v = 0.0;
+        for (int k = 0; k < ORDER; k++) {
+            u += o->to[i].weight[k] * o->work[0][o->to[i].first + k];
+            v += o->to[i].weight[k] * o->work[1][o->to[i].first + k];
+        }
+        for (int k = o->near_first[i]; k < o->near_first[i + 1]; k++) {
+            const int j = o->near_end[i] + k - o->near_first[i];
+            u += o->near[k].N * N[j] + o->near[k].C * T[j];
+            v += o->near[k].T * T[j] - o->near[k].C * N[j];
+        }
+        const int turned = o->normals == RB_BEM_NORMALS_OBSTACLE;
+        w[i] = turned ? cosine[i] * u + sine[i] * v : u;
+        w[o->m + i] = turned ? cosine[i] * v - sine[i] * u : v;
+    }
+}
+
+static rb_status products_matrix(const rb_bem_flexibility *f, double *F, int ldf)
+{
+    const products *o = f->data;
+    rb_bem_flexibility dense;
+    rb_status s =
+        o->wheel.radius > 0.0
+            ? rb_bem_flexibility_wheel(o->n, o->ends, &o->wheel, o->normals, &dense, NULL)
+            : rb_bem_flexibility_surface(o->n, o->ends, &o->plane, &dense, NULL);
+    if (s == RB_OK) {
+        s = rb_bem_flexibility_matrix(&dense, F, ldf);
+        rb_bem_flexibility_free(&dense);
+    }
+    return s;
+}
+
+/* ---- Their tables ------------------------------------------------------------------ */
+
+static spread spread_at(double place)
+{
+    spread at = {.first = (int)floor(place) - ORDER / 2 + 1};
+    const double t = place - at.first;
+
+    for (int k = 0; k < ORDER; k++) {
+        at.weight[k] = 1.0;
+        for (int l = 0; l < ORDER; l++)
+            if (l != k)
+                at.weight[k] *= (t - l) / (k - l);
+    }
+    return at;
+}
+
+static block kernel_at(const rb_wheel_kernel *kernel, double x)
+{
+    const rb_ring_answer at = rb_wheel_kernel_at(kernel, x);
+    return (block){at.N, at.T, at.C};
+}
+
+/* G of the pair less what the steps make of it. */
+static block correction(const products *o, const rb_wheel_kernel *kernel,
+                        const block *on_steps, int i, int j, double x)
+{
+    block sum = kernel_at(kernel, x);
+
+    for (int a = 0; a < ORDER; a++)
+        for (int b = 0; b < ORDER; b++) {
+            const block *at =
+                on_steps + o->to[i].first + a - o->from[j].first - b + o->steps;
+            const double weight = o->to[i].weight[a] * o->from[j].weight[b];
+            sum.N -= weight * at->N;
+            sum.T -= weight * at->T;
+            sum.C -= weight * at->C;
+        }
+    return sum;
+}
+
+/* The pairs closer than NEAR steps. */
+static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
+                              const block *on_steps, const double *end,
+                              const double *middle, double step)
+{
+    const double reach = NEAR * step;
+    int low = 0, high = 0;
+
+    for (int pass = 0; pass < 2; pass++) {
+        int count = 0;
+        low = high = 0;
+        for (int i = 0; i < o->m; i++) {
+            while (low <= o->n && end[low] < middle[i] - reach)
+                low++;
+            while (high <= o->n && end[high] <= middle[i] + reach)
+                high++;
+            o->near_first[i] = count;
+            o->near_end[i] = low;
+            for (int j = low; j < high && pass == 1; j++)
+                o->near[count + j - low] =
+                    correction(o, kernel, on_steps, i, j, middle[i] - end[j]);
+            count += high - low;
+        }
+        o->near_first[o->m] = count;
+        if (pass == 0 && !(o->near = calloc((size_t)count + 1, sizeof *o->near)))
+            return RB_ENOMEM;
+    }
+    return RB_OK;
+}
+
+/* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
+static void transform_kernel(products *o, const block *on_steps)
+{
+    const int size = o->fourier.size;
+
+    for (int c = 0; c < 3; c++) {
+        double *x = o->work[0];
+        memset(x, 0, (size_t)(size + 2) * sizeof *x);
+        for (int k = 1 - o->steps; k < o->steps; k++) {
+            const block *at = on_steps + o->steps + k;
+            x[k < 0 ? size + k : k] = (c == 0 ? at->N : c == 1 ? at->T : at->C) / size;
+        }
+        fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
+        memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
+    }
+}
+
+static rb_status set_tables(products *o, const double *angles, double step)
+{
+    const double *middle = angles, *end = angles + o->m;
+    const double first = end[0] - ORDER * step;
+    rb_wheel_kernel kernel;
+    block *on_steps = calloc(2 * (size_t)o->steps + 1, sizeof *on_steps);
+    rb_status s = on_steps ? RB_OK : RB_ENOMEM;
+
+    double smallest = 0.25 * step;
+    for (int j = 0; j < o->n; j++)
+        smallest = fmin(smallest, 0.25 * (end[j + 1] - end[j]));
+    if (s == RB_OK)
+        s = o->wheel.radius > 0.0 ? rb_wheel_kernel_create(&o->wheel, smallest,
+                                                           (o->steps + 1) * step, &kernel)
+                                  : rb_wheel_kernel_of_plane(&o->plane, &kernel);
+    if (s == RB_OK) {
+        for (int j = 0; j <= o->n; j++)
+            o->from[j] = spread_at((end[j] - first) / step);
+        for (int i = 0; i < o->m; i++) {
+            o->to[i] = spread_at((middle[i] - first) / step);
+            o->place[i] = cos(middle[i]);
+            o->place[o->m + i] = sin(middle[i]);
+        }
+        for (int k = -o->steps; k <= o->steps; k++)
+            on_steps[o->steps + k] = kernel_at(&kernel, k * step);
+        transform_kernel(o, on_steps);
+        s = correct_near(o, &kernel, on_steps, end, middle, step);
+        rb_wheel_kernel_free(&kernel);
+    }
+    free(on_steps);
+    return s;
+}
+
+static products *products_alloc(int n, int steps)
+{
+    products *o = calloc(1, sizeof *o);
+    const size_t m = (size_t)n + 1;
+
+    if (!o)
+        return NULL;
+    o->n = n;
+    o->m = n + 1;
+    o->steps = steps;
+    if (!rb_fourier_make(2 * steps, &o->fourier)) {
+        products_free(o);
+        return NULL;
+    }
+    int all = 1;
+    for (int k = 0; k < 3; k++) {
+        o->kernel[k] = fftw_alloc_complex((size_t)o->fourier.size / 2 + 1);
+        all = all && o->kernel[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        o->work[k] = rb_fourier_alloc(&o->fourier);
+        all = all && o->work[k];
+    }
+    o->ends = rb_alloc(m + 1, 1);
+    o->place = rb_alloc(m, 2);
+    o->charge = rb_alloc(m, 2);
+    o->from = calloc(m, sizeof *o->from);
+    o->to = calloc(m, sizeof *o->to);
+    o->near_first = rb_alloc_int(m + 1);
+    o->near_end = rb_alloc_int(m);
+    if (!all || !o->ends || !o->place || !o->charge || !o->from || !o->to ||
+        !o->near_first || !o->near_end) {
+        products_free(o);
+        return NULL;
+    }
+    return o;
+}
+
+/* x: n + 1 midpoints and n + 2 ends, of arcs as angles; taken over.  o->wheel or o->plane
+ * is set afterwards from `like`. */
+static rb_status make(const products *like, double *x, double step, const double *ends,
+                      rb_bem_flexibility *f)
+{
+    const int n = f->n;
+    const double *end = x + n + 1;
+    const int steps = (int)ceil((end[n + 1] - end[0]) / step) + 2 * ORDER;
+    products *o = products_alloc(n, steps);
+    rb_status s = RB_ENOMEM;
+
+    f->data = o;
+    f->free_data = products_free;
+    f->apply = products_apply;
+    f->matrix = products_matrix;
+    if (o) {
+        o->wheel = like->wheel;
+        o->plane = like->plane;
+        o->wheel.terms = 0;
+        o->normals = like->normals;
+        memcpy(o->ends, ends, ((size_t)n + 2) * sizeof *ends);
+        s = set_tables(o, x, step);
+    }
+    free(x);
+    return s;
+}
+
+rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
+                                            const rb_bem_wheel *wheel,
+                                            rb_bem_normals normals, rb_bem_flexibility *f,
+                                            rb_message *why)
+{
+    const products like = {.wheel = *wheel, .normals = normals};
+
+    *f = (rb_bem_flexibility){0};
+    rb_status s = rb_wheel_check(n_c, ends, wheel, why);
+    if (s != RB_OK)
+        return s;
+    double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
+    if (!angles)
+        return rb_fail(why, RB_ENOMEM, "wheel: out of memory for %d contact elements",
+                       n_c);
+    const double length = angles[2 * n_c + 2] - angles[n_c + 1],
+                 step = fmin(length / (n_c + 1), log(wheel->radius / wheel->inner) / 8.0);
+    if (!(length < MOST_STEPS * step)) { /* very thin */
+        free(angles);
+        return rb_bem_flexibility_wheel(n_c, ends, wheel, normals, f, why);
+    }
+    s = rb_bem_flexibility_points(n_c, f);
+    if (s == RB_OK) {
+        rb_bem_flexibility_place(ends, f);
+        rb_wheel_chords(wheel->radius, n_c, ends, f->h);
+        s = make(&like, angles, step, ends, f);
+    } else {
+        free(angles);
+    }
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+}
+
+rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
+                                            const rb_bem_surface *plane,
+                                            rb_bem_flexibility *f, rb_message *why)
+{
+    const products like = {.plane = *plane, .normals = RB_BEM_NORMALS_SURFACE};
+    double *x = NULL;
+
+    *f = (rb_bem_flexibility){0};
+    rb_status s = rb_bem_surface_check(plane, why);
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
+    if (s == RB_OK &&
+        (plane->terms > 0 || plane->thickness > 0.0 || plane->datum_tangential > 0.0))
+        s = rb_fail(why, RB_EINVAL,
+                    "products on any elements: a homogeneous elastic half-plane with one "
+                    "datum only");
+    if (s != RB_OK)
+        return s;
+    s = rb_bem_flexibility_points(n_c, f);
+    if (s == RB_OK && !(x = rb_alloc(2 * (size_t)n_c + 3, 1)))
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        rb_bem_flexibility_place(ends, f);
+        memcpy(x, f->x, (size_t)f->m * sizeof *x);
+        memcpy(x + f->m, ends, ((size_t)f->m + 1) * sizeof *x);
+        s = make(&like, x, (ends[n_c + 1] - ends[0]) / (n_c + 1), ends, f);
+    }
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "half-plane: out of memory for %d contact elements", n_c);
+}
