@@ -221,6 +221,7 @@ static rb_status make_wheel(const void *of)
     rb_bem_field *field = NULL;
     rb_bem_flexibility f = {0}, g = {0}, waves = {0};
     const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact};
+    const rb_bem_surface plane = rb_bem_halfplane(rubber, 1.0);
     double w[2];
 
     rb_status s = rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL);
@@ -249,6 +250,13 @@ static rb_status make_wheel(const void *of)
     if (s == RB_OK)
         s = rb_bem_field_stress(field, (rb_bem_points){2, xy}, stress, NULL);
     assert_true(mesh.n <= 300);
+    rb_bem_flexibility_free(&waves);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_wheel_products(N, ends, &wheel, RB_BEM_NORMALS_OBSTACLE,
+                                              &waves, NULL);
+    rb_bem_flexibility_free(&waves);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_plane_products(N, ends, &plane, &waves, NULL);
     rb_bem_flexibility_free(&waves);
     rb_bem_field_free(field);
     rb_bem_flexibility_free(&f);

@@ -139,9 +139,11 @@ static rb_status dump_dense(const target *t, const rb_rolling_model *model)
                         "upstream; r_N then r_T");
 }
 
-/* Four columns hold all of F where its blocks are constant along their diagonals. */
-static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
+/* Four columns hold all of F where its blocks are constant along their diagonals, as
+ * those of half-planes are. */
+static rb_status dump_columns(const target *t, const rb_rolling_model *model)
 {
+    const rb_bem_flexibility *f = &model->bodies.f;
     const int n = f->n, m = f->m, column[] = {0, n - 1, n, 2 * n - 1};
     const size_t rows = 2 * (size_t)m;
     double *w = rb_alloc(rows, 4), *r = rb_alloc(2 * (size_t)n, 1);
@@ -153,8 +155,10 @@ static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
     }
     if (s == RB_OK)
         s = write_matrix(t, "F_columns", (rb_io_dense){2 * m, 4, w, 2 * m},
-                         "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
-                         "Toeplitz matrices");
+                         rb_rolling_can(model->rc, RB_BODY_FLAT)
+                             ? "columns 1, n, n + 1 and 2n of F, w = F r: its four "
+                               "blocks are Toeplitz matrices"
+                             : "columns 1, n, n + 1 and 2n of F, w = F r");
     free(w);
     free(r);
     return s;
@@ -193,7 +197,7 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
     if (s != RB_OK)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
-        return dump_toeplitz(t, &model->bodies.f);
+        return dump_columns(t, model);
     s = dump_dense(t, model);
     return s == RB_OK ? dump_lcp(t, model) : s;
 }

@@ -72,21 +72,15 @@ halfplane_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
     return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
 }
 
-/* Beside a wheel elements are equal arcs of the wheel. */
-static int halfplane_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
-{
-    return rb_rolling_can(rc, RB_BODY_FLAT) ||
-           rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC);
-}
-
+/* Equal elements beside a wheel A are equal arcs of the wheel. */
 static rb_status
 halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                      rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
-    return make(rb_rolling_can(rc, RB_BODY_FLAT) ? rb_bem_flexibility_toeplitz
-                                                 : rb_bem_flexibility_plane_products,
+    return make(rc->a.support == RB_BEM_HALFPLANE ? rb_bem_flexibility_toeplitz
+                                                  : rb_bem_flexibility_plane_products,
                 rc, body, mesh, one_body, why);
 }
 
@@ -141,7 +135,6 @@ const rb_rolling_body_kind rb_rolling_halfplane = {
     .parameters = halfplane_parameters,
     .check = check_halfplane,
     .flexibility = halfplane_flexibility,
-    .transformed = halfplane_transformed,
     .transforms = halfplane_transforms,
     .surface = rb_rolling_halfplane_surface,
     .datum = datum};

@@ -70,7 +70,7 @@ rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b,
     rb_bem_cylinder cylinder;
     const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
     *boundary = (rb_bem_mesh){0};
-    return rb_rolling_body_can(body, RB_BODY_FLAT) || (of_b && !model->rc->elastic_b)
+    return body->support == RB_BEM_HALFPLANE || (of_b && !model->rc->elastic_b)
                ? RB_OK
                : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary,
                                why);
@@ -157,7 +157,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
 static int wheel_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
     return goes_by_waves(rc, body) && rc->formulation == RB_STEADY &&
-           !rb_rolling_relaxes(rc);
+           rc->a.memory.n == 0 && !(rc->elastic_b && rc->b.memory.n > 0);
 }
 
 static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,

@@ -175,10 +175,15 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
 #define RB_TRANSFORMS 1
 #endif
 
+/* Beside a wheel, a half-plane of one elastic material only. */
 static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return kind->transforms && (!kind->transformed || kind->transformed(rc, body));
+    return kind->transforms &&
+           (kind->transformed
+                ? kind->transformed(rc, body)
+                : rb_rolling_can(rc, RB_BODY_FLAT) ||
+                      rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
 }
 
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
