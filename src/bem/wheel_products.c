@@ -167,22 +167,26 @@ static block kernel_at(const rb_wheel_kernel *kernel, double x)
     return (block){at.N, at.T, at.C};
 }
 
-/* G of the pair less what the steps make of it. */
-static block correction(const products *o, const rb_wheel_kernel *kernel,
-                        const block *on_steps, int i, int j, double x)
-{
-    block sum = kernel_at(kernel, x);
+enum { WINDOW = 2 * NEAR + 2 * ORDER };
 
-    for (int a = 0; a < ORDER; a++)
-        for (int b = 0; b < ORDER; b++) {
-            const block *at =
-                on_steps + o->to[i].first + a - o->from[j].first - b + o->steps;
-            const double weight = o->to[i].weight[a] * o->from[j].weight[b];
-            sum.N -= weight * at->N;
-            sum.T -= weight * at->T;
-            sum.C -= weight * at->C;
+/* What a charge at each step of a window makes of midpoint i; the window begins at step
+ * `first`. */
+static void from_steps(const products *o, const block *on_steps, int i, int first,
+                       block window[WINDOW])
+{
+    for (int k = 0; k < WINDOW; k++) {
+        block sum = {0.0, 0.0, 0.0};
+        const int apart = o->to[i].first - first - k;
+        if (apart < -o->steps || apart + ORDER > o->steps)
+            continue; /* beyond all charges */
+        for (int a = 0; a < ORDER; a++) {
+            const block *at = on_steps + o->steps + apart + a;
+            sum.N += o->to[i].weight[a] * at->N;
+            sum.T += o->to[i].weight[a] * at->T;
+            sum.C += o->to[i].weight[a] * at->C;
         }
-    return sum;
+        window[k] = sum;
+    }
 }
 
 /* The pairs closer than NEAR steps. */
@@ -191,6 +195,7 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
                               const double *middle, double step)
 {
     const double reach = NEAR * step;
+    block window[WINDOW] = {{0.0, 0.0, 0.0}};
     int low = 0, high = 0;
 
     for (int pass = 0; pass < 2; pass++) {
@@ -203,9 +208,18 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
                 high++;
             o->near_first[i] = count;
             o->near_end[i] = low;
-            for (int j = low; j < high && pass == 1; j++)
-                o->near[count + j - low] =
-                    correction(o, kernel, on_steps, i, j, middle[i] - end[j]);
+            if (pass == 1 && low < high)
+                from_steps(o, on_steps, i, o->from[low].first, window);
+            for (int j = low; j < high && pass == 1; j++) {
+                const block *at = window + o->from[j].first - o->from[low].first;
+                block own = kernel_at(kernel, middle[i] - end[j]);
+                for (int b = 0; b < ORDER; b++) {
+                    own.N -= o->from[j].weight[b] * at[b].N;
+                    own.T -= o->from[j].weight[b] * at[b].T;
+                    own.C -= o->from[j].weight[b] * at[b].C;
+                }
+                o->near[count + j - low] = own;
+            }
             count += high - low;
         }
         o->near_first[o->m] = count;
