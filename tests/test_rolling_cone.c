@@ -1,6 +1,5 @@
 /* The rolling problems through the cone solvers of src/friction: a third opinion. */
 #include "check.h"
-#include "contact/internal.h"
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
 
@@ -32,10 +31,13 @@ static void cone_solvers_agree_with_lemke(void **state)
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cone), RB_OK);
         cone.delta = model.state.delta;
         cone.xi = model.state.xi;
-        const rb_contact_options by = {.cone_solvers = rb_friction_cone_solvers(),
-                                       .cone_solver = names[k]};
-        if (rb_contact_cone_solve(&model.problem, &by, &cone, &why) != RB_OK)
+        rb_contact_options by = rb_contact_defaults();
+        by.solver = RB_SOLVER_CONE;
+        by.cone_solvers = rb_friction_cone_solvers();
+        by.cone_solver = names[k];
+        if (rb_contact_solve(&model.problem, &by, 0, &cone, &why) != RB_OK)
             fail_msg("%s: %s", names[k], why.text);
+        assert_int_equal(cone.solver, RB_SOLVER_CONE);
         for (int i = 0; i < cone.n; i++) {
             CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress,
                       "%s: p %d", names[k], i);

@@ -203,6 +203,82 @@ static void memory_for_what_is_ahead_may_be_refused(void **state)
     }
 }
 
+/* Half-way through a half-plane without a matrix: one element ahead is the next midpoint.
+ */
+static void large_contacts_know_what_is_ahead(void **state)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 209920.0;
+    rc.a.poisson = 0.3;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = 100.0;
+    rc.contact_elements = RB_ROLLING_LARGE;
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_rolling_former_place ahead;
+    const int n = RB_ROLLING_LARGE, m = n + 1;
+
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
+    assert_null(bodies.F);
+    CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead),
+                 RB_OK);
+    double *r = calloc((size_t)(2 * n), sizeof *r),
+           *w = calloc((size_t)(2 * m), sizeof *w), *w_T = calloc((size_t)n, sizeof *w_T);
+    for (int i = n / 3; i < 2 * n / 3; i++) {
+        r[i] = 1.0 + 0.3 * sin(0.01 * i);
+        r[n + i] = cos(0.02 * i);
+    }
+    CHECK_STATUS(rb_rolling_displacement(&bodies, r, r + n, w), RB_OK);
+    rb_rolling_former_place_apply(&ahead, &bodies, r, r + n, w_T);
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(w_T[i], w[m + i + 1], 1e-11 * fabs(w[m + n / 2]), "element %d", i);
+    free(r);
+    free(w);
+    free(w_T);
+    rb_rolling_former_place_free(&ahead);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_mesh_free(&mesh);
+}
+
+/* What a step of 1.3 elements brings, with a matrix and by transforms. */
+static void an_interface_moves_with_the_steps(void **state)
+{
+    double *w[2];
+    const int n = 1501;
+    double *p = rb_alloc((size_t)n, 2), *q = p + n;
+
+    for (int i = 0; i < n - 1; i++)
+        q[i] = 100.0 * rand() / RAND_MAX;
+    for (int large = 0; large < 2; large++) {
+        rb_rolling_case rc = plane(0, n);
+        rc.a.young = 210000.0;
+        rc.a.poisson = 0.28;
+        rc.a.radius = 500.0;
+        rb_rolling_mesh mesh;
+        rb_rolling_bodies bodies;
+        rb_rolling_former_place ahead;
+        rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
+        rc.interlayer_tangential = 1e-2;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
+        assert_int_equal(bodies.F == NULL, large);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead),
+                     RB_OK);
+        w[large] = rb_alloc((size_t)n, 1);
+        rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
+        rb_rolling_former_place_free(&ahead);
+        rb_rolling_bodies_free(&bodies);
+        rb_rolling_mesh_free(&mesh);
+    }
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(w[0][i], w[1][i], 1e-9, "element %d", i);
+    free(w[0]);
+    free(w[1]);
+    free(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -210,6 +286,8 @@ int main(void)
         cmocka_unit_test(places_beyond_the_mesh_are_those_of_a_longer_one),
         cmocka_unit_test(a_wheel_is_nearly_on_the_line_of_its_midpoints),
         cmocka_unit_test(large_contacts_look_ahead_alike),
+        cmocka_unit_test(large_contacts_know_what_is_ahead),
+        cmocka_unit_test(an_interface_moves_with_the_steps),
         cmocka_unit_test(memory_for_what_is_ahead_may_be_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* What lies between the bodies: a coefficient of friction that depends on the place, and
  * an interface that yields. */
 #include "rollbem/friction.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 #include "solved.h"
 
 #include <stdlib.h>
@@ -184,42 +184,6 @@ static void an_interface_yields_by_itself(void **state)
     }
 }
 
-/* What a step of 1.3 elements brings, with a matrix and by transforms. */
-static void an_interface_moves_with_the_steps(void **state)
-{
-    double *w[2];
-    const int n = 1501;
-    double *p = rb_alloc((size_t)n, 2), *q = p + n;
-
-    for (int i = 0; i < n - 1; i++)
-        q[i] = 100.0 * rand() / RAND_MAX;
-    for (int large = 0; large < 2; large++) {
-        rb_rolling_case rc = steady();
-        rb_rolling_mesh mesh;
-        rb_rolling_bodies bodies;
-        rb_rolling_former_place ahead;
-        rc.formulation = RB_TRANSIENT;
-        rc.contact_elements = n;
-        rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
-        rc.interlayer_tangential = 1e-2;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
-        assert_int_equal(bodies.F == NULL, large);
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead),
-                     RB_OK);
-        w[large] = rb_alloc((size_t)n, 1);
-        rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
-        rb_rolling_former_place_free(&ahead);
-        rb_rolling_bodies_free(&bodies);
-        rb_rolling_mesh_free(&mesh);
-    }
-    for (int i = 0; i < n; i++)
-        CHECK_ABS(w[0][i], w[1][i], 1e-9, "element %d", i);
-    free(w[0]);
-    free(w[1]);
-    free(p);
-}
-
 /* Steady rolling over an interface much softer than the bodies: bristles, whose friction
  * grows by xi / c per length from the leading edge on until it meets the bound. */
 static void a_soft_interface_is_a_brush(void **state)
@@ -277,13 +241,11 @@ static void bad_tables_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_element_has_its_bound),
-        cmocka_unit_test(large_contacts_and_steps_too),
-        cmocka_unit_test(an_even_table_is_one_coefficient),
-        cmocka_unit_test(an_interface_yields_by_itself),
-        cmocka_unit_test(an_interface_moves_with_the_steps),
-        cmocka_unit_test(a_soft_interface_is_a_brush),
-        cmocka_unit_test(bad_tables_are_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_element_has_its_bound),
+                                       cmocka_unit_test(large_contacts_and_steps_too),
+                                       cmocka_unit_test(an_even_table_is_one_coefficient),
+                                       cmocka_unit_test(an_interface_yields_by_itself),
+                                       cmocka_unit_test(a_soft_interface_is_a_brush),
+                                       cmocka_unit_test(bad_tables_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

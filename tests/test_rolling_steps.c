@@ -1,7 +1,7 @@
 /* What a sequence of steps must have in common with a single case, where it ends, what
  * its columns say, and what rides through the contact. */
 #include "check.h"
-#include "study/internal.h"
+#include "rollbem/rolling.h"
 
 #include <string.h>
 
@@ -360,39 +360,6 @@ static void the_last_creepage_is_one_of_many(void **state)
     }
 }
 
-/* Half-way through a half-plane without a matrix: one element ahead is the next midpoint.
- */
-static void large_contacts_know_what_is_ahead(void **state)
-{
-    rb_rolling_case rc = spence(RB_ROLLING_LARGE);
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
-    rb_rolling_former_place ahead;
-    const int n = RB_ROLLING_LARGE, m = n + 1;
-
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
-    assert_null(bodies.F);
-    CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead),
-                 RB_OK);
-    double *r = calloc((size_t)(2 * n), sizeof *r),
-           *w = calloc((size_t)(2 * m), sizeof *w), *w_T = calloc((size_t)n, sizeof *w_T);
-    for (int i = n / 3; i < 2 * n / 3; i++) {
-        r[i] = 1.0 + 0.3 * sin(0.01 * i);
-        r[n + i] = cos(0.02 * i);
-    }
-    CHECK_STATUS(rb_rolling_displacement(&bodies, r, r + n, w), RB_OK);
-    rb_rolling_former_place_apply(&ahead, &bodies, r, r + n, w_T);
-    for (int i = 0; i < n; i++)
-        CHECK_ABS(w_T[i], w[m + i + 1], 1e-11 * fabs(w[m + n / 2]), "element %d", i);
-    free(r);
-    free(w);
-    free(w_T);
-    rb_rolling_former_place_free(&ahead);
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_mesh_free(&mesh);
-}
-
 /* A creepage ratio refers to the load of the step, which a given approach only brings. */
 static void ratios_refer_to_the_load_of_the_step(void **state)
 {
@@ -744,7 +711,6 @@ int main(void)
         cmocka_unit_test(similar_bodies_press_at_once),
         cmocka_unit_test(histories_end_on_their_last_row),
         cmocka_unit_test(the_last_creepage_is_one_of_many),
-        cmocka_unit_test(large_contacts_know_what_is_ahead),
         cmocka_unit_test(ratios_refer_to_the_load_of_the_step),
         cmocka_unit_test(columns_are_those_of_the_solution),
         cmocka_unit_test(power_and_moment_balance_when_steady),
