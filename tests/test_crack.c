@@ -6,6 +6,8 @@
 #include "rollbem/contact.h"
 #include "rollbem/crack.h"
 
+#include <complex.h>
+#include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <string.h>
 
@@ -247,6 +249,70 @@ static void stress_of_strips(void **state)
         }
         rb_crack_free(c);
     }
+}
+
+/* Slope dv/dx of the surface, times 2 G/(kappa + 1), of a crack with sliding and opening
+ * D at nodes z and a tip: potentials of its dislocations (C2) again, by Gauss points. */
+static double surface_slope(int n, const double complex *z, const double complex *D,
+                            double x)
+{
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(24);
+    const double shear = 1.0, kappa = 3.0 - 4.0 * 0.3;
+    double slope = 0.0;
+    for (int l = 0; l < n; l++)
+        for (size_t i = 0; i < 24; i++) {
+            double u, w;
+            gsl_integration_glfixed_point(0.0, 1.0, i, &u, &w, rule);
+            const double complex at = z[l] + u * (z[l + 1] - z[l]), c = x - conj(at),
+                                 g = shear * (D[l] - D[l + 1]) /
+                                     (I * M_PI * (kappa + 1.0));
+            slope += w * cimag(g / (x - at) - (conj(g) + g) / c -
+                               conj(g) * (at - x) / (c * c));
+        }
+    gsl_integration_glfixed_table_free(rule);
+    return slope;
+}
+
+/* Betti: the work of a strip's stress on the opening and sliding of a crack is what the
+ * crack lifts the surface below the strip, times its pressure. */
+static void betti(void **state)
+{
+    enum { N = 20 };
+    const double x = 0.0, width = 0.3, left = 1.1, right = 2.9;
+    const double compliance = (3.0 - 4.0 * 0.3 + 1.0) / 2.0; /* (kappa + 1)/(2 G) */
+    const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
+    const double ends[2] = {-0.5 * width, 0.5 * width}, unit = 1.0, none = 0.0;
+    const rb_bem_edge_load strip = {1, ends, &unit, &none};
+    double px[N], py[N], tx[N], ty[N], T[2][2 * N], work = 0.0, lift = 0.0;
+    double complex z[N + 1], D[N + 1];
+    rb_crack_history h;
+    (void)state;
+    rb_crack *c = create(edge_crack(60.0, N, 0.1));
+    CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+    rb_crack_places(c, px, py, NULL, tx, ty);
+    CHECK_STATUS(rb_crack_load(c, &strip, left, 0.0, T[0]), RB_OK);
+    CHECK_STATUS(rb_crack_load(c, &strip, right, 0.0, T[1]), RB_OK);
+    for (int j = 0; j < N; j++) {
+        const double complex t = tx[j] + I * ty[j];
+        z[j] = px[j] + I * py[j];
+        D[j] = I * t * h.D[j] + t * h.D[N + j];
+        work += (T[0][j] - T[1][j]) * h.D[j] + (T[0][N + j] - T[1][N + j]) * h.D[N + j];
+    }
+    z[N] = cexp(-I * M_PI / 3.0);
+    D[N] = 0.0;
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(40);
+    for (size_t i = 0; i < 40; i++) /* v(left + s) - v(right + s) over the strip */
+        for (size_t k = 0; k < 40; k++) {
+            double s, w, at, v;
+            gsl_integration_glfixed_point(ends[0], ends[1], i, &s, &w, rule);
+            gsl_integration_glfixed_point(right, left, k, &at, &v, rule);
+            lift += w * v * compliance * surface_slope(N, z, D, at + s);
+        }
+    gsl_integration_glfixed_table_free(rule);
+    CHECK_MAX(1e-2, fabs(work), "there is some");
+    CHECK_REL(work, -lift, 1e-12, "Betti");
+    rb_crack_history_free(&h);
+    rb_crack_free(c);
 }
 
 /* ---- Passes ------------------------------------------------------------------------ */
@@ -626,6 +692,7 @@ int main(void)
         cmocka_unit_test(trapped_in_the_full_plane),
         cmocka_unit_test(stress_of_strips),
         cmocka_unit_test(passes_of_a_contact),
+        cmocka_unit_test(betti),
         cmocka_unit_test(trapped_fluid_by_positions),
         cmocka_unit_test(trapped_fluid),
         cmocka_unit_test(pressure_at_the_mouth),
