@@ -812,6 +812,37 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
     check_says("echo 1 2", 65, "expected the JSON of a result, or a table");
 }
 
+/* Derivatives are no reason to refuse the rest, which is judged as ever. */
+static void what_stands_beside_derivatives_is_judged(void **state)
+{
+    (void)state;
+    const char *const line = "--support halfplane --similar --load 500 --creep-ratio 0.4 "
+                             "--contact-elements 12 "
+                             "--json --quiet --output slopes.json";
+    char command[400];
+
+    snprintf(
+        command, sizeof command,
+        "%s --formulation steady --derivatives tangential_load,p --tolerance mu=0.02",
+        line);
+    assert_int_equal(rollbem(command), 0);
+    assert_int_equal(rollbem("check slopes.json"), 0);
+    assert_non_null(strstr(out, "slopes.json: derivatives and tolerances: not judged\n"));
+    assert_non_null(strstr(out, "slopes.json: valid"));
+    assert_int_equal(shell("sed 's/\"normal_load\": \\([0-9]\\)/\"normal_load\": 1\\1/' "
+                           "slopes.json >s2.json; "
+                           "\"$R\" check s2.json"),
+                     1);
+    assert_non_null(strstr(out, "violated: summary.normal_load"));
+    snprintf(command, sizeof command,
+             "%s --formulation transient --distance 0.5 --states --derivatives "
+             "tangential_load",
+             line);
+    assert_int_equal(rollbem(command), 0);
+    assert_int_equal(rollbem("check slopes.json"), 0);
+    assert_non_null(strstr(out, "slopes.json: derivatives: not judged\n"));
+}
+
 static void what_cannot_be_checked_is_refused(void **state)
 {
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 --json ";
@@ -1326,6 +1357,7 @@ int main(void)
         cmocka_unit_test(every_changed_number_of_a_table_is_found),
         cmocka_unit_test(tables_are_valid_by_their_comments),
         cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
+        cmocka_unit_test(what_stands_beside_derivatives_is_judged),
         cmocka_unit_test(what_cannot_be_checked_is_refused),
         cmocka_unit_test(whatever_is_changed_is_noticed),
         cmocka_unit_test(files_of_others_are_left_alone),

@@ -543,6 +543,12 @@ static void an_element_that_slides_may_stick(void **state)
     CHECK_ABS(s.force_ratio, -(1.0 - 0.02 * 0.02), e.scalar.force_ratio, "Q/(mu P)");
     CHECK_MAX(e.scalar.force_ratio, 0.02, "not absurdly wide");
     rb_rolling_solution_free(&s);
+    rc.creep_ratio = 0.96; /* an element sticks, how much of the next? */
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    assert_int_equal(s.stick, 1);
+    CHECK_ABS(s.force_ratio, -(1.0 - 0.04 * 0.04), e.scalar.force_ratio, "Q/(mu P)");
+    CHECK_MAX(e.scalar.force_ratio, 0.01, "not absurdly wide");
+    rb_rolling_solution_free(&s);
     rc.creep_ratio = 3.0; /* no mesh sticks */
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     CHECK_MAX(e.scalar.force_ratio, 1e-9, "full sliding");

@@ -17,15 +17,16 @@ int rb_option_number(const char *text, double *value)
     return *end == '\0' && isfinite(*value);
 }
 
-static int whole_number(const char *text, int *value)
+/* -1, 1: a whole number that is below, above what an int holds; NAN: none. */
+static double whole_number(const char *text, int *value)
 {
     char *end;
     if (strchr(" \t\n", *text)) /* or empty */
-        return 0;
+        return NAN;
     errno = 0;
     const long v = strtol(text, &end, 10);
     *value = (int)v;
-    return *end == '\0' && errno == 0 && v >= INT_MIN && v <= INT_MAX;
+    return *end != '\0' ? NAN : v < INT_MIN ? -1.0 : v > INT_MAX ? 1.0 : 0.0;
 }
 
 static int in_range(double v, const rb_range *r)
@@ -126,10 +127,14 @@ static int set_list(const rb_option *o, char *target, const char *value, reading
     return 0;
 }
 
-static int set_integer(const rb_option *o, int *place, const char *value)
+static int set_integer(const rb_option *o, int *place, const char *value, reading *r)
 {
     int v;
-    if (!whole_number(value, &v) || !in_range(v, &o->range))
+    const double beyond = whole_number(value, &v);
+    if (beyond > 0.0 && isinf(o->range.to))
+        rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX,
+                value);
+    if (beyond != 0.0 || !in_range(v, &o->range)) /* NAN as well */
         return 0;
     *place = v;
     return 1;
@@ -165,7 +170,7 @@ static int set_any(const rb_option *o, char *target, const char *value, reading 
     case RB_OPTION_NUMBER:
         return o->list ? set_list(o, target, value, r) : set_number(o, place, value, r);
     case RB_OPTION_INTEGER:
-        return set_integer(o, place, value);
+        return set_integer(o, place, value, r);
     case RB_OPTION_CHOICE:
         return set_choice(o, target, value);
     case RB_OPTION_FLAG:

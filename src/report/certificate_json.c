@@ -70,6 +70,19 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     return RB_OK;
 }
 
+/* What the case and its state say nothing of without solving again. */
+static void say_what_is_not_judged(const rb_certificate *c, const json_t *root)
+{
+    const json_t *steps =
+        json_object_get(json_object_get(root, "history"), "derivatives");
+    const int slopes = steps || json_object_get(root, "derivatives"),
+              deviations = json_object_get(root, "tolerances") != NULL;
+
+    if (slopes || deviations)
+        fprintf(c->out, "%s: %s%s%s: not judged\n", c->name, slopes ? "derivatives" : "",
+                slopes && deviations ? " and " : "", deviations ? "tolerances" : "");
+}
+
 /* ---- The case again ---------------------------------------------------------------- */
 
 /* A value as an option takes it: a word, a number, numbers with commas. */
@@ -261,6 +274,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
         s = rb_certificate_compare_history(&c, history, &again);
     if (s == RB_OK && json_object_get(root, "maxima"))
         s = rb_certificate_stress(&c, root, why);
+    if (s == RB_OK)
+        say_what_is_not_judged(&c, root);
     rb_rolling_history_free(&again);
     return rb_certificate_end(&c, s, why);
 }

@@ -135,6 +135,24 @@ static int touches_stick(const rb_rolling_solution *s, int i)
            (i + 1 < s->n && s->zone[i + 1] == RB_ZONE_STICK);
 }
 
+/* What a stick zone of fewer than four elements may be off by in friction [load]:
+ * Carter's falls short of mu P by the square of the part of the contact that sticks,
+ * whose length is known to an element beside it. */
+static double friction_of_short_stick(const rb_rolling_case *rc,
+                                      const rb_rolling_solution *s)
+{
+    const double width = 2.0 * s->half_width, stick = s->stick_length;
+    double element = 0.0;
+
+    if (rc->formulation != RB_STEADY || s->stick < 1 || s->stick >= 4)
+        return 0.0;
+    for (int i = 0; i < s->n; i++)
+        if (s->zone[i] == RB_ZONE_STICK || touches_stick(s, i))
+            element = fmax(element, s->h[i]);
+    return rb_rolling_largest_mu(rc) * s->normal_load * element *
+           (2.0 * stick + element) / (width * width);
+}
+
 /* What zones of stick that the mesh does not show may change: the friction of an element
  * of each of them [load], and how far from those that it shows they are [length]. */
 typedef struct {
@@ -176,7 +194,7 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                             : unresolved
                                 ? rb_rolling_largest_mu(rc) * s->max_pressure *
                                       rb_rolling_longest_element(s->n, s->zone, s->h)
-                                : hidden.friction;
+                                : fmax(hidden.friction, friction_of_short_stick(rc, s));
 
     switch (scale) {
     case RB_SCALE_ONE:
