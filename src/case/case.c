@@ -415,9 +415,13 @@ static rb_status check_parameter(const rb_case *c, int is_b,
     char name[40], reason[80];
     const char *word = NULL;
 
-    snprintf(name, sizeof name, "%s%s", parameter->option, is_b ? "-b" : "");
     if (parameter->has_meaning ? parameter->has_meaning(body)
                                : rb_rolling_body_is(body, kind))
+        return RB_OK;
+    strcpy(name, parameter->option);
+    if (is_b)
+        strcat(name, "-b");
+    if (!rb_case_given(c, name)) /* before any words: derivatives resolve a case often */
         return RB_OK;
     if (parameter->reason)
         return rb_case_refuse_given(c, name, parameter->reason, why);
