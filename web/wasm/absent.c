@@ -30,6 +30,28 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
 }
 
+rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
+                                            const rb_bem_wheel *wheel,
+                                            rb_bem_normals normals, rb_bem_flexibility *f,
+                                            rb_message *why)
+{
+    (void)ends;
+    (void)wheel;
+    (void)normals;
+    *f = (rb_bem_flexibility){0};
+    return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
+}
+
+rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
+                                            const rb_bem_surface *plane,
+                                            rb_bem_flexibility *f, rb_message *why)
+{
+    (void)ends;
+    (void)plane;
+    *f = (rb_bem_flexibility){0};
+    return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
+}
+
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                  const double *unit, double tolerance,
                                  rb_hierarchical **h)
