@@ -219,7 +219,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
             if (code == CLI_OK && !first)
                 summarise(&run);
             if (code == CLI_OK && run.o.cite)
-                rb_report_citations(stderr, &run.c->rc, run.solution);
+                cli_print_citations(&run.c->rc, run.solution);
             code = code == CLI_OK ? write_files(&spec, &run, 1) : code;
         } else
             code = CLI_OK;

@@ -81,6 +81,23 @@ void cli_print_lines(cli_lines *print, const void *context)
     free(text);
 }
 
+typedef struct {
+    const rb_rolling_case *rc;
+    const rb_rolling_solution *solution;
+} cited;
+
+static void write_citations(FILE *out, const void *context)
+{
+    const cited *of = context;
+    rb_report_citations(out, of->rc, of->solution);
+}
+
+void cli_print_citations(const rb_rolling_case *rc, const rb_rolling_solution *solution)
+{
+    const cited of = {rc, solution};
+    cli_print_lines(write_citations, &of);
+}
+
 /* ---- Files that options name ------------------------------------------------------- */
 
 const char *cli_option_path(const cli_spec *spec, const char *name)

@@ -72,6 +72,8 @@ rb_status cli_show_table(char *text, int summary);
  * that follows leaves room for them. */
 typedef void cli_lines(FILE *out, const void *context);
 void cli_print_lines(cli_lines *print, const void *context);
+/* The papers of that run, likewise; solution NULL: none. */
+void cli_print_citations(const rb_rolling_case *rc, const rb_rolling_solution *solution);
 
 /* The file that the option of that name asks for; NULL: none. */
 const char *cli_option_path(const cli_spec *spec, const char *name);

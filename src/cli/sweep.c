@@ -794,7 +794,7 @@ static cli_exit run(study *st)
     }
     say_why_unsolved(st, &sweep);
     if (st->o->cite)
-        rb_report_citations(stderr, &rb_case_resolved(st->base)->rc, NULL);
+        cli_print_citations(&rb_case_resolved(st->base)->rc, NULL);
     if (st->no_memory > 0)
         cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d",
                  st->no_memory, RB_ENOMEM);
