@@ -475,6 +475,8 @@ static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
     HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.creep = 0.001);
     HOLDS(rb_rolling_is_large(&rc, &few), 0, rc.creep = 0.001);
     HOLDS(rb_rolling_is_large(&rc, &small), 0, rc.formulation = RB_STATIC);
+    HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.friction.law = RB_FRICTION_linear);
+    HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.friction.heat = -0.1);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.formulation = RB_STATIC);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.contact.solver = RB_SOLVER_NEWTON);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.contact.solver = RB_SOLVER_LEMKE);

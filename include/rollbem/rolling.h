@@ -27,11 +27,17 @@ typedef enum {
 /* A of steady rolling (theory.md 4.2): the difference to the element upstream, or the
  * second-order difference of equal elements. */
 typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
-/* With RB_ROLLING_LARGE or more equal elements on half-planes no matrix is formed; the
- * products are computed by Fourier transforms.  In steady rolling with Coulomb's law this
- * begins at RB_ROLLING_TRANSFORMS elements; a matrix can then be added
- * (rb_rolling_model_add_matrix). */
-enum { RB_ROLLING_LARGE = 1500, RB_ROLLING_TRANSFORMS = 150 };
+/* From how many equal elements on half-planes are solved by Fourier transforms, without a
+ * matrix: steady rolling, with every friction law (on aligned meshes as fast as the
+ * matrix at 150 elements, 2 to 4 times faster at 800); static contact and steps, where
+ * sequences of similar bodies win from 1000 on only.  Below RB_ROLLING_LARGE a matrix can
+ * be added where something needs it (rb_rolling_model_add_matrix); from there on it would
+ * take seconds. */
+enum {
+    RB_ROLLING_TRANSFORMS = 150,
+    RB_ROLLING_TRANSFORMS_STEPS = 1500,
+    RB_ROLLING_LARGE = 1500
+};
 /* How displacements of a wheel close to a load are computed: by its boundary elements
  * alone, as in *Addi*, or by the exact solution of a strip load on the half-plane plus
  * boundary elements for the remainder (B10). */

@@ -544,6 +544,9 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* ---- What depends on other options ------------------------------------------------- */
 
+/* From so many elements on they are not graded to the edges, on any support. */
+enum { MANY = 1500 };
+
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
@@ -674,8 +677,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     rb_rolling_case *rc = &c->resolved.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
-    const int many =
-        rc->contact_elements >= RB_ROLLING_LARGE || rb_rolling_is_large(rc, &equal);
+    const int many = rc->contact_elements >= MANY || rb_rolling_is_large(rc, &equal);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
         rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh = !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED

@@ -200,11 +200,10 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    const int simple =
-        rc->formulation == RB_STEADY && !rb_rolling_law_depends_on_state(rc);
+    const int least = rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS
+                                                   : RB_ROLLING_TRANSFORMS_STEPS;
 
-    return mesh->n >= (simple ? RB_ROLLING_TRANSFORMS : RB_ROLLING_LARGE) &&
-           rb_rolling_has_transforms(rc);
+    return mesh->n >= least && rb_rolling_has_transforms(rc);
 }
 
 int rb_rolling_carter_holds(const rb_rolling_case *rc)

@@ -2,6 +2,7 @@
  * (theory.md 4.8). */
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_bessel.h>
 #include <lapacke.h>
@@ -74,9 +75,12 @@ static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_he
     if (rc->mesh == RB_MESH_FITTED || n == 0)
         return RB_OK;
     c->response = rb_alloc(2 * (size_t)n - 1, 1);
-    for (int k = 1 - n; c->response && k < n; k++)
-        c->response[n - 1 + k] = rb_rolling_heat_response(
-            body, rc->speed, s->h[0] * (k - 0.5), s->h[0] * (k + 0.5));
+    double before = rise_from_origin(body, rc->speed, s->h[0] * (0.5 - n));
+    for (int k = 1 - n; c->response && k < n; k++) {
+        const double to = rise_from_origin(body, rc->speed, s->h[0] * (k + 0.5));
+        c->response[n - 1 + k] = to - before;
+        before = to;
+    }
     return c->response ? RB_OK : RB_ENOMEM;
 }
 
@@ -98,19 +102,28 @@ static void conductor_row(const conductor *c, int i, double *row)
     }
 }
 
-/* T = T_0 + K H. */
+/* T = T_0 + K H; elements without heat at the ends cost nothing. */
 static rb_status warm(const conductor *c, const double *heat, double *temperature)
 {
-    double *row = rb_alloc((size_t)c->n, 1);
+    const int n = c->n;
+    double *own = c->response ? NULL : rb_alloc((size_t)n, 1);
+    int from = 0, to = n;
 
-    for (int i = 0; row && i < c->n; i++) {
-        conductor_row(c, i, row);
-        temperature[i] = c->body->temperature;
-        for (int j = 0; j < c->n; j++)
-            temperature[i] += row[j] * heat[j];
+    if (!c->response && !own)
+        return RB_ENOMEM;
+    while (from < to && heat[from] == 0.0)
+        from++;
+    while (from < to && heat[to - 1] == 0.0)
+        to--;
+    for (int i = 0; i < n; i++) {
+        const double *row = c->response ? c->response + n - 1 - i : own;
+        if (own)
+            conductor_row(c, i, own);
+        temperature[i] =
+            c->body->temperature + cblas_ddot(to - from, row + from, 1, heat + from, 1);
     }
-    free(row);
-    return row ? RB_OK : RB_ENOMEM;
+    free(own);
+    return RB_OK;
 }
 
 /* Levinson's recursion for m equations with t[i - j] in row i and column j; rhs becomes

@@ -285,6 +285,8 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
 }
 
 /* Many elements need not be solved to learn how wide their line should be. */
+enum { MANY = 1500 };
+
 static interval known_zone(const rb_rolling_model *model)
 {
     rb_rolling_case equal = *model->rc;
@@ -292,9 +294,9 @@ static interval known_zone(const rb_rolling_model *model)
     rb_rolling_model first;
     interval zone = first_zone(model->rc);
 
-    if (few.elements < RB_ROLLING_LARGE && !rb_rolling_has_fine_boundary(&few))
+    if (few.elements < MANY && !rb_rolling_has_fine_boundary(&few))
         return zone;
-    if (few.elements >= RB_ROLLING_LARGE)
+    if (few.elements >= MANY)
         few.elements = FEW;
     rb_rolling_coarsen_boundary(&few);
     equal.mesh = RB_MESH_UNIFORM;

@@ -332,7 +332,7 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     s->model = model;
     s->n = model->problem.n;
-    if (model->problem.yield)
+    if (model->problem.yield || rb_rolling_law_depends_on_state(model->rc))
         status = take_matrix(s, why);
     if (status == RB_OK)
         status = check(s->model, why);
