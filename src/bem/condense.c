@@ -61,18 +61,6 @@ static double complex strip_field(rb_bem_material material, double complex z,
     return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
 }
 
-static rb_status left_over_on_bond(const rb_bem_system *s, double unit, double *bonded)
-{
-    rb_status status = RB_OK;
-    for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
-        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit,
-                                 k % 2 ? I : 1.0};
-        status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
-                                   bonded + (size_t)k * 2 * (size_t)s->bond->n);
-    }
-    return status;
-}
-
 /* Boundary values of element k against the strip on contact element c: u_x, u_y (where
  * the displacement is given) or t_x, t_y, under its load along x and along y. */
 static void left_over(const particular *p, int k, int c, double value[2][2])
@@ -186,7 +174,16 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
     if (!p->strip || !s->bond)
         return p->strip ? RB_OK : RB_ENOMEM;
     p->bonded = rb_alloc(2 * (size_t)s->bond->n, 2 * (size_t)mesh->contact_n);
-    return p->bonded ? left_over_on_bond(s, unit, p->bonded) : RB_ENOMEM;
+    if (!p->bonded)
+        return RB_ENOMEM;
+    rb_status status = RB_OK;
+    for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
+        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit,
+                                 k % 2 ? I : 1.0};
+        status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
+                                   p->bonded + (size_t)k * 2 * (size_t)s->bond->n);
+    }
+    return status;
 }
 
 static rb_status subtracted_loads_dense(const particular *p, double *X)

@@ -62,13 +62,6 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
     *factor = system->seconds_factor;
 }
 
-/* Columns begin at a cache line, and not all at the same place of the caches. */
-static int leading_dimension(int dofs)
-{
-    const int ld = (dofs + 7) / 8 * 8;
-    return ld % 512 ? ld : ld + 8;
-}
-
 static rb_bem_system *system_alloc(const rb_bem_mesh *mesh, int dense)
 {
     const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
@@ -77,7 +70,12 @@ static rb_bem_system *system_alloc(const rb_bem_mesh *mesh, int dense)
         return NULL;
     s->dofs = 2 * mesh->n;
     s->offset = loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % s->dofs : 0;
-    s->ld = dense ? leading_dimension(s->dofs) : s->dofs;
+    if (dense) {
+        /* Columns begin at a cache line, and not all at the same place of the caches. */
+        const int ld = (s->dofs + 7) / 8 * 8;
+        s->ld = ld % 512 ? ld : ld + 8;
+    } else
+        s->ld = s->dofs;
     if (dense)
         s->A = rb_large_alloc((size_t)s->ld, dofs);
     s->Gc = rb_large_alloc((size_t)s->ld, loads);
