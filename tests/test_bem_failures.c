@@ -464,7 +464,7 @@ static void absurd_cylinders_are_refused(void **state)
          NULL,
          "on a radius of 0.3"},
         {{.radius = 2.0, .support = RB_BEM_ARC, .arc = 0.5}, lopsided, "the clamped arc"},
-        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4}, lopsided, "no room"}};
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4}, lopsided, "no space"}};
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_bem_mesh mesh;
