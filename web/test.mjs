@@ -1562,7 +1562,7 @@ async function views(page) {
         [`#mu=${"9".repeat(5000)}`, "could not be read"],
         ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"],
         ["#formulation=transient&history=/etc/passwd", "/etc/passwd"],
-        ["#mu=0.3&load=-1", "this is the first case"],
+        ["#mu=0.3&load=-1", "the first case is shown instead"],
     ])
         await test(`a hostile link says so: ${link.slice(0, 30)}`, async () => {
             await page.run(`location.hash = ${JSON.stringify(link)}`);
