@@ -90,17 +90,33 @@ static void passes(void **state)
     }
 }
 
-/* K_I max of a half-plane that is driven, 0.2724 p0 sqrt(pi a) in the limit of 80 and 160
- * elements, of second order. */
+/* K_I max and the fluid's pressure of an independent program, whose volume is that of the
+ * last position with an open mouth; and with the place of closing 0.2724 p0 sqrt(pi a) in
+ * the limit of 80 and 160 elements, of second order. */
 static void trapped(void **state)
 {
+    static const double reference[][3] = {
+        {10, 0.332, 1.088}, {20, 0.336, 1.104}, {40, 0.337, 1.104}};
     double error[2];
     char line[300];
-    (void)state;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
+        const int n = (int)reference[k][0];
         snprintf(line, sizeof line,
-                 HERTZ DRIVEN "--mu 0.3 --crack-elements %d --steps 240 --fluid trapped",
-                 20 << k);
+                 HERTZ DRIVEN "--mu 0.3 --crack-elements %d --steps %d --fluid trapped",
+                 n, 6 * n);
+        json_t *root = run_json(line);
+        CHECK_ABS(in_summary(root, "K_I_max") / scale_of(root), reference[k][1], 1e-3,
+                  "K_I, %d elements", n);
+        CHECK_ABS(in_summary(root, "fluid_pressure_max") * sqrt(M_PI) / scale_of(root),
+                  reference[k][2], 2e-3, "fluid");
+        json_decref(root);
+    }
+    for (int k = 0; k < 2; k++) {
+        snprintf(
+            line, sizeof line,
+            HERTZ DRIVEN
+            "--mu 0.3 --crack-elements %d --steps 240 --fluid trapped --closing located",
+            20 << k);
         json_t *root = run_json(line);
         error[k] = 0.2724 - in_summary(root, "K_I_max") / scale_of(root);
         CHECK_ABS(in_summary(root, "fluid_pressure_max") * sqrt(M_PI) / scale_of(root),
@@ -442,6 +458,7 @@ static void refusals(void **state)
     check_refused(HERTZ "--steps 10", 64, "jump over the crack");
     check_refused(HERTZ "--from 2 --to 2", 64, "rolls towards +x");
     check_refused(HERTZ "--fluid trapped --crack-depth 1", 64, "mouth");
+    check_refused(HERTZ "--closing located", 64, "only for --fluid trapped");
     check_refused(HERTZ "--unloaded", 64, "--remote-stress");
     check_refused(HERTZ "--unloaded --remote-stress 1 --fluid pressure", 64,
                   "--unloaded");

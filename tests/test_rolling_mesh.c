@@ -177,15 +177,15 @@ static void fitted_elements_reach_as_far_as_asked(void **state)
 {
     const rb_rolling_case rc = plane(60);
     const double step = 2.0 * gsl_pow_2(sin(0.5 * M_PI / 60.0)); /* of a patch of 2 */
-    rb_rolling_span span = {.from = -1.0, .to = 1.0, .room_left = 2.5 * step};
+    rb_rolling_span span = {.from = -1.0, .to = 1.0, .margin_left = 2.5 * step};
     rb_rolling_mesh mesh;
-    span.room_right = step * (pow(1.5, 9) - 1.0) / 0.5 * 1.0001;
+    span.margin_right = step * (pow(1.5, 9) - 1.0) / 0.5 * 1.0001;
     CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
                  RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 10); /* nine do not reach it */
     rb_rolling_mesh_free(&mesh);
 
-    span = (rb_rolling_span){.from = -1e-9, .to = 1e-9, .room_right = 10.0};
+    span = (rb_rolling_span){.from = -1e-9, .to = 1e-9, .margin_right = 10.0};
     CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
                  RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 64);

@@ -509,6 +509,7 @@ typedef struct {
     double from, to; /* positions of the contact; NAN: not given */
     int passes;
     int fluid;            /* rb_crack_fluid */
+    int locate_closing;   /* as in rb_crack_passage */
     double remote_stress; /* [stress] */
     int unloaded, coupled;
     double paris;         /* C; NAN: the crack does not grow */

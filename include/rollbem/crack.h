@@ -123,6 +123,9 @@ typedef struct {
     const rb_bem_edge_load *load; /* borrowed, as x */
     int passes;                   /* >= 1: how often the steps are repeated */
     rb_crack_fluid fluid;
+    int locate_closing; /* trapped fluid: 0: the volume of the last step with an open
+                           mouth (Bower); 1: the volume where the mouth closes between two
+                           steps */
     double tension;
     const rb_crack_wheel
         *wheel; /* NULL: the tractions are those of `load`; otherwise they are computed

@@ -25,6 +25,7 @@ static const rb_choice fluids[] = {{"none", RB_CRACK_DRY},
                                    {"pressure", RB_CRACK_PRESSURE},
                                    {NULL, 0}};
 
+static const rb_choice closings[] = {{"position", 0}, {"located", 1}, {NULL, 0}};
 static const rb_choice ranges[] = {
     {"mixed", RB_CRACK_MIXED}, {"mode-II", RB_CRACK_MODE_II}, {NULL, 0}};
 static const rb_choice directions[] = {{"coplanar", 0}, {"tension", 1}, {NULL, 0}};
@@ -54,6 +55,10 @@ const rb_option rb_case_crack_options[] = {
     RB_CHOICE_LINE("fluid", PLACE(fluid), fluids,
                    "in the crack: none, trapped where its mouth closes "
                    "(incompressible), or the pressure of the contact at its mouth"),
+    RB_CHOICE_LINE("closing", PLACE(locate_closing), closings,
+                   "trapped fluid: its volume is that of the last position with an open "
+                   "mouth (Bower), or that of the place between two positions where the "
+                   "mouth closes"),
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
                    "uniform stress in B along the surface, tension > 0"),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
@@ -291,6 +296,8 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
         return rb_fail(why, RB_EINVAL,
                        "--fluid: enters at the mouth, which a crack with --crack-depth "
                        "does not have");
+    if (k->locate_closing && k->fluid != RB_CRACK_TRAPPED)
+        return rb_fail(why, RB_EINVAL, "--closing located: only for --fluid trapped");
     if (k->unloaded && k->coupled)
         return rb_fail(why, RB_EINVAL, "--unloaded and --coupled exclude each other");
     if (k->unloaded && k->remote_stress == 0.0)
@@ -456,6 +463,11 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
              "Positions are %.3g half-widths apart; the extremes of K lie between them "
              "(take at most 0.1, --steps).",
              step);
+    if (k->fluid == RB_CRACK_TRAPPED && !k->locate_closing)
+        note(r,
+             "The volume of the trapped fluid is that of the last position with an open "
+             "mouth, and depends on the positions; --closing located does not.",
+             0.0);
     if (!c->rc.elastic_b)
         note(r,
              "Body B is rigid for the contact: K are the limits of a body that is much "
@@ -522,6 +534,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
                                           .load = t.load,
                                           .passes = k->unloaded ? 1 : k->passes,
                                           .fluid = (rb_crack_fluid)k->fluid,
+                                          .locate_closing = k->locate_closing,
                                           .tension = k->remote_stress,
                                           .wheel = k->coupled ? &wheel : NULL};
         r->passes = passage.passes;

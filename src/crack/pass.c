@@ -384,7 +384,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         double max_pressure = 0.0;
         int solved = 0;
         rb_message reason = {""};
-        if (p->fluid == RB_CRACK_TRAPPED && step > 0 &&
+        if (p->fluid == RB_CRACK_TRAPPED && p->locate_closing && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
             s = approach_closing(c, p, step, scale, T, &state, &solved, &reason);
         if (s == RB_OK && !solved)
