@@ -517,6 +517,8 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         /* of plane stress: the same kappa */
         .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson)
                                                   : b->poisson};
+    if (s == RB_OK && k->coupled)
+        s = rb_rolling_model_add_matrix(&r->contact.model, why);
     if (s == RB_OK)
         s = rb_crack_create(&r->shape, &crack, why);
     if (s == RB_OK) {
