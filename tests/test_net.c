@@ -427,10 +427,10 @@ static const conflict conflicts[] = {
     /* a search for the force and an iteration for each creepage */
     {{"law!constant", "size=transforms", "tangential!creep"}, NULL},
     {{"law!constant", "solver=cone"}, NULL},
-    {{"irregularity=flat", "regime=static"}, "of transient rolling only"},
-    {{"irregularity=flat", "regime=steady"}, "of transient rolling only"},
-    {{"irregularity=flat", "regime=increments"}, "of transient rolling only"},
-    {{"irregularity=flat", "regime=static-history"}, "of transient rolling only"},
+    {{"irregularity=flat", "regime=static"}, "only for transient rolling"},
+    {{"irregularity=flat", "regime=steady"}, "only for transient rolling"},
+    {{"irregularity=flat", "regime=increments"}, "only for transient rolling"},
+    {{"irregularity=flat", "regime=static-history"}, "only for transient rolling"},
     {{"tangential=free-axle", "regime!steady"}, "of steady rolling only"},
     {{"tangential=free-axle", "mu=0"}, "only friction turns it"},
     {{"heat!none", "surface=relaxing"}, NULL}, /* two speeds */
