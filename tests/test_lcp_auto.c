@@ -190,7 +190,7 @@ static void options_reach_the_methods(void **state)
     CHECK_STATUS(rb_lcp_solve("auto", &box, &opt, z, &info), RB_OK);
     assert_string_equal(info.solver, "lemke-sparse");
     CHECK_STATUS(rb_lcp_solve("newton", &box, &opt, z, &info), RB_EINVAL);
-    assert_non_null(strstr(info.msg.text, "boxes"));
+    assert_non_null(strstr(info.msg.text, "bounds"));
     CHECK_STATUS(rb_lcp_solve("simplex", &p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "expected auto, lemke"));
     CHECK_STATUS(rb_lcp_solve("auto", &p, NULL, z, NULL), RB_OK);

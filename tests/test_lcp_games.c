@@ -398,7 +398,7 @@ static void bad_input_is_named(void **state)
     CHECK_STATUS(
         rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, &all, &why),
         RB_EINVAL);
-    assert_non_null(strstr(why.text, "box 1 is [1, 0]"));
+    assert_non_null(strstr(why.text, "bounds 1 are [1, 0]"));
     CHECK_STATUS(
         rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, &all, &why),
         RB_EINVAL);

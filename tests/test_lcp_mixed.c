@@ -756,7 +756,7 @@ static void bad_input_is_named(void **state)
     p.lower[1] = 2.0;
     p.upper[1] = 1.0;
     CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
-    assert_non_null(strstr(info.msg.text, "box 2 is [2, 1]"));
+    assert_non_null(strstr(info.msg.text, "bounds 2 are [2, 1]"));
     p.lower[1] = INFINITY;
     p.upper[1] = INFINITY;
     CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
