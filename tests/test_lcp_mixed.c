@@ -763,7 +763,7 @@ static void bad_input_is_named(void **state)
     p.lower[1] = -INFINITY;
     p.upper[1] = -INFINITY;
     CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
-    assert_non_null(strstr(info.msg.text, "box 2 is [-inf, -inf]"));
+    assert_non_null(strstr(info.msg.text, "bounds 2 are [-inf, -inf]"));
     no_boxes(&p);
     opt.max_iters = -1;
     CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
