@@ -293,7 +293,7 @@ static const struct {
 } forms[] = {{"man", print_man},           {"results", print_results},
              {"markdown", print_markdown}, {"bash", bash_command},
              {"zsh", zsh_command},         {"fish", fish_command},
-             {"search", cli_find_options}};
+             {"search", cli_find_options}, {"holder", cli_find_holder}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
 

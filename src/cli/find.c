@@ -150,6 +150,56 @@ void cli_find_options(const cli_spec *spec)
     }
 }
 
+/* ---- Commands that have an option -------------------------------------------------- */
+
+enum { SHOWN = 3 };
+
+static struct {
+    const char *name;
+    size_t length;
+    int n;
+    char commands[200]; /* the first SHOWN */
+} wanted;
+
+void cli_find_holder(const cli_spec *spec)
+{
+    char command[24] = "";
+    sscanf(spec->synopsis, "rollbem %23[a-z]", command);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const rb_option *o = &spec->sets[s].options[i];
+            if (o->kind != RB_OPTION_GROUP && strlen(o->name) == wanted.length &&
+                strncmp(o->name, wanted.name, wanted.length) == 0 && wanted.n++ < SHOWN)
+                rb_append(wanted.commands, sizeof wanted.commands, "%srollbem%s%s",
+                          wanted.n > 1 ? ", " : "", *command ? " " : "", command);
+        }
+}
+
+static void run_commands(const char *form)
+{
+    char describe[40];
+    snprintf(describe, sizeof describe, "--describe=%s", form);
+    for (int k = -1; k < 0 || cli_command_name(k); k++) {
+        char name[24];
+        snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
+        char *words[] = {name, describe, NULL};
+        if (strcmp(name, "help") != 0)
+            cli_run(name, 2, words);
+    }
+}
+
+const char *cli_commands_with(const char *name, size_t length)
+{
+    wanted.name = name;
+    wanted.length = length;
+    wanted.n = 0;
+    *wanted.commands = '\0';
+    run_commands("holder");
+    if (wanted.n > SHOWN)
+        rb_append(wanted.commands, sizeof wanted.commands, " and others");
+    return wanted.commands;
+}
+
 /* ---- Everything else ----------------------------------------------------------------
  */
 
@@ -204,17 +254,10 @@ static void find_everything(const rb_option_set *options)
 {
     find_commands();
     /* Those of all commands, each once; a command shows its own where it is asked to. */
-    static char describe[] = "--describe=search";
     search.title = "Options";
     for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
         search.seen_n = 0;
-        for (int k = -1; k < 0 || cli_command_name(k); k++) {
-            char name[24];
-            snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
-            char *words[] = {name, describe, NULL};
-            if (strcmp(name, "help") != 0)
-                cli_run(name, 2, words);
-        }
+        run_commands("search");
     }
     /* What may have the unit that the one word is. */
     char one[60], text[2000] = "";

@@ -12,4 +12,10 @@ const char *cli_other_name(const char *name, size_t length);
 /* The part of a command, which answers --describe=search by it: its options. */
 void cli_find_options(const cli_spec *spec);
 
+/* The commands that have an option of this name, as "rollbem, rollbem sweep", three at
+ * most; static storage; empty: none has. */
+const char *cli_commands_with(const char *name, size_t length);
+/* Adds the command to them (--describe=holder). */
+void cli_find_holder(const cli_spec *spec);
+
 #endif

@@ -38,6 +38,10 @@ static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv
     const rb_option_set *set =
         rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
     if (!set) {
+        const char *commands = cli_commands_with(name, length);
+        if (*commands)
+            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (it is an option of %s)",
+                            (int)length, name, commands);
         const char *other = cli_other_name(name, length);
         if (other)
             return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
