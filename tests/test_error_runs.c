@@ -45,7 +45,8 @@ static double wanted_bar(const double contact[3], int has_boundary, double bound
 {
     const double most = fmax(contact[0], fmax(contact[1], contact[2]));
     const double least = fmin(contact[0], fmin(contact[1], contact[2]));
-    const int turns = (contact[1] - contact[0]) * (contact[2] - contact[1]) < 0.0;
+    const int turns = (contact[1] - contact[0]) * (contact[2] - contact[1]) <
+                      -1e-6 * (most - least) * (most - least);
     return (turns ? 5.0 : 3.0) * (most - least) +
            (has_boundary ? 2.0 * fabs(contact[2] - boundary) : 0.0);
 }

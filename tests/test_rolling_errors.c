@@ -23,9 +23,13 @@ static rb_rolling_case carter(int elements)
 static void bars_are_three_or_five_times_the_spread(void **state)
 {
     static const double runs[][3] = {
-        {1.0, 1.2, 1.1}, {3.0, 2.0, 1.0}, {2.0, 2.5, 3.0}, {1.0, 1.0, 1.0}};
-    static const double wanted[] = {5.0 * 0.2, 3.0 * 2.0, 3.0 * 1.0, 0.0};
-    for (int k = 0; k < 4; k++) {
+        {1.0, 1.2, 1.1},
+        {3.0, 2.0, 1.0},
+        {2.0, 2.5, 3.0},
+        {1.0, 1.0, 1.0},
+        {1.0, 1.0 - 2e-16, 2.0}}; /* the last turns by rounding alone */
+    static const double wanted[] = {5.0 * 0.2, 3.0 * 2.0, 3.0 * 1.0, 0.0, 3.0 * 1.0};
+    for (int k = 0; k < 5; k++) {
         CHECK_ABS(rb_rolling_contact_error(runs[k], runs[k][2]), wanted[k], 1e-14,
                   "contact %d", k);
         CHECK_ABS(rb_rolling_boundary_error(3, runs[k], 4.0), 2.0 * (4.0 - runs[k][2]),

@@ -1,6 +1,7 @@
 /* Discretisation errors from coarser runs (theory.md 5.1). */
 #include "study/internal.h"
 
+#include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +63,9 @@ double rb_rolling_contact_error(const double coarser[], double own)
 {
     const double most = fmax(own, fmax(coarser[0], coarser[1]));
     const double least = fmin(own, fmin(coarser[0], coarser[1]));
-    const int turns = (coarser[1] - coarser[0]) * (own - coarser[1]) < 0.0;
+    const double first = coarser[1] - coarser[0], second = own - coarser[1];
+    /* equal values differ by rounding, which turns one way or the other */
+    const int turns = first * second < -1e-6 * gsl_pow_2(most - least);
 
     return (turns ? 5.0 : 3.0) * (most - least) +
            0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
