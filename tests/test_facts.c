@@ -1,6 +1,7 @@
 /* Facts that must agree: the same physics asked for in two ways gives the same answer, to
  * the last digit where the arithmetic is the same. */
 #include "cli_run.h"
+#include "rollbem/blas.h"
 #include "rollbem/case.h"
 
 /* ---- Two answers ------------------------------------------------------------------- */
@@ -355,6 +356,8 @@ static void test_library(void **state)
                                            {"creep-ratio", "0.4"},
                                            {"similar", "yes"},
                                            {"contact-elements", "40"}};
+    if (!getenv("OPENBLAS_NUM_THREADS"))
+        rb_blas_threads(1); /* as the program */
     static const char *const held[] = {"halfplane", "hub", "arc"};
     for (int k = 0; k < 3; k++) {
         char line[300];
