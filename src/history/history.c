@@ -44,11 +44,13 @@ typedef struct {
 static double time_of(const history_state *r)
 {
     const double *t = r->program->time;
-    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
 
-    return !t || r->row + r->part == 0 ? 0.0
-           : r->part == 0              ? t[r->row - 1]
-           : r->part == parts
+    if (!t || r->row + r->part == 0)
+        return 0.0;
+    if (r->part == 0) /* the row may be that behind the last one */
+        return t[r->row - 1];
+    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
+    return r->part == parts
                ? t[r->row]
                : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
 }
