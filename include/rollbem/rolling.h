@@ -935,6 +935,10 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
 /* Copies the state and the elements of the model into states; step is counted from 0. */
 void rb_rolling_states_set(const rb_rolling_model *model, int step,
                            rb_rolling_states *states);
+/* Copies tractions, slip, zones, delta and xi of a step into a state of as many elements;
+ * its status becomes RB_OK. */
+void rb_rolling_states_get(const rb_rolling_states *states, int step,
+                           rb_contact_state *state);
 void rb_rolling_states_free(rb_rolling_states *states);
 
 /* Goes through the program of the given states without solving.  After each step the

@@ -360,20 +360,6 @@ static void varied_free(varied *v)
     rb_contact_state_free(&v->tangent);
 }
 
-static void set_state(const rb_rolling_states *states, int step, rb_rolling_model *model)
-{
-    rb_contact_state *to = &model->state;
-    const size_t n = (size_t)states->n, at = (size_t)step * n;
-
-    memcpy(to->p, states->p + at, n * sizeof *to->p);
-    memcpy(to->q, states->q + at, n * sizeof *to->q);
-    memcpy(to->lambda, states->lambda + at, n * sizeof *to->lambda);
-    memcpy(to->zone, states->zone + at, n * sizeof *to->zone);
-    to->delta = states->delta[step];
-    to->xi = states->xi[step];
-    to->status = RB_OK;
-}
-
 /* The equations of the step at the four values change at the state that is there also by
  * what the states before, which have moved, left to them; that gives the tangent along
  * which the state of this step moves. */
@@ -419,7 +405,7 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
     for (int step = 0; step < states->steps && status == RB_OK; step++) {
         rb_sensitivity *s = NULL;
         status = rb_rolling_follower_begin(base, why);
-        set_state(states, step, model);
+        rb_rolling_states_get(states, step, &model->state);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 0, &s, why);
         if (status == RB_OK)

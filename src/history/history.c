@@ -32,6 +32,7 @@ typedef struct {
     rb_rolling_model *model;
     rb_rolling_history *history;
     int steps;    /* in all */
+    int at_rest;  /* of them, before the bodies roll */
     double shift; /* rigid shift so far [length] */
     double *q;    /* n: friction before the step */
     rb_rolling_particles particles;
@@ -145,22 +146,15 @@ static rb_status follow(history_state *r)
 {
     rb_rolling_model *model = r->model;
     rb_contact_state *state = &model->state;
-    const size_t n = (size_t)state->n, at = (size_t)r->history->n * n;
     rb_contact_violation v;
 
-    memcpy(state->p, r->found->p + at, n * sizeof *state->p);
-    memcpy(state->q, r->found->q + at, n * sizeof *state->q);
-    memcpy(state->lambda, r->found->lambda + at, n * sizeof *state->lambda);
-    memcpy(state->zone, r->found->zone + at, n * sizeof *state->zone);
-    state->delta = r->found->delta[r->history->n];
-    state->xi = r->found->xi[r->history->n];
+    rb_rolling_states_get(r->found, r->history->n, state);
     model->half_width =
         rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
     if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
         model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
     const rb_status s = rb_contact_residual(&model->problem, state, &v);
     state->residual = v.scaled;
-    state->status = RB_OK;
     return s;
 }
 
@@ -185,20 +179,10 @@ static rb_status check_force(const history_state *r, const rb_rolling_case *step
     return assess(r, s, &reason, why);
 }
 
-static int steps_at_rest(const history_state *r)
-{
-    const int rows = rb_rolling_program_at_rest(r->program);
-    int steps = 0;
-
-    for (int row = 0; row < rows; row++)
-        steps += rb_rolling_program_parts(r->program, r->rc, row);
-    return steps;
-}
-
 /* The next step is one at rest. */
 static int is_at_rest(const history_state *r)
 {
-    return r->history->n < steps_at_rest(r);
+    return r->history->n < r->at_rest;
 }
 
 /* The problem of a step at rest towards a row of the program: the rigid shift moves the
@@ -254,7 +238,7 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 static rb_status begin_rolled(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const int k = r->history->n, rolled = k - steps_at_rest(r);
+    const int k = r->history->n, rolled = k - r->at_rest;
     const double c = r->history->step, mu_before = model->rc->mu,
                  part = c / r->history->half_width, from = rolled * part;
     const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
@@ -390,12 +374,15 @@ static double half_width(const history_state *r)
  * creepage that is mostly error. */
 static rb_status plan_steps(history_state *r, double *step, rb_message *why)
 {
-    const int at_rest = rb_rolling_program_at_rest(r->program), n = r->program->n;
+    const int rows = rb_rolling_program_at_rest(r->program), n = r->program->n;
     const double unit = r->history->half_width;
-    const double way = at_rest < n ? r->program->distance[n - 1] * unit : 0.0;
+    const double way = rows < n ? r->program->distance[n - 1] * unit : 0.0;
     const double elements = way / rb_rolling_middle_length(r->model);
 
-    r->steps = steps_at_rest(r);
+    r->at_rest = 0;
+    for (int row = 0; row < rows; row++)
+        r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
+    r->steps = r->at_rest;
     *step = 0.0;
     if (way == 0.0)
         return RB_OK;

@@ -48,3 +48,16 @@ void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_s
     s->delta[step] = state->delta;
     s->xi[step] = state->xi;
 }
+
+void rb_rolling_states_get(const rb_rolling_states *s, int step, rb_contact_state *state)
+{
+    const size_t n = (size_t)s->n, at = (size_t)step * n;
+
+    memcpy(state->p, s->p + at, n * sizeof *state->p);
+    memcpy(state->q, s->q + at, n * sizeof *state->q);
+    memcpy(state->lambda, s->lambda + at, n * sizeof *state->lambda);
+    memcpy(state->zone, s->zone + at, n * sizeof *state->zone);
+    state->delta = s->delta[step];
+    state->xi = s->xi[step];
+    state->status = RB_OK;
+}
