@@ -1,8 +1,8 @@
 /* The contact of a wheel that is alike at every angle, from its waves around the
  * circumference (B12), and its fading memory in steady rolling (V8): a particle meets the
  * contact once per turn, so that E averages along the circumference, and waves exp(im
- * theta) of the elastic rb_ring_answer are multiplied by 1/(1 - i m L/R) as those of the
- * half-plane are.  The rb_ring_answer of a wheel is split into that of the half-plane, of
+ * theta) of the elastic answer are multiplied by 1/(1 - i m L/R) as those of the
+ * half-plane are.  The answer of a wheel is split into that of the half-plane, that of
  * the disc over it, both in closed form, and what the inner contour of the wheel changes,
  * which only long waves feel. */
 #include "bem/internal.h"
@@ -185,7 +185,7 @@ static rb_status table_alloc(double reach, double step, table *t)
     return RB_OK;
 }
 
-/* Adds one term of the disc's memory.  From x to pi upstream the disc's rb_ring_answer is
+/* Adds one term of the disc's memory.  From x to pi upstream the disc's answer is
  * the half-plane's and a rest that is linear between the nodes; what lies beyond pi fades
  * as a whole, and one turn brings it back. */
 static void add_disc(const rb_bem_wheel *w, int term, table *t)
@@ -279,12 +279,11 @@ rb_status rb_wheel_kernel_create(const rb_bem_wheel *w, double smallest, double 
                                 &kernel->inner);
 }
 
-rb_status rb_wheel_kernel_of_plane(const rb_bem_surface *plane, rb_wheel_kernel *kernel)
+rb_wheel_kernel rb_wheel_kernel_of_plane(const rb_bem_surface *plane)
 {
-    *kernel = (rb_wheel_kernel){.kappa = 3.0 - 4.0 * plane->material.poisson,
-                                .scale = 1.0 / (4.0 * M_PI * plane->material.shear),
-                                .datum = plane->datum};
-    return RB_OK;
+    return (rb_wheel_kernel){.kappa = 3.0 - 4.0 * plane->material.poisson,
+                             .scale = 1.0 / (4.0 * M_PI * plane->material.shear),
+                             .datum = plane->datum};
 }
 
 void rb_wheel_kernel_free(rb_wheel_kernel *kernel)
@@ -547,7 +546,7 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
                               int points, const double *x, double *w)
 {
     const double R = wheel->radius;
-    rb_wheel_kernel kernel = {.scale = 0.0, .inner.panels = 0};
+    rb_wheel_kernel kernel = {0};
     double shortest = 1.0;
     rb_status s = check_wheel(wheel, NULL);
 

@@ -24,7 +24,7 @@ typedef struct {
 rb_status rb_wheel_kernel_create(const rb_bem_wheel *wheel, double smallest, double reach,
                                  rb_wheel_kernel *kernel);
 /* Of a homogeneous elastic half-plane, x a length: nothing to free. */
-rb_status rb_wheel_kernel_of_plane(const rb_bem_surface *plane, rb_wheel_kernel *kernel);
+rb_wheel_kernel rb_wheel_kernel_of_plane(const rb_bem_surface *plane);
 void rb_wheel_kernel_free(rb_wheel_kernel *kernel);
 /* [length/stress] */
 rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x);

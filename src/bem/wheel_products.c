@@ -23,10 +23,6 @@ typedef struct {
 } spread;
 
 typedef struct {
-    double N, T, C;
-} block;
-
-typedef struct {
     int n, m, steps;
     rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a half-plane */
     rb_bem_surface plane; /* the same */
@@ -37,7 +33,7 @@ typedef struct {
     spread *to;      /* m midpoints */
     int *near_first; /* m + 1: pairs of a midpoint in `near` */
     int *near_end;   /* m: the first end of them */
-    block *near;
+    rb_ring_answer *near;
     rb_fourier fourier;
     fftw_complex *kernel[3];
     double *work[2], *charge; /* charge: 2 (n + 1) */
@@ -161,26 +157,20 @@ static spread spread_at(double place)
     return at;
 }
 
-static block kernel_at(const rb_wheel_kernel *kernel, double x)
-{
-    const rb_ring_answer at = rb_wheel_kernel_at(kernel, x);
-    return (block){at.N, at.T, at.C};
-}
-
 enum { WINDOW = 2 * NEAR + 2 * ORDER };
 
 /* What a charge at each step of a window makes of midpoint i; the window begins at step
  * `first`. */
-static void from_steps(const products *o, const block *on_steps, int i, int first,
-                       block window[WINDOW])
+static void from_steps(const products *o, const rb_ring_answer *on_steps, int i,
+                       int first, rb_ring_answer window[WINDOW])
 {
     for (int k = 0; k < WINDOW; k++) {
-        block sum = {0.0, 0.0, 0.0};
+        rb_ring_answer sum = {0.0, 0.0, 0.0};
         const int apart = o->to[i].first - first - k;
         if (apart < -o->steps || apart + ORDER > o->steps)
             continue; /* beyond all charges */
         for (int a = 0; a < ORDER; a++) {
-            const block *at = on_steps + o->steps + apart + a;
+            const rb_ring_answer *at = on_steps + o->steps + apart + a;
             sum.N += o->to[i].weight[a] * at->N;
             sum.T += o->to[i].weight[a] * at->T;
             sum.C += o->to[i].weight[a] * at->C;
@@ -191,11 +181,11 @@ static void from_steps(const products *o, const block *on_steps, int i, int firs
 
 /* The pairs closer than NEAR steps. */
 static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
-                              const block *on_steps, const double *end,
+                              const rb_ring_answer *on_steps, const double *end,
                               const double *middle, double step)
 {
     const double reach = NEAR * step;
-    block window[WINDOW] = {{0.0, 0.0, 0.0}};
+    rb_ring_answer window[WINDOW] = {{0.0, 0.0, 0.0}};
     int low = 0, high = 0;
 
     for (int pass = 0; pass < 2; pass++) {
@@ -211,8 +201,8 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
             if (pass == 1 && low < high)
                 from_steps(o, on_steps, i, o->from[low].first, window);
             for (int j = low; j < high && pass == 1; j++) {
-                const block *at = window + o->from[j].first - o->from[low].first;
-                block own = kernel_at(kernel, middle[i] - end[j]);
+                const rb_ring_answer *at = window + o->from[j].first - o->from[low].first;
+                rb_ring_answer own = rb_wheel_kernel_at(kernel, middle[i] - end[j]);
                 for (int b = 0; b < ORDER; b++) {
                     own.N -= o->from[j].weight[b] * at[b].N;
                     own.T -= o->from[j].weight[b] * at[b].T;
@@ -230,7 +220,7 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
 }
 
 /* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
-static void transform_kernel(products *o, const block *on_steps)
+static void transform_kernel(products *o, const rb_ring_answer *on_steps)
 {
     const int size = o->fourier.size;
 
@@ -238,7 +228,7 @@ static void transform_kernel(products *o, const block *on_steps)
         double *x = o->work[0];
         memset(x, 0, (size_t)(size + 2) * sizeof *x);
         for (int k = 1 - o->steps; k < o->steps; k++) {
-            const block *at = on_steps + o->steps + k;
+            const rb_ring_answer *at = on_steps + o->steps + k;
             x[k < 0 ? size + k : k] = (c == 0 ? at->N : c == 1 ? at->T : at->C) / size;
         }
         fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
@@ -250,17 +240,17 @@ static rb_status set_tables(products *o, const double *angles, double step)
 {
     const double *middle = angles, *end = angles + o->m;
     const double first = end[0] - ORDER * step;
-    rb_wheel_kernel kernel;
-    block *on_steps = calloc(2 * (size_t)o->steps + 1, sizeof *on_steps);
+    rb_wheel_kernel kernel = {0};
+    rb_ring_answer *on_steps = calloc(2 * (size_t)o->steps + 1, sizeof *on_steps);
     rb_status s = on_steps ? RB_OK : RB_ENOMEM;
 
     double smallest = 0.25 * step;
     for (int j = 0; j < o->n; j++)
         smallest = fmin(smallest, 0.25 * (end[j + 1] - end[j]));
-    if (s == RB_OK)
-        s = o->wheel.radius > 0.0 ? rb_wheel_kernel_create(&o->wheel, smallest,
-                                                           (o->steps + 1) * step, &kernel)
-                                  : rb_wheel_kernel_of_plane(&o->plane, &kernel);
+    if (s == RB_OK && o->wheel.radius > 0.0)
+        s = rb_wheel_kernel_create(&o->wheel, smallest, (o->steps + 1) * step, &kernel);
+    else if (s == RB_OK)
+        kernel = rb_wheel_kernel_of_plane(&o->plane);
     if (s == RB_OK) {
         for (int j = 0; j <= o->n; j++)
             o->from[j] = spread_at((end[j] - first) / step);
@@ -270,7 +260,7 @@ static rb_status set_tables(products *o, const double *angles, double step)
             o->place[o->m + i] = sin(middle[i]);
         }
         for (int k = -o->steps; k <= o->steps; k++)
-            on_steps[o->steps + k] = kernel_at(&kernel, k * step);
+            on_steps[o->steps + k] = rb_wheel_kernel_at(&kernel, k * step);
         transform_kernel(o, on_steps);
         s = correct_near(o, &kernel, on_steps, end, middle, step);
         rb_wheel_kernel_free(&kernel);
