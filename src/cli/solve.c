@@ -228,7 +228,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
             s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation,
                                   why);
         if (s != RB_OK) /* the case has its solution, and nothing beside it */
-            it->derivatives = it->tolerance = NULL;
+            drop_derivatives(it);
         rb_rolling_solution_convert(&it->shown.deviation, run->c->units);
         rb_case_derivatives_convert(&it->slopes, run->c->units);
         it->shown.all = &it->slopes;
