@@ -1,37 +1,16 @@
 /* Derivatives of solutions: against central differences of solved cases on the same
  * elements with the same zones, forward against adjoint, Carter's slopes, both sides of a
  * border. */
-#include "check.h"
+#include "case_words.h"
 
 #include "rollbem/rollbem.h"
 
 #include <string.h>
 
-enum { WORDS = 32 };
-
-typedef struct {
-    const char *word[WORDS]; /* name, value, name, value, ..., NULL */
-} words;
-
-static rb_case *case_of(const words *w, const char *name, double value)
-{
-    rb_message why = {""};
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    assert_non_null(c);
-    for (int k = 0; w->word[k]; k += 2)
-        if (rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
-            fail_msg("%s", why.text);
-    if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    if (rb_case_resolve(c, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return c;
-}
-
 static rb_case *solved(const words *w, const char *name, double value, rb_case_result *r)
 {
     rb_message why = {""};
-    rb_case *c = case_of(w, name, value);
+    rb_case *c = case_of(RB_CASE_SINGLE, w, name, value);
     if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &why) != RB_OK)
         fail_msg("%s", why.text);
     return c;

@@ -1,30 +1,9 @@
 /* Derivatives against differences of solved problems: of histories, of single cases on
  * elements that move; those of curves against those of single cases. */
+#include "case_words.h"
 #include "differences.h"
 
 #include <string.h>
-
-enum { WORDS = 32 };
-
-typedef struct {
-    const char *word[WORDS]; /* name, value, name, value, ..., NULL */
-} words;
-
-static rb_case *case_of(rb_case_purpose purpose, const words *w, const char *name,
-                        double value)
-{
-    rb_message why = {""};
-    rb_case *c = rb_case_create(purpose);
-    assert_non_null(c);
-    for (int k = 0; w->word[k]; k += 2)
-        if (rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
-            fail_msg("%s", why.text);
-    if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    if (rb_case_resolve(c, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return c;
-}
 
 /* ---- Histories --------------------------------------------------------------------- */
 
