@@ -212,13 +212,12 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
                        : CLI_CONTINUE;
         }
     /* With the results that there are, where none is similar. */
-    const study_tables of = tables_of(st);
     const char *near = rb_guess_text(&guess, bar ? "error_" : "");
     char all[3000] = "";
     for (int t = 0; t < 2 && !*near; t++)
-        for (int k = 0; k < of.table[t]->n; k++)
+        for (int k = 0; k < from.table[t]->n; k++)
             rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
-                      of.table[t]->row[k].name);
+                      from.table[t]->row[k].name);
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
 }
 
