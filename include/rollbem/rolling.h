@@ -777,18 +777,20 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
                                    rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
-/* A variant that is also solved, starting from the zones of the model. */
+/* A variant that is also solved, from the zones and friction coefficients of the state
+ * `start` (NULL: the model's). */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   const rb_contact_state *start,
                                    rb_rolling_model *variant, rb_message *why);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */
 rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of,
                                          rb_rolling_model *variant, rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
-/* Sets p, q, delta and xi of the variant to those of the model plus `part` times those of
- * `along` (NULL: 0). */
-void rb_rolling_variant_set(const rb_rolling_model *of, const rb_contact_state *along,
-                            double part, rb_rolling_model *variant);
+/* Sets the state of a variant to that of its model plus `part` times `along` (NULL: 0):
+ * p, q, delta and xi; zones are the model's. */
+void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *along,
+                            double part, rb_contact_state *variant);
 /* Computes from them slip (0 in stick), friction coefficients and Hertz's half-width of
  * the variant. */
 rb_status rb_rolling_variant_complete(rb_rolling_model *variant, rb_message *why);

@@ -6,15 +6,37 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <lapacke.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 100 };
+/* A second round has the elements of the first one's result, if they are others. */
+enum { STEPS = 100, ROUNDS = 2 };
 /* The least and the largest of a coefficient of friction and its fall. */
 static const double LEAST_MU = 0.01, MOST_MU = 3.0;
 /* A correlation that is worth a word. */
 static const double CORRELATED = 0.95;
+
+/* A measured point.  Points that share elements have these and their flexibility from
+ * the first of them. */
+typedef struct {
+    int first;              /* number of the point with the elements */
+    rb_rolling_model base;  /* with the elements, if it is this one */
+    rb_rolling_model now;   /* solved with the present numbers: a variant of the base, or
+                               of `now` of the first point */
+    rb_contact_state start; /* its last solution; p NULL: none yet */
+} point;
+
+/* A case with number `varied` (-1: none) changed to `value`, as it was resolved for a
+ * point. */
+typedef struct {
+    int varied, point;
+    double value;
+    rb_rolling_case rc;
+} resolved;
+
+enum { RESOLVED_MAX = (RB_SENSITIVITY_PLACES + 1) * RB_CASE_FIT_MAX + 1 };
 
 typedef struct {
     const rb_case *c;
@@ -22,9 +44,11 @@ typedef struct {
     rb_case_fit *fit;
     int n, points, offset; /* parameters; which one is the offset of creepage, or -1 */
     const rb_option *option[RB_CASE_FIT_MAX], *creep, *load, *speed, *temperature;
-    rb_rolling_model *base; /* points: of the elements of each; state.p NULL: none yet */
-    double *f, *J;          /* points; points x n: residuals and their derivatives */
-    double kappa;           /* the largest of all points */
+    point *at;       /* points */
+    resolved *known; /* RESOLVED_MAX: cases with the present numbers */
+    int known_n;
+    double *f, *J; /* points; points x n: residuals and their derivatives */
+    double kappa;  /* the largest of all points */
 } problem;
 
 /* GSL's header of BLAS and OpenBLAS's exclude each other. */
@@ -47,31 +71,33 @@ static const double *column(const problem *p, int j)
 
 /* A point with its parameters; number `varied` (-1: none) has another value. */
 typedef struct {
-    const problem *p;
+    problem *p;
     const double *theta;
     int point, varied;
 } place;
 
-static rb_status case_at(void *context, double value, rb_rolling_case *rc,
+/* 1: both points differ by the creepage alone. */
+static int are_alike(const rb_case_data *d, int i, int j)
+{
+    return (!d->load || d->load[i] == d->load[j]) &&
+           (!d->speed || d->speed[i] == d->speed[j]) &&
+           (!d->temperature || d->temperature[i] == d->temperature[j]);
+}
+
+static rb_status resolve(const place *at, double value, rb_rolling_case *rc,
                          rb_message *why)
 {
-    const place *at = context;
     const problem *p = at->p;
     const rb_case_data *d = p->data;
     rb_case *copy = rb_case_copy(p->c);
-    double creep = d->creep[at->point];
 
     if (!copy)
         return rb_fail(why, RB_ENOMEM, "out of memory for a case");
     copy->purpose = RB_CASE_SINGLE;
-    for (int j = 0; j < p->n; j++) {
-        const double x = j == at->varied ? value : at->theta[j];
-        if (j == p->offset)
-            creep += x;
-        else
-            rb_case_assign(copy, p->option[j], x);
-    }
-    rb_case_assign(copy, p->creep, creep);
+    for (int j = 0; j < p->n; j++)
+        if (j != p->offset)
+            rb_case_assign(copy, p->option[j], j == at->varied ? value : at->theta[j]);
+    rb_case_assign(copy, p->creep, d->creep[at->point]);
     if (d->load)
         rb_case_assign(copy, p->load, d->load[at->point]);
     if (d->speed)
@@ -82,6 +108,33 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc,
     if (s == RB_OK)
         *rc = copy->resolved.rc;
     rb_case_free(copy);
+    return s;
+}
+
+/* The case of a point: options are resolved once for all that are alike. */
+static rb_status case_at(void *context, double value, rb_rolling_case *rc,
+                         rb_message *why)
+{
+    const place *at = context;
+    problem *p = at->p;
+    const int of_creep = at->varied == p->offset, varied = of_creep ? -1 : at->varied;
+    const double x = varied < 0 ? 0.0 : value;
+    const resolved *known = p->known;
+    rb_status s = RB_OK;
+
+    while (known < p->known + p->known_n &&
+           !(known->varied == varied && known->value == x &&
+             are_alike(p->data, known->point, at->point)))
+        known++;
+    if (known < p->known + p->known_n)
+        *rc = known->rc;
+    else
+        s = resolve(at, value, rc, why);
+    if (s == RB_OK && known == p->known + p->known_n && p->known_n < RESOLVED_MAX)
+        p->known[p->known_n++] = (resolved){varied, at->point, x, *rc};
+    const double offset = p->offset < 0 ? 0.0 : of_creep ? value : at->theta[p->offset];
+    *(double *)(void *)((char *)rc + p->creep->offset - offsetof(rb_resolved_case, rc)) =
+        p->data->creep[at->point] + offset;
     return s;
 }
 
@@ -98,10 +151,10 @@ static double measure(const problem *p, const rb_rolling_model *model)
 
 /* The derivatives of the force at a solved point with respect to all parameters: one
  * adjoint solve. */
-static rb_status differentiate(const problem *p, const double *theta, int point,
-                               const rb_rolling_model *model, double *row,
+static rb_status differentiate(problem *p, const double *theta, int k, double *row,
                                rb_message *why)
 {
+    const rb_rolling_model *model = &p->at[k].now;
     const rb_contact_problem *q = &model->problem;
     const double P = rb_contact_load(q, &model->state), f = measure(p, model);
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
@@ -126,7 +179,7 @@ static rb_status differentiate(const problem *p, const double *theta, int point,
         status = rb_sensitivity_adjoint(s, &weight, &adjoint, why);
     for (int j = 0; j < p->n && status == RB_OK; j++) {
         const rb_case_parameter *of = &p->fit->parameter[j];
-        place at = {p, theta, point, j};
+        place at = {p, theta, k, j};
         const rb_sensitivity_input input = {theta[j], of->scale, of->from,
                                             of->to,   case_at,   &at};
         double mu_rate = 0.0;
@@ -142,39 +195,47 @@ static rb_status differentiate(const problem *p, const double *theta, int point,
     return status;
 }
 
-/* The residual of a point and its row of derivatives (NULL: not wanted). */
-static rb_status evaluate_point(problem *p, const double *theta, int k, double *row,
-                                rb_message *why)
+/* Solves a point; the first of those that share elements makes the flexibility.  A point
+ * that was not solved before starts from the solution of the one before it. */
+static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k,
+                             rb_message *why)
+{
+    point *at = &p->at[k];
+    const rb_rolling_model *of = at->first == k ? &at->base : &p->at[at->first].now;
+    const point *before = k > 0 && p->at[k - 1].first == at->first ? at - 1 : at;
+    const rb_contact_state *start = at->start.p ? &at->start : &before->start;
+    rb_status s =
+        rb_rolling_variant_solve(of, rc, start->p ? start : NULL, &at->now, why);
+
+    if (s == RB_OK && !at->start.p)
+        s = rb_contact_state_alloc(at->now.mesh.n, &at->start);
+    if (s == RB_OK)
+        rb_rolling_variant_set(&at->now.state, NULL, 0.0, &at->start);
+    return s;
+}
+
+/* The residual of a point and its row of derivatives. */
+static rb_status evaluate_point(problem *p, const double *theta, int k, rb_message *why)
 {
     const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
     place at = {p, theta, k, -1};
+    double row[RB_CASE_FIT_MAX], kappa = NAN;
     rb_rolling_case rc;
-    rb_rolling_model varied = {.mesh = {.n = 0}}, *base = &p->base[k], *model = base;
     rb_status s = case_at(&at, 0.0, &rc, why);
 
-    if (s == RB_OK && !base->state.p) {
-        s = rb_rolling_model_create(&rc, base, why);
-    } else if (s == RB_OK) {
-        model = &varied;
-        s = rb_rolling_variant_solve(base, &rc, &varied, why);
-    }
+    if (s == RB_OK)
+        s = solve_point(p, &rc, k, why);
     if (s == RB_OK) {
-        double kappa = NAN;
-        p->f[k] = (measure(p, model) - p->data->force[k]) / sigma;
-        p->fit->model[k] = measure(p, model);
+        p->fit->model[k] = measure(p, &p->at[k].now);
+        p->f[k] = (p->fit->model[k] - p->data->force[k]) / sigma;
         if (rb_rolling_law_depends_on_state(&rc))
-            s = rb_rolling_law_kappa(model, &kappa);
+            s = rb_rolling_law_kappa(&p->at[k].now, &kappa);
         p->kappa = fmax(p->kappa, kappa);
     }
-    if (s == RB_OK && row)
-        s = differentiate(p, theta, k, model, row, why);
-    for (int j = 0; j < p->n && s == RB_OK && row; j++)
+    if (s == RB_OK)
+        s = differentiate(p, theta, k, row, why);
+    for (int j = 0; j < p->n && s == RB_OK; j++)
         p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma;
-    if (s == RB_OK && row && model != base) /* the next one begins with its zones */
-        rb_rolling_variant_set(model, NULL, 0.0, base);
-    if (s != RB_OK && model == base)
-        rb_rolling_model_free(base);
-    rb_rolling_variant_free(base, &varied);
     return s;
 }
 
@@ -182,14 +243,65 @@ static rb_status evaluate_point(problem *p, const double *theta, int k, double *
 static rb_status evaluate(problem *p, const double *theta, int is_trial, double *chi2,
                           rb_message *why)
 {
-    double row[RB_CASE_FIT_MAX];
     rb_status s = RB_OK;
 
     p->kappa = 0.0;
+    p->known_n = 0;
     for (int k = 0; k < p->points && s == RB_OK; k++)
-        s = evaluate_point(p, theta, k, row, why);
+        s = evaluate_point(p, theta, k, why);
+    for (int k = p->points - 1; k >= 0; k--) {
+        point *at = &p->at[k];
+        rb_rolling_variant_free(at->first == k ? &at->base : &p->at[at->first].now,
+                                &at->now);
+    }
     *chi2 = s == RB_OK ? dot(p->points, p->f, p->f) : INFINITY;
     return s != RB_ENOMEM && is_trial ? RB_OK : s;
+}
+
+/* Friction of similar bodies does not change the pressure: then the edges of the contact
+ * do not depend on the creepage. */
+static int shares_elements(const problem *p, int k, int with)
+{
+    const point *first = &p->at[with];
+    const rb_contact_problem *q = &first->base.problem;
+
+    return first->first == with && are_alike(p->data, k, with) &&
+           !rb_contact_operator_response(q->op).coupled &&
+           rb_norm_inf((size_t)q->n, q->load_T) == 0.0;
+}
+
+/* Makes the elements of all points for the numbers theta.  *moved: 1: some are others
+ * than before. */
+static rb_status place_elements(problem *p, const double *theta, int *moved,
+                                rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    *moved = 0;
+    p->known_n = 0;
+    for (int k = 0; k < p->points && s == RB_OK; k++) {
+        point *of = &p->at[k];
+        place at = {p, theta, k, -1};
+        rb_rolling_case rc;
+        rb_rolling_model fresh = {.mesh = {.n = 0}};
+
+        of->first = 0;
+        while (of->first < k && !shares_elements(p, k, of->first))
+            of->first++;
+        s = of->first < k ? RB_OK : case_at(&at, 0.0, &rc, why);
+        if (s == RB_OK && of->first == k)
+            s = rb_rolling_model_create(&rc, &fresh, why);
+        const rb_rolling_mesh *old = &of->base.mesh, *mesh = &fresh.mesh;
+        if (of->first == k && s == RB_OK)
+            *moved |= old->n != mesh->n ||
+                      memcmp(old->ends, mesh->ends,
+                             ((size_t)mesh->n + 1) * sizeof *mesh->ends) != 0;
+        rb_rolling_model_free(&of->base);
+        of->base = fresh;
+        if (of->start.p && of->start.n != p->at[of->first].base.mesh.n)
+            rb_contact_state_free(&of->start);
+    }
+    return s;
 }
 
 /* ---- Levenberg and Marquardt
@@ -631,20 +743,6 @@ static int falls_unidentified(const rb_case_fit *fit)
     return found;
 }
 
-/* A second round has the elements of the first one's result. */
-static rb_status fit_rounds(problem *p, double *theta,
-                            const rb_case_fit_observer *observer, rb_message *why)
-{
-    rb_status s = RB_OK;
-
-    for (int round = 0; round < 2 && s == RB_OK; round++) {
-        for (int k = 0; k < p->points; k++)
-            rb_rolling_model_free(&p->base[k]);
-        s = descend(p, theta, observer, why);
-    }
-    return s;
-}
-
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                             const rb_case_fit_observer *observer, rb_case_fit *fit,
                             rb_message *why)
@@ -661,18 +759,20 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                  .speed = rb_case_option("speed"),
                  .temperature = rb_case_option("temperature")};
     double theta[RB_CASE_FIT_MAX];
+    int moved = 1;
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
         return rb_fail(why, RB_EINVAL,
                        "--fit: %d points are not enough for %d parameters", data->n,
                        fit->n);
-    p.base = calloc(points, sizeof *p.base);
+    p.at = calloc(points, sizeof *p.at);
+    p.known = calloc(RESOLVED_MAX, sizeof *p.known);
     p.f = rb_alloc(points, 1);
     p.J = rb_alloc(points, (size_t)fit->n);
     fit->model = rb_alloc(points, 1);
     fit->band = rb_alloc(points, 1);
-    if (!p.base || !p.f || !p.J || !fit->model || !fit->band)
+    if (!p.at || !p.known || !p.f || !p.J || !fit->model || !fit->band)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a fit of %d points", data->n);
     for (int j = 0; j < fit->n && s == RB_OK; j++) {
         s = set_parameter(&p, j, why);
@@ -682,7 +782,12 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         s = rb_fail(why, RB_EINVAL,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
     if (s == RB_OK)
-        s = fit_rounds(&p, theta, observer, why);
+        s = place_elements(&p, theta, &moved, why);
+    for (int round = 0; round < ROUNDS && s == RB_OK && moved; round++) {
+        s = descend(&p, theta, observer, why);
+        if (s == RB_OK && round + 1 < ROUNDS)
+            s = place_elements(&p, theta, &moved, why);
+    }
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
     fit->kappa = p.kappa;
@@ -696,9 +801,12 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             "several solutions; give friction a memory (--memory), or fit that too",
             p.kappa);
     fit->status = s;
-    for (size_t k = 0; p.base && k < points; k++)
-        rb_rolling_model_free(&p.base[k]);
-    free(p.base);
+    for (size_t k = 0; p.at && k < points; k++) {
+        rb_rolling_model_free(&p.at[k].base);
+        rb_contact_state_free(&p.at[k].start);
+    }
+    free(p.at);
+    free(p.known);
     free(p.f);
     free(p.J);
     return s;

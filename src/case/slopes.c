@@ -378,7 +378,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
     v->rate.normal = v->rate.tangential = 0.0;
     for (int k = 0; k < v->of.n && status == RB_OK; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
-        rb_rolling_variant_set(base, NULL, 0.0, at);
+        rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
         status = rb_rolling_variant_complete(at, why);
         rb_sensitivity_residual(base, at, &left);
         rb_sensitivity_rate_add(&left, v->of.weight[k] / v->step, &v->rate);
@@ -388,7 +388,8 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
     for (int k = 0; k < v->of.n && status == RB_OK; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
-        rb_rolling_variant_set(base, &v->tangent, v->of.place[k] * v->step, at);
+        rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step,
+                               &at->state);
         status = rb_rolling_variant_complete(at, why);
         if (status == RB_OK)
             rb_rolling_follower_end(v->at[k]);

@@ -239,7 +239,8 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
     rb_status s = RB_OK;
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
-        rb_rolling_variant_set(v->base, tangent, v->at.place[k] * v->step, &v->model[k]);
+        rb_rolling_variant_set(&v->base->state, tangent, v->at.place[k] * v->step,
+                               &v->model[k].state);
         s = rb_rolling_variant_complete(&v->model[k], why);
         if (s == RB_OK)
             s = rb_rolling_model_solution(&v->model[k], &moved[k], why);
