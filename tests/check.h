@@ -17,6 +17,49 @@
 /* cmocka hands every test a state, which hardly any of them looks at. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
+/* A test: TEST(what_it_claims) { ... }.  They run in the order of the file. */
+#define TEST(name) TEST_WITH(NULL, NULL, name)
+/* The same with what is done before it and behind it. */
+#define TEST_WITH(before, behind, name)                                                  \
+    static void name(void **state);                                                      \
+    __attribute__((constructor)) static void add_##name(void)                            \
+    {                                                                                    \
+        const struct CMUnitTest test = {#name, name, before, behind, NULL};              \
+        add_test_(__LINE__, &test);                                                      \
+    }                                                                                    \
+    static void name(void **state)
+/* At the end of the file: main, with what is done before all of them and behind them. */
+#define RUN_TESTS(before, behind)                                                        \
+    int main(void)                                                                       \
+    {                                                                                    \
+        return run_all_tests(before, behind);                                            \
+    }
+
+static struct {
+    int count, line[100];
+    struct CMUnitTest test[100];
+} all_tests_;
+
+/* By lines: the order in which constructors run is the compiler's. */
+static inline void add_test_(int line, const struct CMUnitTest *test)
+{
+    int k = all_tests_.count++;
+    if (k == 100)
+        abort();
+    for (; k > 0 && all_tests_.line[k - 1] > line; k--) {
+        all_tests_.line[k] = all_tests_.line[k - 1];
+        all_tests_.test[k] = all_tests_.test[k - 1];
+    }
+    all_tests_.line[k] = line;
+    all_tests_.test[k] = *test;
+}
+
+static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
+{
+    return _cmocka_run_group_tests("tests", all_tests_.test, (size_t)all_tests_.count,
+                                   before, behind);
+}
+
 /* |got - want| <= tol; the rest is a printf format naming the case. */
 #define CHECK_ABS(got, want, tol, ...)                                                   \
     check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)

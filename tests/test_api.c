@@ -41,7 +41,7 @@ static const char *const steady[] = {
     "similar",     "yes",    "load",    "500",       "mu",        "0.3",
     "creep-ratio", "0.5",    "mesh",    "uniform",   NULL};
 
-static void descriptions_are_complete(void **state)
+TEST(descriptions_are_complete)
 {
     static const char *const fields[] = {"name",     "section", "kind",     "unit",
                                          "expected", "from",    "to",       "choices",
@@ -66,7 +66,7 @@ static void descriptions_are_complete(void **state)
 }
 
 /* A caller that does not look at the status of each call must not get another case. */
-static void what_was_refused_is_not_solved(void **state)
+TEST(what_was_refused_is_not_solved)
 {
     rb_api *a = rb_api_create();
     const char *const wrong[][2] = {
@@ -101,7 +101,7 @@ static void what_was_refused_is_not_solved(void **state)
     rb_api_free(a);
 }
 
-static void refusals_are_those_of_the_case(void **state)
+TEST(refusals_are_those_of_the_case)
 {
     rb_api *a = rb_api_create();
     char text[40];
@@ -121,7 +121,7 @@ static void refusals_are_those_of_the_case(void **state)
     rb_api_free(NULL);
 }
 
-static void numbers_are_the_solution(void **state)
+TEST(numbers_are_the_solution)
 {
     rb_api *a = solved(steady);
     const int n = 60;
@@ -152,7 +152,7 @@ static void numbers_are_the_solution(void **state)
 
 /* What is kept from solve to solve changes no bit, and other bodies are never mixed up.
  */
-static void the_next_case_is_solved_as_the_first_one(void **state)
+TEST(the_next_case_is_solved_as_the_first_one)
 {
     static const char *const next[][2] = {
         {"mu", "0.4"},      {"creep", "0.05"},  {"mu", "0.2"},
@@ -184,7 +184,7 @@ static void the_next_case_is_solved_as_the_first_one(void **state)
 
 /* Before each pivot: the ratios are not negative, the row that leaves has the least of
  * them, and the step is that least ratio. */
-static void pivots_keep_the_ratio_test(void **state)
+TEST(pivots_keep_the_ratio_test)
 {
     rb_api *a = solved(wheel);
     int size, pivots, r;
@@ -226,7 +226,7 @@ static void pivots_keep_the_ratio_test(void **state)
 
 /* The last step of Newton's method has the tractions of the solution, and each one those
  * of the zones that it assumes. */
-static void newton_ends_in_the_solution(void **state)
+TEST(newton_ends_in_the_solution)
 {
     rb_api *a = solved(wheel);
     int rows, steps;
@@ -251,7 +251,7 @@ static void newton_ends_in_the_solution(void **state)
     rb_api_free(a);
 }
 
-static void matrices_satisfy_their_equations(void **state)
+TEST(matrices_satisfy_their_equations)
 {
     rb_api *a = solved(wheel);
     int m, columns;
@@ -279,7 +279,7 @@ static void matrices_satisfy_their_equations(void **state)
     rb_api_free(a);
 }
 
-static void guesses_are_judged(void **state)
+TEST(guesses_are_judged)
 {
     rb_api *a = solved(wheel);
     int zone[12];
@@ -311,7 +311,7 @@ static void guesses_are_judged(void **state)
     rb_api_free(a);
 }
 
-static void steps_are_kept(void **state)
+TEST(steps_are_kept)
 {
     static const char *const words[] = {
         "support",  "halfplane", "similar",          "yes", "load",        "500",
@@ -336,7 +336,7 @@ static void steps_are_kept(void **state)
 }
 
 /* Runs for error bars are steps that nobody sees. */
-static void steps_have_error_bars(void **state)
+TEST(steps_have_error_bars)
 {
     static const char *const words[] = {
         "support",     "halfplane", "similar",  "yes",         "load",
@@ -353,7 +353,7 @@ static void steps_have_error_bars(void **state)
 }
 
 /* The notes of the program, one by one, and Carter's tractions where his law holds. */
-static void notes_and_closed_forms(void **state)
+TEST(notes_and_closed_forms)
 {
     char text[200];
     int rows, columns;
@@ -388,7 +388,7 @@ static void notes_and_closed_forms(void **state)
     rb_api_free(a);
 }
 
-static void results_of_every_table_are_there(void **state)
+TEST(results_of_every_table_are_there)
 {
     rb_api *a = rb_api_create_for("solve");
     assert_null(rb_api_create_for("nothing"));
@@ -418,7 +418,7 @@ static void results_of_every_table_are_there(void **state)
 }
 
 /* What the models, the curve, the history and a problem alone are asked by name. */
-static void every_name_has_its_value(void **state)
+TEST(every_name_has_its_value)
 {
     static const char *const rolls[] = {"support",
                                         "halfplane",
@@ -469,7 +469,7 @@ static void every_name_has_its_value(void **state)
     rb_api_free(a);
 }
 
-static void zones_of_a_yielding_interface_are_no_guess(void **state)
+TEST(zones_of_a_yielding_interface_are_no_guess)
 {
     static const char *const words[] = {"support",
                                         "halfplane",
@@ -495,7 +495,7 @@ static void zones_of_a_yielding_interface_are_no_guess(void **state)
     rb_api_free(a);
 }
 
-static void stress_is_known_at_points(void **state)
+TEST(stress_is_known_at_points)
 {
     rb_api *a = solved(steady);
     assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
@@ -511,7 +511,7 @@ static void stress_is_known_at_points(void **state)
     rb_api_free(a);
 }
 
-static void problems_by_themselves_are_solved(void **state)
+TEST(problems_by_themselves_are_solved)
 {
     static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
     static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
@@ -541,7 +541,7 @@ static void problems_by_themselves_are_solved(void **state)
     rb_api_free(a);
 }
 
-static void a_sweep_is_its_cases(void **state)
+TEST(a_sweep_is_its_cases)
 {
     static const char *const mu[] = {"0.1", "0.2", "0.4"};
     rb_api *study = rb_api_create_for("sweep"), *one[3];
@@ -571,7 +571,7 @@ static void a_sweep_is_its_cases(void **state)
 }
 
 /* Descriptions of options and results that are none, and texts cut to their room. */
-static void descriptions_have_their_ends(void **state)
+TEST(descriptions_have_their_ends)
 {
     char text[400];
     int n, group = 0, k = 0;
@@ -613,7 +613,7 @@ static void descriptions_have_their_ends(void **state)
 }
 
 /* Before anything is solved, and of the wrong kind of case. */
-static void what_is_not_there_is_none(void **state)
+TEST(what_is_not_there_is_none)
 {
     static const char *const names[] = {
         "x",     "p",     "patch.normal_load", "patch.colour", "friction_power", "H",
@@ -659,7 +659,7 @@ static void what_is_not_there_is_none(void **state)
 
 /* The solver that `solver` names, of the cones' too, and what a friction problem leaves.
  */
-static void solvers_have_their_names(void **state)
+TEST(solvers_have_their_names)
 {
     static const char *const cone[] = {"support", "halfplane", "load", "500",
                                        "mu",      "0.3",       "zone", "2",
@@ -681,7 +681,7 @@ static void solvers_have_their_names(void **state)
 }
 
 /* Whoever uses BLAS beside has his threads again when the call is over. */
-static void calls_leave_the_threads_alone(void **state)
+TEST(calls_leave_the_threads_alone)
 {
     const char *given = getenv("OPENBLAS_NUM_THREADS");
     char before[20];
@@ -731,7 +731,7 @@ static void calls_leave_the_threads_alone(void **state)
 }
 
 /* As many arrays as there are names in all tables, twice for the errors, fit. */
-static void arrays_of_every_name_fit(void **state)
+TEST(arrays_of_every_name_fit)
 {
     rb_api *a = rb_api_create();
     char name[20];
@@ -757,7 +757,7 @@ static void arrays_of_every_name_fit(void **state)
 }
 
 /* Bodies whose flexibility is no matrix, matrices that are asked for in another order. */
-static void matrices_are_at_hand_or_refused(void **state)
+TEST(matrices_are_at_hand_or_refused)
 {
     static const char *const large[] = {
         "support", "halfplane", "load", "500", "mesh", "uniform", "contact-elements",
@@ -790,7 +790,7 @@ static void stop(int number)
 }
 
 /* From a handler of signals, as docs say: the run ends after the step at hand. */
-static void a_stopped_run_is_interrupted(void **state)
+TEST(a_stopped_run_is_interrupted)
 {
     static const char *const words[] = {
         "support",     "halfplane", "load",     "500",  "creep-ratio",      "0.5",
@@ -914,7 +914,7 @@ static rb_status by_handle(void *context)
     return (rb_status)s;
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static const char *const bars[] = {
         "formulation", "steady",      "support", "halfplane", "load",
@@ -940,7 +940,7 @@ static void short_memory_is_reported(void **state)
 }
 
 /* Archard: K P per slid length, whatever the shape; the pressure flattens. */
-static void wear(void **state)
+TEST(wear)
 {
     int rows = 0, columns = 0, n = 0;
     rb_api *a = rb_api_create_for("wear");
@@ -968,7 +968,7 @@ static void wear(void **state)
 }
 
 /* A crack by names gives what the program does; units are the handle's. */
-static void cracks(void **state)
+TEST(cracks)
 {
     static const char *const names[] = {"crack-angle", "unloaded", "remote-stress"},
                              *const values[] = {"45", "yes", "2"};
@@ -1008,7 +1008,7 @@ static void cracks(void **state)
 }
 
 /* By handle as by rb_case_differentiate; both sides of a border, one of an end. */
-static void derivatives(void **state)
+TEST(derivatives)
 {
     rb_api *a = rb_api_create();
     char name[40], unit[20], why[200];
@@ -1054,38 +1054,4 @@ static void derivatives(void **state)
     rb_api_free(a);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives),
-        cmocka_unit_test(notes_and_closed_forms),
-        cmocka_unit_test(descriptions_are_complete),
-        cmocka_unit_test(what_was_refused_is_not_solved),
-        cmocka_unit_test(refusals_are_those_of_the_case),
-        cmocka_unit_test(numbers_are_the_solution),
-        cmocka_unit_test(the_next_case_is_solved_as_the_first_one),
-        cmocka_unit_test(pivots_keep_the_ratio_test),
-        cmocka_unit_test(newton_ends_in_the_solution),
-        cmocka_unit_test(matrices_satisfy_their_equations),
-        cmocka_unit_test(guesses_are_judged),
-        cmocka_unit_test(steps_are_kept),
-        cmocka_unit_test(steps_have_error_bars),
-        cmocka_unit_test(results_of_every_table_are_there),
-        cmocka_unit_test(every_name_has_its_value),
-        cmocka_unit_test(zones_of_a_yielding_interface_are_no_guess),
-        cmocka_unit_test(stress_is_known_at_points),
-        cmocka_unit_test(problems_by_themselves_are_solved),
-        cmocka_unit_test(a_sweep_is_its_cases),
-        cmocka_unit_test(descriptions_have_their_ends),
-        cmocka_unit_test(what_is_not_there_is_none),
-        cmocka_unit_test(solvers_have_their_names),
-        cmocka_unit_test(calls_leave_the_threads_alone),
-        cmocka_unit_test(arrays_of_every_name_fit),
-        cmocka_unit_test(matrices_are_at_hand_or_refused),
-        cmocka_unit_test(a_stopped_run_is_interrupted),
-        cmocka_unit_test(wear),
-        cmocka_unit_test(cracks),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

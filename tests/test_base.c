@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static void refusals_write_their_line(void **state)
+TEST(refusals_write_their_line)
 {
     rb_message why = {""};
     CHECK_STATUS(rb_fail(&why, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);
@@ -11,7 +11,7 @@ static void refusals_write_their_line(void **state)
     CHECK_STATUS(rb_fail(NULL, RB_ENOMEM, "nobody listens"), RB_ENOMEM);
 }
 
-static void arrays_are_zeroed_and_overflow_is_refused(void **state)
+TEST(arrays_are_zeroed_and_overflow_is_refused)
 {
     double *a = rb_alloc(3, 5);
     assert_non_null(a);
@@ -24,7 +24,7 @@ static void arrays_are_zeroed_and_overflow_is_refused(void **state)
     alloc_succeed();
 }
 
-static void a_copy_is_an_array_of_its_own(void **state)
+TEST(a_copy_is_an_array_of_its_own)
 {
     const double x[] = {1.0, -2.5};
     double *copy = rb_copy(2, x);
@@ -39,7 +39,7 @@ static void a_copy_is_an_array_of_its_own(void **state)
     alloc_succeed();
 }
 
-static void absurd_sizes_are_refused_by_name(void **state)
+TEST(absurd_sizes_are_refused_by_name)
 {
     rb_message why = {""};
     CHECK_STATUS(rb_memory_check(1e3, "a small thing", &why), RB_OK);
@@ -47,7 +47,7 @@ static void absurd_sizes_are_refused_by_name(void **state)
     assert_non_null(strstr(why.text, "a contact of 9 elements would need 1e+09 GB"));
 }
 
-static void the_norm_does_not_lose_a_nan(void **state)
+TEST(the_norm_does_not_lose_a_nan)
 {
     const double x[] = {1.0, -3.0, 2.0}, y[] = {1.0, NAN, 2.0};
     CHECK_ABS(rb_norm_inf(3, x), 3.0, 0.0, "norm");
@@ -55,7 +55,7 @@ static void the_norm_does_not_lose_a_nan(void **state)
 }
 
 /* cblas_dasum of OpenBLAS on AVX-512 differs here from 64 entries or so on. */
-static void the_sum_does_not_depend_on_the_address(void **state)
+TEST(the_sum_does_not_depend_on_the_address)
 {
     enum { N = 1000 };
     double room[N + 8];
@@ -72,7 +72,7 @@ static void the_sum_does_not_depend_on_the_address(void **state)
     }
 }
 
-static void every_status_has_its_own_words(void **state)
+TEST(every_status_has_its_own_words)
 {
     for (int i = RB_EHELPER; i <= RB_INTERRUPTED; i++)
         for (int j = RB_EHELPER; j < i; j++)
@@ -80,7 +80,7 @@ static void every_status_has_its_own_words(void **state)
                                     rb_status_text((rb_status)j));
 }
 
-static void what_went_wrong_has_its_words(void **state)
+TEST(what_went_wrong_has_its_words)
 {
     const rb_message said = {"why"}, nothing = {""};
     char room[6];
@@ -103,7 +103,7 @@ static void what_went_wrong_has_its_words(void **state)
 
 /* Anything that is no printable character of UTF-8 is shown by its bytes, and no
  * character is cut in two. */
-static void only_characters_are_printed(void **state)
+TEST(only_characters_are_printed)
 {
     static const struct {
         const char *text, *shown;
@@ -144,7 +144,7 @@ static void only_characters_are_printed(void **state)
 }
 
 /* A third of the letters may be wrong: left out, one more, another one, two swapped. */
-static void misspelt_words_are_guessed(void **state)
+TEST(misspelt_words_are_guessed)
 {
     static const char *const names[] = {"creep", "load", "load-factor", "mu"};
     static const struct {
@@ -186,19 +186,4 @@ static void misspelt_words_are_guessed(void **state)
     assert_string_equal(rb_guess_text(&none, "--"), "");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refusals_write_their_line),
-        cmocka_unit_test(arrays_are_zeroed_and_overflow_is_refused),
-        cmocka_unit_test(a_copy_is_an_array_of_its_own),
-        cmocka_unit_test(absurd_sizes_are_refused_by_name),
-        cmocka_unit_test(the_norm_does_not_lose_a_nan),
-        cmocka_unit_test(the_sum_does_not_depend_on_the_address),
-        cmocka_unit_test(every_status_has_its_own_words),
-        cmocka_unit_test(what_went_wrong_has_its_words),
-        cmocka_unit_test(only_characters_are_printed),
-        cmocka_unit_test(misspelt_words_are_guessed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

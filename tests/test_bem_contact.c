@@ -62,7 +62,7 @@ static double grading(const rb_bem_mesh *mesh)
     return worst;
 }
 
-static void neighbours_differ_by_a_fifth_at_most(void **state)
+TEST(neighbours_differ_by_a_fifth_at_most)
 {
     for (double a = 0.5; a > 1e-9; a *= 0.1)
         for (int k = 0; k < 8; k++) {
@@ -78,7 +78,7 @@ static void neighbours_differ_by_a_fifth_at_most(void **state)
         }
 }
 
-static void the_arc_ends_at_element_ends(void **state)
+TEST(the_arc_ends_at_element_ends)
 {
     rb_bem_mesh mesh = mesh_of(&on_arc, 40, 2.0);
     double clamped = 0.0;
@@ -95,7 +95,7 @@ static void the_arc_ends_at_element_ends(void **state)
 }
 
 /* y = x^2/(R + sqrt(R^2 - x^2)) with all digits, at x = 1e-8 R and 1e-10 R apart. */
-static void small_contacts_keep_their_digits(void **state)
+TEST(small_contacts_keep_their_digits)
 {
     rb_bem_mesh mesh = mesh_of(&on_hub, 200, 50.0 * 1e-8);
     for (int j = 0; j <= 200; j++) {
@@ -124,7 +124,7 @@ static void check_mirrored(const rb_bem_mesh *mesh, int j, int k, double R)
 
 /* Twice as fine is twice the elements, on the hub too, and half of the largest one
  * where that is chosen. */
-static void refinement_multiplies_what_is_outside(void **state)
+TEST(refinement_multiplies_what_is_outside)
 {
     for (int k = 0; k < 4; k++) {
         rb_bem_cylinder cylinder = k % 2 ? on_arc : on_hub;
@@ -146,7 +146,7 @@ static void refinement_multiplies_what_is_outside(void **state)
     }
 }
 
-static void symmetric_ends_make_a_symmetric_mesh(void **state)
+TEST(symmetric_ends_make_a_symmetric_mesh)
 {
     const int outer[] = {0, 8, 11, 60, 61, 700};
     for (double a = 30.0; a > 1e-6; a *= 0.03)
@@ -167,7 +167,7 @@ static void symmetric_ends_make_a_symmetric_mesh(void **state)
 }
 
 /* Contact or not, to the last one; an odd number gets one more to stay symmetric. */
-static void outer_elements_are_as_many_as_asked_for(void **state)
+TEST(outer_elements_are_as_many_as_asked_for)
 {
     for (int k = 0; k < 2; k++)
         for (int wanted = k ? 8 : 40; wanted < 3000; wanted += 1 + wanted / 3) {
@@ -182,7 +182,7 @@ static void outer_elements_are_as_many_as_asked_for(void **state)
         }
 }
 
-static void bad_cylinders_are_refused(void **state)
+TEST(bad_cylinders_are_refused)
 {
     const double ends[] = {-1.0, 0.0, 1.0, 2.0}, wide[] = {-1.0, 0.0, 1.0, 50.0},
                  back[] = {-1.0, 0.0, -0.5, 2.0}, most[] = {-49.99, 0.0, 1.0, 49.99};
@@ -222,7 +222,7 @@ static void bad_cylinders_are_refused(void **state)
 
 /* With the elements beside it the zone reaches at most 95 % of the way to the clamped
  * arc, on either side. */
-static void the_zone_ends_before_the_clamped_arc(void **state)
+TEST(the_zone_ends_before_the_clamped_arc)
 {
     const rb_bem_cylinder half = {.radius = 50.0, .support = RB_BEM_ARC, .arc = M_PI_2};
     for (int k = 0; k < 4; k++) {
@@ -298,7 +298,7 @@ static void contact_backwards(rb_bem_mesh *m)
     m->x0[2] = m->x1[2] + 1.0;
 }
 
-static void spoilt_meshes_are_refused(void **state)
+TEST(spoilt_meshes_are_refused)
 {
     const struct {
         spoil *how;
@@ -456,14 +456,14 @@ static void check_schur(rb_bem_normals normals)
         free(all[k]);
 }
 
-static void flexibility_is_the_papers_schur_complement(void **state)
+TEST(flexibility_is_the_papers_schur_complement)
 {
     check_schur(RB_BEM_NORMALS_OBSTACLE);
     check_schur(RB_BEM_NORMALS_SURFACE);
 }
 
 /* The upstream row and w0 agree with full solutions of the system. */
-static void every_row_is_a_displacement_of_the_full_solution(void **state)
+TEST(every_row_is_a_displacement_of_the_full_solution)
 {
     enum { n_c = 6 };
     rb_bem_mesh mesh = mesh_of(&on_hub, n_c, 5.0);
@@ -515,7 +515,7 @@ static double asymmetry(const rb_bem_flexibility *f, int a, int b)
 
 /* At n_c = 40, a/R = 1e-3: diagonal blocks below 4e-4, coupling 2.5 % of its own maximum,
  * which is 2 % of theirs. */
-static void flexibility_is_symmetric_up_to_discretisation(void **state)
+TEST(flexibility_is_symmetric_up_to_discretisation)
 {
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++) {
@@ -569,7 +569,7 @@ static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, dou
 
 /* First order in the element at a/R = 1e-8, with nothing left of the wheel or its
  * support; at 100 elements the wheel's own share is below this from a/R = 1e-4 on. */
-static void small_contacts_are_on_a_half_plane(void **state)
+TEST(small_contacts_are_on_a_half_plane)
 {
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++)
@@ -586,7 +586,7 @@ static void small_contacts_are_on_a_half_plane(void **state)
 }
 
 /* The wheel's share of the difference falls with a/R (normal load, 100 elements). */
-static void the_wheel_shows_less_and_less(void **state)
+TEST(the_wheel_shows_less_and_less)
 {
     const double limit = halfplane_difference(&on_hub, 100, 5e-7, 0);
     const double large = halfplane_difference(&on_hub, 100, 5.0, 0) - limit,
@@ -623,7 +623,7 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
     return sum / load;
 }
 
-static void the_support_carries_the_load(void **state)
+TEST(the_support_carries_the_load)
 {
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++) {
@@ -653,7 +653,7 @@ static double hertz_mean(double x, double y)
            (y - x);
 }
 
-static void the_default_datum_is_the_half_cylinder(void **state)
+TEST(the_default_datum_is_the_half_cylinder)
 {
     enum { n = 200 };
     const double R = 50.0, a = 0.1;
@@ -708,7 +708,7 @@ static double disc_compression_error(int m, double a)
     return fabs(delta / compression(M_PI_2 * a, 1.0, a) - 1.0);
 }
 
-static void the_disc_is_compressed_as_two_half_cylinders(void **state)
+TEST(the_disc_is_compressed_as_two_half_cylinders)
 {
     const double coarse = disc_compression_error(101, 0.01),
                  fine = disc_compression_error(201, 0.01),
@@ -721,7 +721,7 @@ static void the_disc_is_compressed_as_two_half_cylinders(void **state)
 /* A memory that is over at once makes a wheel on a rigid hub twice as soft: what it adds
  * in closed form is what the boundary elements of the same wheel have given, but for the
  * error of constant elements beside the load and of their coupling. */
-static void memory_without_length_doubles_the_flexibility(void **state)
+TEST(memory_without_length_doubles_the_flexibility)
 {
     enum { n = 8, m = n + 1 };
     static const double ratio[] = {0.25, 0.75}, length[] = {1e-9, 1e-8};
@@ -763,27 +763,4 @@ static void memory_without_length_doubles_the_flexibility(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_differ_by_a_fifth_at_most),
-        cmocka_unit_test(the_arc_ends_at_element_ends),
-        cmocka_unit_test(small_contacts_keep_their_digits),
-        cmocka_unit_test(refinement_multiplies_what_is_outside),
-        cmocka_unit_test(symmetric_ends_make_a_symmetric_mesh),
-        cmocka_unit_test(outer_elements_are_as_many_as_asked_for),
-        cmocka_unit_test(bad_cylinders_are_refused),
-        cmocka_unit_test(the_zone_ends_before_the_clamped_arc),
-        cmocka_unit_test(spoilt_meshes_are_refused),
-        cmocka_unit_test(flexibility_is_the_papers_schur_complement),
-        cmocka_unit_test(every_row_is_a_displacement_of_the_full_solution),
-        cmocka_unit_test(flexibility_is_symmetric_up_to_discretisation),
-        cmocka_unit_test(small_contacts_are_on_a_half_plane),
-        cmocka_unit_test(the_wheel_shows_less_and_less),
-        cmocka_unit_test(the_support_carries_the_load),
-        cmocka_unit_test(the_default_datum_is_the_half_cylinder),
-        cmocka_unit_test(the_disc_is_compressed_as_two_half_cylinders),
-        cmocka_unit_test(memory_without_length_doubles_the_flexibility),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -32,7 +32,7 @@ static double complex series(double h, double angle, double complex p)
     return (u + centre) * conj(turn); /* along r and t of the point */
 }
 
-static void the_closed_form_is_the_series(void **state)
+TEST(the_closed_form_is_the_series)
 {
     const double h[] = {0.3, 1.0}, angle[] = {0.0, 0.2, -1.0, 3.1};
     for (int i = 0; i < 2; i++)
@@ -53,7 +53,7 @@ static void the_closed_form_is_the_series(void **state)
 
 /* Just nearer than 50 widths by primitives, just farther by Gauss points; and an arc is
  * the sum of its halves. */
-static void arcs_add_up_at_any_width(void **state)
+TEST(arcs_add_up_at_any_width)
 {
     for (double h = 1e-1; h > 1e-9; h *= 0.1)
         for (double place = 0.25; place < 2.0 / h && place < 1e4; place *= 7.0) {
@@ -99,7 +99,7 @@ static double element_error(int n, double alpha)
     return sqrt(error / n) / scale;
 }
 
-static void elements_converge_to_the_disc(void **state)
+TEST(elements_converge_to_the_disc)
 {
     const double coarse = element_error(60, M_PI / 20),
                  fine = element_error(180, M_PI / 20),
@@ -110,7 +110,7 @@ static void elements_converge_to_the_disc(void **state)
 }
 
 /* The first of the contact elements that is not of the others' arc is named. */
-static void every_element_is_of_the_same_arc(void **state)
+TEST(every_element_is_of_the_same_arc)
 {
     enum { n = 4 };
     const rb_bem_disc disc = {2.0, material};
@@ -137,7 +137,7 @@ static void every_element_is_of_the_same_arc(void **state)
     }
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     double response[4];
     CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){0.0, material}, 0.1, 0.0, response),
@@ -153,14 +153,4 @@ static void bad_input_is_refused(void **state)
         RB_EINVAL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_closed_form_is_the_series),
-        cmocka_unit_test(arcs_add_up_at_any_width),
-        cmocka_unit_test(elements_converge_to_the_disc),
-        cmocka_unit_test(every_element_is_of_the_same_arc),
-        cmocka_unit_test(bad_input_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -91,7 +91,7 @@ static void check_pair(int kind_a, int kind_b)
     rb_bem_flexibility_free(&f);
 }
 
-static void two_of_any_kind_are_their_sum(void **state)
+TEST(two_of_any_kind_are_their_sum)
 {
     for (int a = 0; a < KINDS; a++)
         for (int b = 0; b < KINDS; b++)
@@ -99,7 +99,7 @@ static void two_of_any_kind_are_their_sum(void **state)
 }
 
 /* What is added on the diagonals stays where the operator changes its kind. */
-static void interfaces_yield_under_their_own_traction(void **state)
+TEST(interfaces_yield_under_their_own_traction)
 {
     double c[2 * N], bad[N], F[4 * M * N], G[4 * M * N], r[2 * N], w[2 * M];
 
@@ -183,7 +183,7 @@ static rb_status make_pair(const void *of)
     return s;
 }
 
-static void pairs_tell_of_missing_memory(void **state)
+TEST(pairs_tell_of_missing_memory)
 {
     static const int kinds[][2] = {
         {FLAT, SOFT}, {LAYER, DENSE}, {DENSE, REMEMBERS}, {DISC_TURNED, DISC}};
@@ -267,7 +267,7 @@ static rb_status make_wheel(const void *of)
     return s;
 }
 
-static void wheels_tell_of_missing_memory(void **state)
+TEST(wheels_tell_of_missing_memory)
 {
     const rb_bem_cylinder wheel = {
         .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.5};
@@ -308,7 +308,7 @@ static rb_status make_hierarchical(const void *of)
     return s;
 }
 
-static void clusters_tell_of_missing_memory(void **state)
+TEST(clusters_tell_of_missing_memory)
 {
     rb_bem_cylinder cylinder = cylinder_of(0);
     solid b = {.material = steel};
@@ -322,7 +322,7 @@ static void clusters_tell_of_missing_memory(void **state)
     rb_bem_mesh_free(&b.mesh);
 }
 
-static void absurd_sizes_have_no_room(void **state)
+TEST(absurd_sizes_have_no_room)
 {
     assert_null(rb_large_alloc(SIZE_MAX / sizeof(double), 2));
     free(rb_large_alloc(3, 0));
@@ -332,7 +332,7 @@ static void absurd_sizes_have_no_room(void **state)
 
 /* At the ends of strips, where a logarithm or its angle has none, values are those beside
  * them. */
-static void ends_of_strips_are_limits(void **state)
+TEST(ends_of_strips_are_limits)
 {
     static const double ratio = 2.0, length = 0.3, one = 1.0;
     const rb_bem_surface body = {
@@ -364,7 +364,7 @@ static void ends_of_strips_are_limits(void **state)
 }
 
 /* Of displacement and stress each may be asked for alone, inside and on the surface. */
-static void fields_may_be_asked_for_alone(void **state)
+TEST(fields_may_be_asked_for_alone)
 {
     const rb_bem_cylinder cylinder = cylinder_of(0);
     const double t_contact[2 * N] = {0.0, 1.0, 0.5, 2.0};
@@ -393,7 +393,7 @@ static void fields_may_be_asked_for_alone(void **state)
 
 /* Of a long thin row of elements, the halves lie beside each other along it, whichever
  * way it lies, and circles reach to the ends of their elements and no further. */
-static void clusters_are_cut_across_their_longer_side(void **state)
+TEST(clusters_are_cut_across_their_longer_side)
 {
     enum { COUNT = 64 };
     rb_element e[COUNT];
@@ -418,7 +418,7 @@ static void clusters_are_cut_across_their_longer_side(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void absurd_cylinders_are_refused(void **state)
+TEST(absurd_cylinders_are_refused)
 {
     static const double lopsided[] = {-1.8, 0.0, 0.01, 1.0};
     static const struct {
@@ -477,7 +477,7 @@ static void absurd_cylinders_are_refused(void **state)
     }
 }
 
-static void absurd_surfaces_are_refused(void **state)
+TEST(absurd_surfaces_are_refused)
 {
     static const double one = 1.0, endless = INFINITY, none = NAN;
     static const double reversed[] = {0.0, 1.0, 0.5}, open[] = {0.0, 1.0, INFINITY},
@@ -534,7 +534,7 @@ static void absurd_surfaces_are_refused(void **state)
 }
 
 /* Without reading any end of them; and what does not fit together. */
-static void absurd_operators_are_refused(void **state)
+TEST(absurd_operators_are_refused)
 {
     const rb_bem_surface good = {.material = rubber, .datum = 1.0};
     rb_bem_flexibility f, a, b, none = {0}, other = {0};
@@ -563,7 +563,7 @@ static void absurd_operators_are_refused(void **state)
               "hierarchical");
 }
 
-static void absurd_discs_are_refused(void **state)
+TEST(absurd_discs_are_refused)
 {
     static const double beside[] = {1.0, 1.1, 1.2, 1.3};
     const rb_bem_disc all[] = {
@@ -582,7 +582,7 @@ static void absurd_discs_are_refused(void **state)
     CHECK_STATUS(rb_bem_disc_response(&all[4], 0.1, 0.0, response), RB_EINVAL);
 }
 
-static void absurd_wheels_are_refused(void **state)
+TEST(absurd_wheels_are_refused)
 {
     static const double one = 1.0, endless = INFINITY, zero = 0.0, minus = -1.0;
     const struct {
@@ -619,7 +619,7 @@ static void absurd_wheels_are_refused(void **state)
     rb_bem_flexibility_free(&f);
 }
 
-static void absurd_meshes_are_refused(void **state)
+TEST(absurd_meshes_are_refused)
 {
     static const struct {
         int at;
@@ -666,7 +666,7 @@ static void absurd_meshes_are_refused(void **state)
 
 /* An incompressible cover does not tell how its core is pressed, a core without hub
  * floats, and one of another cover does not fit. */
-static void covers_need_their_core(void **state)
+TEST(covers_need_their_core)
 {
     const rb_bem_material jelly = {1.0, 0.5}, wrong = {-1.0, 0.3};
     rb_bem_cylinder cylinder = cylinder_of(1);
@@ -694,25 +694,4 @@ static void covers_need_their_core(void **state)
     rb_bem_mesh_free(&core);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_of_any_kind_are_their_sum),
-        cmocka_unit_test(interfaces_yield_under_their_own_traction),
-        cmocka_unit_test(pairs_tell_of_missing_memory),
-        cmocka_unit_test(wheels_tell_of_missing_memory),
-        cmocka_unit_test(clusters_tell_of_missing_memory),
-        cmocka_unit_test(absurd_sizes_have_no_room),
-        cmocka_unit_test(ends_of_strips_are_limits),
-        cmocka_unit_test(fields_may_be_asked_for_alone),
-        cmocka_unit_test(clusters_are_cut_across_their_longer_side),
-        cmocka_unit_test(absurd_cylinders_are_refused),
-        cmocka_unit_test(absurd_surfaces_are_refused),
-        cmocka_unit_test(absurd_operators_are_refused),
-        cmocka_unit_test(absurd_discs_are_refused),
-        cmocka_unit_test(absurd_wheels_are_refused),
-        cmocka_unit_test(absurd_meshes_are_refused),
-        cmocka_unit_test(covers_need_their_core),
-    };
-    return cmocka_run_group_tests(tests, equal_ends, NULL);
-}
+RUN_TESTS(equal_ends, NULL)

@@ -32,7 +32,7 @@ static double quadrature(double s1, double s2, double x, double d)
     return left + right - (s2 - s1) * log(d);
 }
 
-static void halfplane_is_flamants_integral(void **state)
+TEST(halfplane_is_flamants_integral)
 {
     enum { n = n_uneven, m = n + 1 };
     const double datum = 30.0, K = (1.0 - steel.poisson) / (M_PI * steel.shear),
@@ -57,7 +57,7 @@ static void halfplane_is_flamants_integral(void **state)
 
 /* One strip far away: int ln|s/d| ds = 2b [ln(X/d) - (b/X)^2/6 - ...]; the two ends of
  * the primitive agree in their first seven digits. */
-static void distant_strips_lose_no_digits(void **state)
+TEST(distant_strips_lose_no_digits)
 {
     const int n = 1000000;
     const double h = 1e-9, X = h * (n - 1),
@@ -72,7 +72,7 @@ static void distant_strips_lose_no_digits(void **state)
     rb_bem_flexibility_free(&f);
 }
 
-static void apply_is_the_matrix_and_ldf_is_kept(void **state)
+TEST(apply_is_the_matrix_and_ldf_is_kept)
 {
     enum { n = n_uneven, m = n + 1, ld = 2 * m + 3 };
     double F[ld * 2 * n], r[2 * n], w[2 * m];
@@ -102,7 +102,7 @@ static void apply_is_the_matrix_and_ldf_is_kept(void **state)
 
 /* Two bodies of one material: twice the compliance, no coupling, B's w0_T turned round.
  */
-static void identical_bodies_lose_their_coupling(void **state)
+TEST(identical_bodies_lose_their_coupling)
 {
     enum { n = n_uneven, m = n + 1 };
     double A[2 * m * 2 * n], F[2 * m * 2 * n];
@@ -130,7 +130,7 @@ static void identical_bodies_lose_their_coupling(void **state)
 }
 
 /* The smallest even product of twos, threes and fives that has the room. */
-static void transforms_have_lengths_that_are_quick(void **state)
+TEST(transforms_have_lengths_that_are_quick)
 {
     static const int all[][2] = {{1, 2},   {2, 2},   {3, 4},   {7, 8},     {11, 12},
                                  {13, 16}, {21, 24}, {26, 30}, {31, 32},   {41, 48},
@@ -156,7 +156,7 @@ static void wavelet(int n, double width, double *r)
 
 /* The preconditioner takes back what a half-plane makes of such loads, with an interface
  * that yields in between or without, and the differences upstream of what it slides. */
-static void a_line_is_nearly_inverted_by_its_waves(void **state)
+TEST(a_line_is_nearly_inverted_by_its_waves)
 {
     enum { n = 200, m = n + 1 };
     static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
@@ -207,7 +207,7 @@ static void a_line_is_nearly_inverted_by_its_waves(void **state)
 
 /* The preconditioner answers to distances alone, and is written out for distances up to
  * 2n; wave for wave, its differences are the other one over the symbol of A. */
-static void every_wave_has_its_own_inverse(void **state)
+TEST(every_wave_has_its_own_inverse)
 {
     enum { n = 20, m = n + 1 };
     static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
@@ -266,7 +266,7 @@ static void every_wave_has_its_own_inverse(void **state)
     rb_bem_flexibility_free(&f);
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     rb_bem_flexibility a, b, f;
     rb_message why;
@@ -323,7 +323,7 @@ static void bad_input_is_refused(void **state)
 }
 
 /* Every allocation refused in its turn: no leak (asan), nothing left behind. */
-static void failing_memory_is_reported(void **state)
+TEST(failing_memory_is_reported)
 {
     for (int count = 0, failed = 1; failed; count++) {
         rb_bem_flexibility a = {0}, b = {0}, f = {0};
@@ -348,18 +348,4 @@ static void failing_memory_is_reported(void **state)
     rb_bem_flexibility_free(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(halfplane_is_flamants_integral),
-        cmocka_unit_test(distant_strips_lose_no_digits),
-        cmocka_unit_test(apply_is_the_matrix_and_ldf_is_kept),
-        cmocka_unit_test(identical_bodies_lose_their_coupling),
-        cmocka_unit_test(transforms_have_lengths_that_are_quick),
-        cmocka_unit_test(a_line_is_nearly_inverted_by_its_waves),
-        cmocka_unit_test(every_wave_has_its_own_inverse),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(failing_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -75,7 +75,7 @@ static double shear_xy(const double s[3])
     return fabs(s[2]);
 }
 
-static void hertz_maxima_are_those_of_the_books(void **state)
+TEST(hertz_maxima_are_those_of_the_books)
 {
     const load l = hertz(0.0);
     const maximum tau = largest(&l, max_shear, (maximum){0, 0, 0.7}, 0.1),
@@ -91,7 +91,7 @@ static void hertz_maxima_are_those_of_the_books(void **state)
 }
 
 /* Friction towards +x on the body. */
-static void full_sliding_moves_the_maximum(void **state)
+TEST(full_sliding_moves_the_maximum)
 {
     const load l = hertz(0.2);
     const maximum tau = largest(&l, max_shear, (maximum){0, 0.6, 0.6}, 0.1);
@@ -102,7 +102,7 @@ static void full_sliding_moves_the_maximum(void **state)
 
 /* McEwen's field below the centre: sxx = -p0 [(1 + 2y^2)/sqrt(1 + y^2) - 2y], syy = -p0/
  * sqrt(1 + y^2). */
-static void the_axis_is_in_closed_form(void **state)
+TEST(the_axis_is_in_closed_form)
 {
     const load l = hertz(0.0);
     for (double y = 0.01; y < 100.0; y *= 2.0) {
@@ -115,7 +115,7 @@ static void the_axis_is_in_closed_form(void **state)
     }
 }
 
-static void the_surface_carries_the_tractions(void **state)
+TEST(the_surface_carries_the_tractions)
 {
     const load l = hertz(0.3);
     for (int i = 0; i < n_strips; i += 7) {
@@ -138,7 +138,7 @@ static void the_surface_carries_the_tractions(void **state)
 
 /* The end of a strip sees half of it: under pressure alone all components are the mean of
  * both sides, sxx = syy = -p/2. */
-static void the_end_of_a_strip_sees_half_of_it(void **state)
+TEST(the_end_of_a_strip_sees_half_of_it)
 {
     const double ends[] = {-1.0, 2.0}, p[] = {3.0}, q[] = {0.0};
     for (int k = 0; k < 2; k++) {
@@ -154,7 +154,7 @@ static void the_end_of_a_strip_sees_half_of_it(void **state)
 }
 
 /* div s = 0 by central differences of order h^2 */
-static void the_field_is_in_equilibrium(void **state)
+TEST(the_field_is_in_equilibrium)
 {
     const load l = hertz(0.3);
     for (int k = 0; k < 40; k++) {
@@ -186,7 +186,7 @@ static double of_half_space(int tangential, double from, double to, double c)
 
 /* In its middle: the plane's with w_N = 0 at the depth 2 c and w_T = 0 at
  * 2 c exp(nu/(1 - nu)). */
-static void a_long_strip_has_two_datums(void **state)
+TEST(a_long_strip_has_two_datums)
 {
     const double c = 500.0, ends[2] = {1.0, 3.0}, x = 0.0;
     rb_bem_surface body =
@@ -198,7 +198,7 @@ static void a_long_strip_has_two_datums(void **state)
     CHECK_REL(W[3], of_half_space(1, 1.0, 3.0, c), 1e-5, "w_T under q");
 }
 
-static void bad_input_and_short_memory(void **state)
+TEST(bad_input_and_short_memory)
 {
     const double ends[] = {0, 1, 2}, back[] = {0, 1, 1}, one[] = {1, 1}, xy[] = {0.5, 1},
                  above[] = {0.5, -1}, nan[] = {0.5, NAN};
@@ -228,17 +228,4 @@ static void bad_input_and_short_memory(void **state)
                  RB_OK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hertz_maxima_are_those_of_the_books),
-        cmocka_unit_test(full_sliding_moves_the_maximum),
-        cmocka_unit_test(the_axis_is_in_closed_form),
-        cmocka_unit_test(the_surface_carries_the_tractions),
-        cmocka_unit_test(the_end_of_a_strip_sees_half_of_it),
-        cmocka_unit_test(the_field_is_in_equilibrium),
-        cmocka_unit_test(a_long_strip_has_two_datums),
-        cmocka_unit_test(bad_input_and_short_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -72,7 +72,7 @@ static errors error_at_depth(int n, double depth)
 
 /* Stress is of order 5, u of order 0.05.  u is second order everywhere; so is stress from
  * one element inwards; closer, the constant tractions of neighbours jump: first order. */
-static void a_known_field_is_reproduced(void **state)
+TEST(a_known_field_is_reproduced)
 {
     const struct {
         double depth, u, s, order_s;
@@ -98,7 +98,7 @@ static void a_known_field_is_reproduced(void **state)
 
 /* A rigid motion has no stress, on the surface and off it, and comes out to second order
  * because it is linear along the contour. */
-static void rigid_motions_have_no_stress(void **state)
+TEST(rigid_motions_have_no_stress)
 {
     enum { n = 64 };
     rb_bem_mesh mesh = circle(n, 2.0);
@@ -146,7 +146,7 @@ static errors compression_error(int n, double alpha)
     return e;
 }
 
-static void diametral_compression_at_the_centre(void **state)
+TEST(diametral_compression_at_the_centre)
 {
     const double alpha = M_PI / 20.0;
     /* n alpha/pi odd */
@@ -160,7 +160,7 @@ static void diametral_compression_at_the_centre(void **state)
 
 /* A polygon held at two sides and pulled at a third one, in another unit of length:
  * stresses stay, displacements become as many times as long. */
-static void no_unit_of_length_is_preferred(void **state)
+TEST(no_unit_of_length_is_preferred)
 {
     enum { n = 24, P = 3 };
     static const double inside[2 * P] = {0.1, 0.2, -0.5, 0.3, 0.0, -0.93};
@@ -191,7 +191,7 @@ static void no_unit_of_length_is_preferred(void **state)
 
 /* ---- Equilibrium ------------------------------------------------------------------- */
 
-static void the_field_is_in_equilibrium(void **state)
+TEST(the_field_is_in_equilibrium)
 {
     enum { n = 60 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
@@ -218,7 +218,7 @@ static void the_field_is_in_equilibrium(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     enum { n = 20 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
@@ -252,7 +252,7 @@ static void bad_input_is_refused(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-static void failing_memory_is_reported(void **state)
+TEST(failing_memory_is_reported)
 {
     enum { n = 20 };
     rb_bem_mesh mesh = ring(n, 1.0, 0.4);
@@ -269,16 +269,4 @@ static void failing_memory_is_reported(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_known_field_is_reproduced),
-        cmocka_unit_test(rigid_motions_have_no_stress),
-        cmocka_unit_test(diametral_compression_at_the_centre),
-        cmocka_unit_test(no_unit_of_length_is_preferred),
-        cmocka_unit_test(the_field_is_in_equilibrium),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(failing_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -82,7 +82,7 @@ static integrand_data random_element(void)
 }
 
 /* Points at 0.003 to 300 element lengths: half of them nearer than the far series. */
-static void closed_form_equals_quadrature(void **state)
+TEST(closed_form_equals_quadrature)
 {
     gsl_set_error_handler_off();
     srand(1);
@@ -102,7 +102,7 @@ static void closed_form_equals_quadrature(void **state)
 }
 
 /* The principal value of T vanishes: its even part by symmetry, r,n by r.n = 0. */
-static void self_terms_equal_quadrature(void **state)
+TEST(self_terms_equal_quadrature)
 {
     gsl_set_error_handler_off();
     srand(2);
@@ -122,7 +122,7 @@ static void self_terms_equal_quadrature(void **state)
 
 /* p approaching an element from inside sees it under the angle pi: T integrates to -1/2
  * of the identity, and to +1/2 from outside; to rounding at any distance. */
-static void nearly_singular_points_are_right(void **state)
+TEST(nearly_singular_points_are_right)
 {
     for (int k = 1; k < 15; k++)
         for (int side = -1; side <= 1; side += 2) {
@@ -304,7 +304,7 @@ static void check_differences(const differences *of, double mean, double largest
               place_name[place]);
 }
 
-static void every_instruction_set_gives_the_same(void **state)
+TEST(every_instruction_set_gives_the_same)
 {
     static columns_of_H_and_G single, exact, got;
     static column_case c;
@@ -334,7 +334,7 @@ static void every_instruction_set_gives_the_same(void **state)
     assert_string_equal(rb_bem_vector_name(), rb_column_variant_get(0)->name);
 }
 
-static void the_series_meet_at_the_ends_of_their_ranges(void **state)
+TEST(the_series_meet_at_the_ends_of_their_ranges)
 {
     const rb_far_range *const range[] = {&rb_far, &rb_farther, &rb_farthest};
     const rb_element e = rb_element_make(-1.0, 0.0, 1.0, 0.0, 1.0);
@@ -354,7 +354,7 @@ static void the_series_meet_at_the_ends_of_their_ranges(void **state)
         }
 }
 
-static void H_alone_is_H_to_rounding(void **state)
+TEST(H_alone_is_H_to_rounding)
 {
     static columns_of_H_and_G both, alone;
     static column_case c;
@@ -436,7 +436,7 @@ static rb_bem_mesh irregular(int n)
     return mesh;
 }
 
-static void translations_are_annihilated(void **state)
+TEST(translations_are_annihilated)
 {
     rb_bem_mesh shapes[] = {circle(200, 3.0), ring(90, 2.0, 0.7), irregular(60)};
     for (int k = 0; k < 3; k++) {
@@ -448,7 +448,7 @@ static void translations_are_annihilated(void **state)
 }
 
 /* A rotation is not constant on an element: first order (2.3e-3 on 100 elements). */
-static void rotations_are_annihilated_to_first_order(void **state)
+TEST(rotations_are_annihilated_to_first_order)
 {
     double error[4];
     for (int k = 0; k < 4; k++) {
@@ -465,7 +465,7 @@ static void rotations_are_annihilated_to_first_order(void **state)
 
 /* Measured in the body's own size, the same problem in another unit has the same H, and G
  * scaled by the unit. */
-static void the_unit_of_length_does_not_matter(void **state)
+TEST(the_unit_of_length_does_not_matter)
 {
     enum { n = 12, dofs = 2 * n };
     static double H[2][dofs * dofs], G[2][dofs * dofs];
@@ -481,18 +481,4 @@ static void the_unit_of_length_does_not_matter(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_form_equals_quadrature),
-        cmocka_unit_test(self_terms_equal_quadrature),
-        cmocka_unit_test(nearly_singular_points_are_right),
-        cmocka_unit_test(every_instruction_set_gives_the_same),
-        cmocka_unit_test(the_series_meet_at_the_ends_of_their_ranges),
-        cmocka_unit_test(H_alone_is_H_to_rounding),
-        cmocka_unit_test(translations_are_annihilated),
-        cmocka_unit_test(rotations_are_annihilated_to_first_order),
-        cmocka_unit_test(the_unit_of_length_does_not_matter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -77,7 +77,7 @@ static void integral_over_waves(const rb_bem_surface *body, double X, double b,
 
 /* Places and strips of all sizes; memory from a hundredth to a hundred thicknesses, bases
  * softer and stiffer. */
-static void kernels_are_integrals_over_waves(void **state)
+TEST(kernels_are_integrals_over_waves)
 {
     uint64_t seed = 7;
     for (int k = 0; k < 90; k++) {
@@ -105,7 +105,7 @@ static void kernels_are_integrals_over_waves(void **state)
 
 /* On a rigid base nothing is felt far away, exp(-0.739 X) at nu = 1/2: the remainder is
  * the half-plane's logarithm and its coupling, with the other sign. */
-static void far_away_the_base_holds(void **state)
+TEST(far_away_the_base_holds)
 {
     static const double poisson[] = {0.5, 0.4, 0.0, -0.5};
     for (int k = 0; k < 4; k++) {
@@ -128,7 +128,7 @@ static void far_away_the_base_holds(void **state)
 
 /* A table that was made longer has the bits of one that was made at once, also after nine
  * others, of which eight are kept; strips and their halves agree. */
-static void tables_are_alike_however_they_are_made(void **state)
+TEST(tables_are_alike_however_they_are_made)
 {
     enum { PLACES = 30 };
     const double ratio = 2.0, length = 0.7;
@@ -162,7 +162,7 @@ static void tables_are_alike_however_they_are_made(void **state)
     }
 }
 
-static void short_memory_leaves_no_table(void **state)
+TEST(short_memory_leaves_no_table)
 {
     const double ratio = 2.0;
     for (int i = 0, done = 0; !done; i++) {
@@ -183,13 +183,4 @@ static void short_memory_leaves_no_table(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kernels_are_integrals_over_waves),
-        cmocka_unit_test(far_away_the_base_holds),
-        cmocka_unit_test(tables_are_alike_however_they_are_made),
-        cmocka_unit_test(short_memory_leaves_no_table),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -17,7 +17,7 @@ static rb_strip flat_strip(rb_bem_mesh *mesh)
     return rb_strip_on(mesh, 0, steel, 1.0);
 }
 
-static void the_strip_is_flamants_on_the_surface(void **state)
+TEST(the_strip_is_flamants_on_the_surface)
 {
     const double ends[] = {-0.3, 0.5}, x[] = {-3.0, -0.31, -0.1, 0.1, 0.49, 40.0};
     double W[4 * 6];
@@ -39,7 +39,7 @@ static void the_strip_is_flamants_on_the_surface(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-static void its_tractions_are_those_of_the_stress(void **state)
+TEST(its_tractions_are_those_of_the_stress)
 {
     const double ends[] = {-0.3, 0.5}, p = 2.0, q = -0.7;
     const double xy[] = {0.1, 0.0, 0.2, 0.3, -1.0, 0.01, 5.0, 7.0};
@@ -62,7 +62,7 @@ static void its_tractions_are_those_of_the_stress(void **state)
 }
 
 /* Far away the strip is a force: no digit is lost there. */
-static void far_away_it_keeps_its_digits(void **state)
+TEST(far_away_it_keeps_its_digits)
 {
     rb_bem_mesh mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(1, &mesh), RB_OK);
@@ -81,7 +81,7 @@ static void far_away_it_keeps_its_digits(void **state)
 
 /* Two strips of different length that share an end where the traction has a kink, against
  * the tent of the half-plane; the end itself included. */
-static void linear_strips_make_a_tent(void **state)
+TEST(linear_strips_make_a_tent)
 {
     const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0},
                  q[] = {0.0, -0.7, 0.0};
@@ -104,7 +104,7 @@ static void linear_strips_make_a_tent(void **state)
 }
 
 /* Turning strip and point together turns the stress: its invariants stay. */
-static void linear_strips_do_not_know_their_direction(void **state)
+TEST(linear_strips_do_not_know_their_direction)
 {
     const double complex turn = cos(0.7) + sin(0.7) * I, z = 0.2 + 0.1 * I;
     const rb_strip flat = rb_strip_between(-0.3, 0.5, steel, 1.0),
@@ -170,7 +170,7 @@ static double distance_from_halfplane(int n, int subtracted)
     return worst / size;
 }
 
-static void the_near_field_is_the_half_planes(void **state)
+TEST(the_near_field_is_the_half_planes)
 {
     CHECK_MAX(distance_from_halfplane(20, 1), 2e-3, "a/R = 1e-3, subtracted");
     assert_true(distance_from_halfplane(20, 0) > 5.0 * distance_from_halfplane(20, 1));
@@ -230,7 +230,7 @@ static double distance_on_gliding_sides(int side)
     return worst / size;
 }
 
-static void sides_may_glide(void **state)
+TEST(sides_may_glide)
 {
     const double coarse = distance_on_gliding_sides(10),
                  fine = distance_on_gliding_sides(20);
@@ -238,7 +238,7 @@ static void sides_may_glide(void **state)
     CHECK_MAX(fine, 0.9 * coarse, "against 10");
 }
 
-static void a_hollow_contact_is_refused(void **state)
+TEST(a_hollow_contact_is_refused)
 {
     /* a square whose lower side is bent inwards */
     static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
@@ -269,7 +269,7 @@ static void a_hollow_contact_is_refused(void **state)
 }
 
 /* Every contact element alone has the field of its mirror image, mirrored. */
-static void fields_have_their_mirror_images(void **state)
+TEST(fields_have_their_mirror_images)
 {
     enum { n = 4, P = 3 };
     static const double depth[P] = {0.1, 0.6, 40.0}, aside[P] = {0.2, -0.9, 30.0};
@@ -309,7 +309,7 @@ static void fields_have_their_mirror_images(void **state)
     }
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     rb_bem_system *system = wheel_system(4);
     int refused = 1;
@@ -337,19 +337,4 @@ static void every_failed_allocation_is_reported(void **state)
     rb_bem_system_free(system);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_strip_is_flamants_on_the_surface),
-        cmocka_unit_test(its_tractions_are_those_of_the_stress),
-        cmocka_unit_test(far_away_it_keeps_its_digits),
-        cmocka_unit_test(linear_strips_make_a_tent),
-        cmocka_unit_test(linear_strips_do_not_know_their_direction),
-        cmocka_unit_test(the_near_field_is_the_half_planes),
-        cmocka_unit_test(sides_may_glide),
-        cmocka_unit_test(a_hollow_contact_is_refused),
-        cmocka_unit_test(fields_have_their_mirror_images),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -71,7 +71,7 @@ static double average_of(average *a)
 }
 
 /* (V1) w = w_e + sum f_k E_k w_e, entry by entry. */
-static void memory_averages_what_lies_upstream(void **state)
+TEST(memory_averages_what_lies_upstream)
 {
     const double ratio[2] = {1.5, 4.0}, b = 0.5;
     const rb_bem_surface elastic = rb_bem_halfplane(rubber, 20.0);
@@ -97,7 +97,7 @@ static void memory_averages_what_lies_upstream(void **state)
 
 /* No memory length: the rubbery half-plane; a length beyond all others: the glassy one up
  * to a constant; strips that are tiny against it keep their digits. */
-static void memory_has_its_limits(void **state)
+TEST(memory_has_its_limits)
 {
     const double ratio = 3.0, none = 0.0, tiny = 1e-9, long_ = 1e9;
     const rb_bem_surface elastic = rb_bem_halfplane(rubber, 20.0);
@@ -170,7 +170,7 @@ static double integral_over_waves(layer_entry *e, double last)
     return sum;
 }
 
-static void layers_are_integrals_over_their_waves(void **state)
+TEST(layers_are_integrals_over_their_waves)
 {
     const rb_bem_material material[3] = {rubber, soft, {3.0, 0.1}};
     for (int k = 0; k < 3; k++)
@@ -189,7 +189,7 @@ static void layers_are_integrals_over_their_waves(void **state)
 }
 
 /* A layer on a base of its own material is the half-plane, whatever its thickness. */
-static void equal_materials_are_the_half_plane(void **state)
+TEST(equal_materials_are_the_half_plane)
 {
     const rb_bem_surface plane = rb_bem_halfplane(rubber, 20.0);
     for (int j = 0; j < 12; j++) {
@@ -209,7 +209,7 @@ static void equal_materials_are_the_half_plane(void **state)
 
 /* A thick layer answers like its own half-plane, a thin one like its base, and a base
  * that is far stiffer like a rigid one. */
-static void layers_have_their_limits(void **state)
+TEST(layers_have_their_limits)
 {
     const rb_bem_surface own = rb_bem_halfplane(rubber, 20.0),
                          under = rb_bem_halfplane(core, 20.0);
@@ -238,7 +238,7 @@ static void layers_have_their_limits(void **state)
 }
 
 /* Under a wide uniform pressure a thin compressible layer is a mattress: w = p d/M. */
-static void thin_layers_are_mattresses(void **state)
+TEST(thin_layers_are_mattresses)
 {
     const rb_bem_surface body = {.material = rubber, .thickness = 0.01};
     const double nu = rubber.poisson,
@@ -250,7 +250,7 @@ static void thin_layers_are_mattresses(void **state)
 }
 
 /* So is a film, as far as the half-plane's digits reach: it has as few waves as any. */
-static void films_are_mattresses(void **state)
+TEST(films_are_mattresses)
 {
     const double nu = rubber.poisson,
                  M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
@@ -267,7 +267,7 @@ static void films_are_mattresses(void **state)
 
 /* (V1) holds for a viscoelastic layer as for the half-plane, also where its memory
  * reaches a hundred thousand thicknesses. */
-static void layers_remember(void **state)
+TEST(layers_remember)
 {
     const double ratio = 2.0, length[2] = {0.8, 6e4};
     const rb_bem_surface elastic = {.material = rubber, .thickness = 0.6};
@@ -289,7 +289,7 @@ static void layers_remember(void **state)
 }
 
 /* What is seen alone is what is seen together with what lies farther away. */
-static void what_lies_far_away_is_met(void **state)
+TEST(what_lies_far_away_is_met)
 {
     const rb_bem_surface body = {.material = rubber, .thickness = 0.6};
     const double ends[2] = {-0.25, 0.25}, at = 18.0, x[2] = {at, 3.0 * at};
@@ -305,7 +305,7 @@ static void what_lies_far_away_is_met(void **state)
 
 /* Entries and products of the transforms against the dense matrix, with memory and
  * layers. */
-static void transforms_are_the_dense_matrix(void **state)
+TEST(transforms_are_the_dense_matrix)
 {
     enum { n = 37, m = n + 1, ld = 2 * m };
     const double ratio[2] = {1.0, 4.0}, length[2] = {0.1, 2.0};
@@ -345,7 +345,7 @@ static void transforms_are_the_dense_matrix(void **state)
 /* Without a matrix the displacement is the matrix times the tractions, for more points
  * than are taken together too; bad sizes are refused, and a failing allocation leaves
  * nothing. */
-static void tractions_are_summed_as_by_the_matrix(void **state)
+TEST(tractions_are_summed_as_by_the_matrix)
 {
     enum { n = 3, many = 1100 };
     const double ratio[2] = {1.0, 4.0}, length[2] = {0.1, 2.0};
@@ -387,7 +387,7 @@ static void tractions_are_summed_as_by_the_matrix(void **state)
     }
 }
 
-static void bad_surfaces_are_refused(void **state)
+TEST(bad_surfaces_are_refused)
 {
     const double minus = -1.0, one = 1.0;
     const double ends[3] = {0.0, 1.0, 2.0};
@@ -420,7 +420,7 @@ static void bad_surfaces_are_refused(void **state)
     }
 }
 
-static void short_memory_is_told(void **state)
+TEST(short_memory_is_told)
 {
     rb_bem_surface body = {.material = rubber, .thickness = 0.5};
     const double ends[5] = {0.0, 1.0, 2.0, 3.0, 4.0};
@@ -444,21 +444,6 @@ static void short_memory_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_averages_what_lies_upstream),
-        cmocka_unit_test(memory_has_its_limits),
-        cmocka_unit_test(layers_are_integrals_over_their_waves),
-        cmocka_unit_test(equal_materials_are_the_half_plane),
-        cmocka_unit_test(layers_have_their_limits),
-        cmocka_unit_test(thin_layers_are_mattresses),
-        cmocka_unit_test(films_are_mattresses),
-        cmocka_unit_test(layers_remember),
-        cmocka_unit_test(what_lies_far_away_is_met),
-        cmocka_unit_test(transforms_are_the_dense_matrix),
-        cmocka_unit_test(tractions_are_summed_as_by_the_matrix),
-        cmocka_unit_test(bad_surfaces_are_refused),
-        cmocka_unit_test(short_memory_is_told),
-    };
     gsl_set_error_handler_off();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_all_tests(NULL, NULL);
 }

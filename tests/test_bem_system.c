@@ -97,18 +97,18 @@ static void check_first_order(double (*error)(int), int n, double bound, const c
     CHECK_ABS(order(e[1], e[2]), 1.0, 0.15, "order of %s", what);
 }
 
-static void disc_under_pressure(void **state)
+TEST(disc_under_pressure)
 {
     check_first_order(disc_error, 80, 1e-3, "disc");
 }
 
 /* Columns of a power of two of numbers are set further apart in memory. */
-static void discs_of_any_size_are_solved(void **state)
+TEST(discs_of_any_size_are_solved)
 {
     CHECK_REL(256.0 * disc_error(256), 252.0 * disc_error(252), 0.01, "n error");
 }
 
-static void thick_ring_under_internal_pressure(void **state)
+TEST(thick_ring_under_internal_pressure)
 {
     check_first_order(thick_ring_error, 40, 5.5e-3, "ring");
 }
@@ -136,7 +136,7 @@ static double dirichlet_error(int n)
     return error;
 }
 
-static void given_displacements_give_the_tractions(void **state)
+TEST(given_displacements_give_the_tractions)
 {
     check_first_order(dirichlet_error, 40, 5.5e-3, "tractions");
 }
@@ -144,7 +144,7 @@ static void given_displacements_give_the_tractions(void **state)
 /* ---- The solution itself ----------------------------------------------------------- */
 
 /* H u = G t holds for what solve() returns, and what was given is returned. */
-static void the_solution_satisfies_the_equations(void **state)
+TEST(the_solution_satisfies_the_equations)
 {
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
     const rb_bem_cylinder cylinder = {.radius = 50.0, .support = RB_BEM_ARC, .arc = 0.5};
@@ -218,7 +218,7 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
 
 /* Displacements go on to nu = 1/2, and so do tractions but for the pressure that a hole
  * which is held all around leaves open: there its mean is zero. */
-static void incompressible_bodies_are_a_limit(void **state)
+TEST(incompressible_bodies_are_a_limit)
 {
     enum { n = 80 };
     for (int all = 0; all < 2; all++) {
@@ -244,7 +244,7 @@ static void expect_free(rb_bem_mesh *mesh, const char *motions)
         fail_msg("'%s' does not say '%s'", why.text, motions);
 }
 
-static void a_body_without_support_is_refused(void **state)
+TEST(a_body_without_support_is_refused)
 {
     enum { n = 16 };
     rb_bem_mesh mesh;
@@ -268,7 +268,7 @@ static void a_body_without_support_is_refused(void **state)
 }
 
 /* Which places are one place is a question of the body's size. */
-static void supports_are_judged_in_any_unit(void **state)
+TEST(supports_are_judged_in_any_unit)
 {
     enum { n = 16 };
     static const double radii[] = {1e-9, 1e-3, 1.0, 1e6};
@@ -287,7 +287,7 @@ static void supports_are_judged_in_any_unit(void **state)
 }
 
 /* Two bodies, one of them held: the count sees a support, the matrix does not. */
-static void a_second_body_without_support_is_singular(void **state)
+TEST(a_second_body_without_support_is_singular)
 {
     enum { n = 16 };
     rb_bem_mesh mesh;
@@ -310,7 +310,7 @@ static void a_second_body_without_support_is_singular(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void materials_have_their_limits(void **state)
+TEST(materials_have_their_limits)
 {
     static const struct {
         double shear, poisson;
@@ -329,7 +329,7 @@ static void materials_have_their_limits(void **state)
     }
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     enum { n = 16 };
     rb_bem_mesh mesh = circle(n, 1.0);
@@ -356,7 +356,7 @@ static void bad_input_is_refused(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-static void failing_memory_is_reported(void **state)
+TEST(failing_memory_is_reported)
 {
     const double ends[] = {-0.2, -0.1, 0.1, 0.2};
     const rb_bem_cylinder cylinder = {
@@ -394,21 +394,4 @@ static void failing_memory_is_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disc_under_pressure),
-        cmocka_unit_test(discs_of_any_size_are_solved),
-        cmocka_unit_test(thick_ring_under_internal_pressure),
-        cmocka_unit_test(given_displacements_give_the_tractions),
-        cmocka_unit_test(the_solution_satisfies_the_equations),
-        cmocka_unit_test(incompressible_bodies_are_a_limit),
-        cmocka_unit_test(a_body_without_support_is_refused),
-        cmocka_unit_test(supports_are_judged_in_any_unit),
-        cmocka_unit_test(a_second_body_without_support_is_singular),
-        cmocka_unit_test(materials_have_their_limits),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(failing_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -26,7 +26,7 @@ static cplx falling_sum(double d, double x)
 }
 
 /* Covers of half a radius to a millionth of it, whose sums have 50 to 2e7 waves. */
-static void the_table_is_the_sum(void **state)
+TEST(the_table_is_the_sum)
 {
     for (double thickness = 0.5; thickness > 5e-7; thickness *= 0.03) {
         const rb_bem_wheel wheel = {.radius = 1.0, .inner = 1.0 - thickness};
@@ -93,7 +93,7 @@ static void arcs(double radius, double *ends)
 
 /* Over the disc in closed form, whose waves 0 and 1 are known, a wheel has the waves of
  * its inner contour; all are summed one by one. */
-static void the_flexibility_is_the_sum_of_its_waves(void **state)
+TEST(the_flexibility_is_the_sum_of_its_waves)
 {
     enum { LAST = 400, EXACT = 60 };
     static cplx C[LAST + 1][4];
@@ -161,7 +161,7 @@ static void the_flexibility_is_the_sum_of_its_waves(void **state)
 
 /* A load over three arcs is that over each of them; in frames of the obstacle the same is
  * turned. */
-static void uneven_arcs_and_frames(void **state)
+TEST(uneven_arcs_and_frames)
 {
     enum { FEW = N / 2, m = FEW + 1 };
     for (int k = 0; k < WHEELS; k++) {
@@ -267,7 +267,7 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
     return error;
 }
 
-static void boundary_elements_come_to_it(void **state)
+TEST(boundary_elements_come_to_it)
 {
     for (int kind = 0; kind < 3; kind++)
         for (int normals = 0; normals < 2; normals++) {
@@ -279,7 +279,7 @@ static void boundary_elements_come_to_it(void **state)
 }
 
 /* The thinner the cover, the less its roundness matters. */
-static void a_thin_cover_is_a_layer(void **state)
+TEST(a_thin_cover_is_a_layer)
 {
     for (int elastic = 0; elastic < 2; elastic++) {
         const rb_bem_material rubber = {3.0, 0.45}, steel = {30.0, 0.3};
@@ -317,7 +317,7 @@ static void a_thin_cover_is_a_layer(void **state)
     }
 }
 
-static void displacement_anywhere(void **state)
+TEST(displacement_anywhere)
 {
     for (int k = 0; k < WHEELS; k++) {
         double ends[N + 2], x[M], p[N], q[N], w[M], largest = 0.0;
@@ -347,9 +347,8 @@ static void displacement_anywhere(void **state)
 }
 
 /* On equal, fitted and rough elements, under tractions that jump. */
-static void products_are_the_matrix(void **state)
+TEST(products_are_the_matrix)
 {
-    (void)state;
     enum { n = 300, m = n + 1 };
     static double ends[n + 2], r[2 * n], w[2 * m], want[2 * m];
     srand(3);
@@ -404,7 +403,7 @@ static void products_are_the_matrix(void **state)
     }
 }
 
-static void bad_wheels_are_refused(void **state)
+TEST(bad_wheels_are_refused)
 {
     rb_bem_wheel wheel = wheels[3];
     double ends[4] = {-0.1, 0.0, 0.1, 0.2};
@@ -430,17 +429,4 @@ static void bad_wheels_are_refused(void **state)
         RB_EINVAL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_table_is_the_sum),
-        cmocka_unit_test(the_flexibility_is_the_sum_of_its_waves),
-        cmocka_unit_test(uneven_arcs_and_frames),
-        cmocka_unit_test(boundary_elements_come_to_it),
-        cmocka_unit_test(a_thin_cover_is_a_layer),
-        cmocka_unit_test(displacement_anywhere),
-        cmocka_unit_test(products_are_the_matrix),
-        cmocka_unit_test(bad_wheels_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

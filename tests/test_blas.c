@@ -11,7 +11,7 @@
 #include <omp.h>
 #endif
 
-static void a_better_core_is_another_one(void **state)
+TEST(a_better_core_is_another_one)
 {
     const char *core = rb_blas_core(), *better = rb_blas_better_core();
     assert_true(strlen(core) > 0);
@@ -19,7 +19,7 @@ static void a_better_core_is_another_one(void **state)
         assert_string_not_equal(core, better);
 }
 
-static void the_caller_sets_the_number_of_threads(void **state)
+TEST(the_caller_sets_the_number_of_threads)
 {
     unsetenv("OPENBLAS_NUM_THREADS");
     const int at_first = rb_blas_threads(1);
@@ -71,7 +71,7 @@ static int room_with(rlim_t megabytes, int threads)
 
 /* 160 MB for each thread of BLAS and each other one of OpenMP; one thread of BLAS can do
  * with one buffer, several cannot. */
-static void memory_for_the_buffers_is_asked_for_first(void **state)
+TEST(memory_for_the_buffers_is_asked_for_first)
 {
 #ifdef _OPENMP
     const int alone = 11;
@@ -87,12 +87,4 @@ static void memory_for_the_buffers_is_asked_for_first(void **state)
         assert_int_equal(room_with(300, 2), 80);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_better_core_is_another_one),
-        cmocka_unit_test(the_caller_sets_the_number_of_threads),
-        cmocka_unit_test(memory_for_the_buffers_is_asked_for_first),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -100,7 +100,7 @@ static void compare(const char *file, const char *words)
 
 /* Bit for bit: the examples as they stand, and words that leave choices to the settling.
  */
-static void the_same_words_give_the_same_answer(void **state)
+TEST(the_same_words_give_the_same_answer)
 {
     static const struct {
         const char *file, *words;
@@ -127,7 +127,7 @@ static void the_same_words_give_the_same_answer(void **state)
 }
 
 /* -0.6438 where nobody chooses the fitted mesh; the exact ratio is -0.64. */
-static void carter_by_names_is_on_the_fitted_mesh(void **state)
+TEST(carter_by_names_is_on_the_fitted_mesh)
 {
     rb_message why = {""};
     rb_case_result r;
@@ -143,7 +143,7 @@ static void carter_by_names_is_on_the_fitted_mesh(void **state)
 
 /* ---- The table --------------------------------------------------------------------- */
 
-static void every_option_describes_itself(void **state)
+TEST(every_option_describes_itself)
 {
     int n, options = 0;
     const rb_option *o = rb_case_describe(&n);
@@ -163,7 +163,7 @@ static void every_option_describes_itself(void **state)
 }
 
 /* What the library prints of a value it takes back. */
-static void a_value_survives_as_text(void **state)
+TEST(a_value_survives_as_text)
 {
     rb_message why = {""};
     int n;
@@ -184,7 +184,7 @@ static void a_value_survives_as_text(void **state)
     rb_case_free(again);
 }
 
-static void numbers_are_words_too(void **state)
+TEST(numbers_are_words_too)
 {
     rb_message why = {""};
     rb_case *c = case_of("load=500"), *by_number = case_of("");
@@ -243,7 +243,7 @@ static const rb_option kinds[] = {
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* Both sides of every end, every word, and what stands for a value. */
-static void values_are_taken_strictly(void **state)
+TEST(values_are_taken_strictly)
 {
     static const struct {
         const char *name, *good, *bad, *shown, *expected; /* by | */
@@ -311,7 +311,7 @@ static rb_status assign(const rb_option_set *set, const char *name, const char *
 }
 
 /* Lists, units, files, and sets where nobody asks who gave what. */
-static void values_are_kept_where_they_belong(void **state)
+TEST(values_are_kept_where_they_belong)
 {
     every_kind v = {.free = NAN};
     int given[KINDS] = {0}, plain[KINDS] = {0};
@@ -363,7 +363,7 @@ static void values_are_kept_where_they_belong(void **state)
                  rb_option_number("1x", &x) || rb_option_number("inf", &x));
 }
 
-static void names_that_are_none_are_said(void **state)
+TEST(names_that_are_none_are_said)
 {
     rb_message why = {""};
     rb_case *c = case_of("");
@@ -399,7 +399,7 @@ static const rb_io_contact_case steel = {
     .plan = 1,
     .b = {1.0 / 600.0}};
 
-static void cases_of_contact_are_our_own(void **state)
+TEST(cases_of_contact_are_our_own)
 {
     rb_case_contact c;
     rb_io_contact_case in = steel;
@@ -467,7 +467,7 @@ static void cases_of_contact_are_our_own(void **state)
     assert_true(c.rc.force_ratio == -4e-4 && isnan(c.rc.creep));
 }
 
-static void materials_and_laws_of_contact(void **state)
+TEST(materials_and_laws_of_contact)
 {
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
@@ -518,7 +518,7 @@ static void materials_and_laws_of_contact(void **state)
 }
 
 /* Every clause in turn, and all that a case that is run can have at once. */
-static void what_contact_has_besides_is_listed(void **state)
+TEST(what_contact_has_besides_is_listed)
 {
     rb_case_contact c;
     rb_io_contact_case in = steel;
@@ -560,7 +560,7 @@ static void what_contact_has_besides_is_listed(void **state)
 
 /* -sum |q| (|shift| - what the third body takes) over DY V; the element behind the last
  * has not yielded. */
-static void friction_power_is_that_of_contact(void **state)
+TEST(friction_power_is_that_of_contact)
 {
     double q[] = {2.0, -3.0, 4.0}, shift[] = {0.1, -0.2, 0.3},
            plastic[] = {0.05, 0.03, 0.02};
@@ -598,7 +598,7 @@ static void check_word(rb_status s, const rb_message *why, const char *part)
         fail_msg("status %d, '%s', wanted '%s'", (int)s, why->text, part);
 }
 
-static void wrong_words_are_refused(void **state)
+TEST(wrong_words_are_refused)
 {
     rb_message why = {""};
     rb_case *c = case_of("");
@@ -614,7 +614,7 @@ static void wrong_words_are_refused(void **state)
     rb_case_free(c);
 }
 
-static void contradictions_are_refused(void **state)
+TEST(contradictions_are_refused)
 {
     static const struct {
         const char *words, *part;
@@ -650,7 +650,7 @@ static void contradictions_are_refused(void **state)
 }
 
 /* Whatever reads a case for a purpose refuses the same words. */
-static void a_purpose_refuses_what_means_nothing_to_it(void **state)
+TEST(a_purpose_refuses_what_means_nothing_to_it)
 {
     static const struct {
         rb_case_purpose purpose;
@@ -673,7 +673,7 @@ static void a_purpose_refuses_what_means_nothing_to_it(void **state)
     }
 }
 
-static void a_curve_takes_several_mu(void **state)
+TEST(a_curve_takes_several_mu)
 {
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_CURVE);
@@ -686,7 +686,7 @@ static void a_curve_takes_several_mu(void **state)
 
 /* ---- Files ------------------------------------------------------------------------- */
 
-static void files_are_blamed_by_line(void **state)
+TEST(files_are_blamed_by_line)
 {
     static const struct {
         const char *text, *part;
@@ -724,7 +724,7 @@ static void files_are_blamed_by_line(void **state)
 }
 
 /* What the library says of a row is said of the file and its line. */
-static void rows_are_blamed_by_file_and_line(void **state)
+TEST(rows_are_blamed_by_file_and_line)
 {
     static const struct {
         const char *words, *text, *part;
@@ -760,7 +760,7 @@ static void rows_are_blamed_by_file_and_line(void **state)
 }
 
 /* A column in the place of an option of the command line, which is named. */
-static void a_column_excludes_its_option(void **state)
+TEST(a_column_excludes_its_option)
 {
     static const char *const columns[][2] = {
         {"mu", "mu"}, {"load", "load"}, {"load", "approach"}, {"creep", "creep-ratio"}};
@@ -782,7 +782,7 @@ static void a_column_excludes_its_option(void **state)
 }
 
 /* Solution, error bars and steps have the same units. */
-static void all_of_a_result_is_converted(void **state)
+TEST(all_of_a_result_is_converted)
 {
     static const char *const words[] = {
         "support=halfplane load=100 contact-elements=12 error=yes",
@@ -810,7 +810,7 @@ static void all_of_a_result_is_converted(void **state)
 
 /* A caller's own options stand beside those of the case; who gave them it need not ask.
  */
-static void own_options_are_read_beside_the_case(void **state)
+TEST(own_options_are_read_beside_the_case)
 {
     double own = 0.0;
     static const rb_option options[] = {RB_GROUP_LINE("own", "Own"),
@@ -830,7 +830,7 @@ static void own_options_are_read_beside_the_case(void **state)
     rb_case_free(c);
 }
 
-static void an_argument_wins_over_the_file(void **state)
+TEST(an_argument_wins_over_the_file)
 {
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
@@ -848,7 +848,7 @@ static void an_argument_wins_over_the_file(void **state)
 
 /* What one case of a study resolves must not stay in the next: neither mesh nor elements
  * nor what an option took back. */
-static void a_copy_is_settled_from_its_words(void **state)
+TEST(a_copy_is_settled_from_its_words)
 {
     rb_message why = {""};
     rb_case *base = case_of("formulation=steady similar=yes support=halfplane load=500");
@@ -871,7 +871,7 @@ static double gap_at(const rb_case *c, double x)
     return rb_rolling_profile_gap(rb_case_resolved(c)->rc.profile, x);
 }
 
-static void a_copy_borrows_the_files(void **state)
+TEST(a_copy_borrows_the_files)
 {
     rb_message why = {""};
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
@@ -894,7 +894,7 @@ static void a_copy_borrows_the_files(void **state)
 }
 
 /* Whatever tables a case names are there when it is resolved, and again. */
-static void tables_are_where_the_case_wants_them(void **state)
+TEST(tables_are_where_the_case_wants_them)
 {
     rb_message why = {""};
     write_file("worn.txt", "-5 0\n0 0.01\n5 0\n");
@@ -946,7 +946,7 @@ static rb_status use_memory(void)
     return s;
 }
 
-static void every_failing_allocation_is_told(void **state)
+TEST(every_failing_allocation_is_told)
 {
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
     write_file("case.ini", "[normal]\nload = 500\n");
@@ -968,7 +968,7 @@ static void every_failing_allocation_is_told(void **state)
 /* A value from elsewhere against a table of two options, which share no bit: what the
  * file has gives way, what an argument has does not, and nothing behind the table is
  * read. */
-static void values_from_elsewhere_resolve_a_table(void **state)
+TEST(values_from_elsewhere_resolve_a_table)
 {
     struct {
         double a, b;
@@ -1003,36 +1003,4 @@ static void values_from_elsewhere_resolve_a_table(void **state)
     assert_string_equal(why.text, "--a: no");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_words_give_the_same_answer),
-        cmocka_unit_test(carter_by_names_is_on_the_fitted_mesh),
-        cmocka_unit_test(every_option_describes_itself),
-        cmocka_unit_test(a_value_survives_as_text),
-        cmocka_unit_test(numbers_are_words_too),
-        cmocka_unit_test(values_are_taken_strictly),
-        cmocka_unit_test(values_are_kept_where_they_belong),
-        cmocka_unit_test(names_that_are_none_are_said),
-        cmocka_unit_test(cases_of_contact_are_our_own),
-        cmocka_unit_test(materials_and_laws_of_contact),
-        cmocka_unit_test(what_contact_has_besides_is_listed),
-        cmocka_unit_test(friction_power_is_that_of_contact),
-        cmocka_unit_test(wrong_words_are_refused),
-        cmocka_unit_test(contradictions_are_refused),
-        cmocka_unit_test(a_purpose_refuses_what_means_nothing_to_it),
-        cmocka_unit_test(a_curve_takes_several_mu),
-        cmocka_unit_test(files_are_blamed_by_line),
-        cmocka_unit_test(rows_are_blamed_by_file_and_line),
-        cmocka_unit_test(a_column_excludes_its_option),
-        cmocka_unit_test(all_of_a_result_is_converted),
-        cmocka_unit_test(own_options_are_read_beside_the_case),
-        cmocka_unit_test(an_argument_wins_over_the_file),
-        cmocka_unit_test(a_copy_is_settled_from_its_words),
-        cmocka_unit_test(a_copy_borrows_the_files),
-        cmocka_unit_test(tables_are_where_the_case_wants_them),
-        cmocka_unit_test(values_from_elsewhere_resolve_a_table),
-        cmocka_unit_test(every_failing_allocation_is_told),
-    };
-    return cmocka_run_group_tests(tests, enter, leave_folder);
-}
+RUN_TESTS(enter, leave_folder)

@@ -97,7 +97,7 @@ static void write_controls(void)
                      0);
 }
 
-static void results_are_valid(void **state)
+TEST(results_are_valid)
 {
     static const char *const more[] = {
         "--support halfplane --load 100 --mu 0 --formulation steady --creep 1e-3",
@@ -246,7 +246,7 @@ static int change_list(const json_t *root, const char *given, const char *key,
 }
 
 /* Of every step: what is printed of it, and its state. */
-static void every_changed_number_of_a_history_is_found(void **state)
+TEST(every_changed_number_of_a_history_is_found)
 {
     int changes = 0;
     missed = 0;
@@ -280,7 +280,7 @@ static void every_changed_number_of_a_history_is_found(void **state)
     assert_int_equal(missed, 0);
 }
 
-static void every_changed_number_is_found(void **state)
+TEST(every_changed_number_is_found)
 {
     int changes = 0;
     missed = 0;
@@ -398,7 +398,7 @@ static void change_shakedown(json_t *root, const char *given)
     }
 }
 
-static void every_changed_number_of_a_stress_is_found(void **state)
+TEST(every_changed_number_of_a_stress_is_found)
 {
     static const char *const given[] = {"x_mm", "y_mm"}, *const of[] = {"value", "x",
                                                                         "y"};
@@ -428,7 +428,7 @@ static void every_changed_number_of_a_stress_is_found(void **state)
 }
 
 /* Given values that the result does not meet, and those that it does not depend on. */
-static void every_changed_input_is_found(void **state)
+TEST(every_changed_input_is_found)
 {
     int changes = 0;
     missed = 0;
@@ -453,7 +453,7 @@ static void every_changed_input_is_found(void **state)
 }
 
 /* What the result itself says against a given value, with the hash made to fit. */
-static void inputs_belong_to_the_result(void **state)
+TEST(inputs_belong_to_the_result)
 {
     static const struct {
         int which;
@@ -484,7 +484,7 @@ static void inputs_belong_to_the_result(void **state)
 }
 
 /* The table of a gap, changed by what does not change the contact. */
-static void files_belong_to_the_result(void **state)
+TEST(files_belong_to_the_result)
 {
     assert_int_equal(
         shell("awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > "
@@ -566,7 +566,7 @@ static const char *said_of(const json_t *root, const char *path, const char *val
 }
 
 /* Of --all-solutions each is judged by itself; the last number of the last one counts. */
-static void all_solutions_are_judged(void **state)
+TEST(all_solutions_are_judged)
 {
     static const char given[] =
         "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
@@ -689,7 +689,7 @@ static void change_cell(const char *text, const char *line, int column,
 }
 
 /* A part of the cells, so that every column and every row is among them. */
-static void every_changed_number_of_a_table_is_found(void **state)
+TEST(every_changed_number_of_a_table_is_found)
 {
     static char text[sizeof out], changed_text[sizeof out];
     int changes = 0;
@@ -717,7 +717,7 @@ static void every_changed_number_of_a_table_is_found(void **state)
 
 /* From the command line that the table quotes: a case file, options behind it, words in
  * quotes, several contacts. */
-static void tables_are_valid_by_their_comments(void **state)
+TEST(tables_are_valid_by_their_comments)
 {
     static const char *const tables[] = {
         "case.ini --creep-ratio 0.2 --dump d",
@@ -774,7 +774,7 @@ static void tables_are_valid_by_their_comments(void **state)
     assert_non_null(strstr(out, "violated: residual: printed 0.001"));
 }
 
-static void tables_that_cannot_be_checked_are_refused(void **state)
+TEST(tables_that_cannot_be_checked_are_refused)
 {
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 ";
     char line[500];
@@ -813,9 +813,8 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
 }
 
 /* Derivatives are no reason to refuse the rest, which is judged as ever. */
-static void what_stands_beside_derivatives_is_judged(void **state)
+TEST(what_stands_beside_derivatives_is_judged)
 {
-    (void)state;
     const char *const line = "--support halfplane --similar --load 500 --creep-ratio 0.4 "
                              "--contact-elements 12 "
                              "--json --quiet --output slopes.json";
@@ -843,7 +842,7 @@ static void what_stands_beside_derivatives_is_judged(void **state)
     assert_non_null(strstr(out, "slopes.json: derivatives: not judged\n"));
 }
 
-static void what_cannot_be_checked_is_refused(void **state)
+TEST(what_cannot_be_checked_is_refused)
 {
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 --json ";
     char line[500];
@@ -979,7 +978,7 @@ static void tamper(tampering *t, json_t *at, const char *path)
 
 /* One result of each kind, by the program, so that a value that is never compared is
  * found here, also one that is not there yet. */
-static void whatever_is_changed_is_noticed(void **state)
+TEST(whatever_is_changed_is_noticed)
 {
     static const char *const kinds[] = {
         TINY "--support halfplane --load 100 --creep-ratio 0.4" STEADY,
@@ -1024,7 +1023,7 @@ static void whatever_is_changed_is_noticed(void **state)
 /* ---- Files that somebody else names ------------------------------------------------ */
 
 /* A result from anybody names devices, pipes, files that are nobody's business. */
-static void files_of_others_are_left_alone(void **state)
+TEST(files_of_others_are_left_alone)
 {
     static const struct {
         const char *file, *part;
@@ -1101,7 +1100,7 @@ static void files_of_others_are_left_alone(void **state)
 }
 
 /* An empty file has no lines; a name that is no UTF-8 is a name that is not expected. */
-static void odd_bytes_are_named(void **state)
+TEST(odd_bytes_are_named)
 {
     assert_int_equal(shell(": > empty; \"$R\" check empty"), 65);
     assert_non_null(strstr(err, "empty: cannot be checked: expected the JSON"));
@@ -1118,7 +1117,7 @@ static void odd_bytes_are_named(void **state)
 /* ---- Results that somebody has changed --------------------------------------------- */
 
 /* A line for each thing that is missing, of another kind, or against a law. */
-static void every_edit_is_named(void **state)
+TEST(every_edit_is_named)
 {
     static const struct {
         const char *given;
@@ -1343,25 +1342,4 @@ static void every_edit_is_named(void **state)
     assert_int_equal(wrong, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(results_are_valid),
-        cmocka_unit_test(every_changed_number_is_found),
-        cmocka_unit_test(every_changed_number_of_a_history_is_found),
-        cmocka_unit_test(every_changed_number_of_a_stress_is_found),
-        cmocka_unit_test(every_changed_input_is_found),
-        cmocka_unit_test(inputs_belong_to_the_result),
-        cmocka_unit_test(files_belong_to_the_result),
-        cmocka_unit_test(all_solutions_are_judged),
-        cmocka_unit_test(every_changed_number_of_a_table_is_found),
-        cmocka_unit_test(tables_are_valid_by_their_comments),
-        cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
-        cmocka_unit_test(what_stands_beside_derivatives_is_judged),
-        cmocka_unit_test(what_cannot_be_checked_is_refused),
-        cmocka_unit_test(whatever_is_changed_is_noticed),
-        cmocka_unit_test(files_of_others_are_left_alone),
-        cmocka_unit_test(odd_bytes_are_named),
-        cmocka_unit_test(every_edit_is_named)};
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -109,14 +109,14 @@ static const struct {
      "no room for the element before it within the radius, 50 mm"},
 };
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
     for (size_t k = 0; k < sizeof bad_arguments / sizeof bad_arguments[0]; k++)
         check_refused(bad_arguments[k].arguments, bad_arguments[k].code,
                       bad_arguments[k].part);
 }
 
-static void two_case_files_are_refused(void **state)
+TEST(two_case_files_are_refused)
 {
     check_refused("a.ini b.ini", 64, "'a.ini' and 'b.ini'");
     check_refused("-- --mu", 66, "--mu: No such file");
@@ -143,7 +143,7 @@ static const struct {
     {"contact-elements = 10000000\nzone = 10\n", "GB of memory"},
 };
 
-static void bad_files_are_refused_with_their_line(void **state)
+TEST(bad_files_are_refused_with_their_line)
 {
     for (size_t k = 0; k < sizeof bad_files / sizeof bad_files[0]; k++) {
         write_file("case.ini", bad_files[k].text);
@@ -151,7 +151,7 @@ static void bad_files_are_refused_with_their_line(void **state)
     }
 }
 
-static void long_line_is_refused(void **state)
+TEST(long_line_is_refused)
 {
     char text[1200] = "mu = 0.3\nradius = ";
     memset(text + strlen(text), '1', 900);
@@ -159,7 +159,7 @@ static void long_line_is_refused(void **state)
     check_refused("case.ini", 65, "case.ini:2: line too long");
 }
 
-static void bad_profile_is_refused(void **state)
+TEST(bad_profile_is_refused)
 {
     write_file("gap.txt", "0 1\n1 x\n");
     check_refused("--gap gap.txt", 65, "gap.txt:2: expected a number, got 'x'");
@@ -173,7 +173,7 @@ static double member(const json_t *root, const char *group, const char *name)
     return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-static void case_file_equals_options(void **state)
+TEST(case_file_equals_options)
 {
     write_file("case.ini", "[body-a]\nsupport = halfplane\nradius = 40 ; mm\n"
                            "[normal]\n  load = 100\n[mesh]\n  contact-elements = 24\n"
@@ -188,7 +188,7 @@ static void case_file_equals_options(void **state)
     json_decref(b);
 }
 
-static void command_line_wins_over_the_file(void **state)
+TEST(command_line_wins_over_the_file)
 {
     write_file("case.ini", "support = halfplane\nload = 100\nmu = 0.2\n"
                            "contact-elements = 24\n");
@@ -200,7 +200,7 @@ static void command_line_wins_over_the_file(void **state)
     json_decref(root);
 }
 
-static void output_options_stand_in_the_file_too(void **state)
+TEST(output_options_stand_in_the_file_too)
 {
     write_file("case.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n"
                            "[output]\njson = yes\nquiet = yes\n");
@@ -213,7 +213,7 @@ static void output_options_stand_in_the_file_too(void **state)
 
 /* ---- Results ----------------------------------------------------------------------- */
 
-static void json_and_table_hold_the_same_numbers(void **state)
+TEST(json_and_table_hold_the_same_numbers)
 {
     static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
                                         "un_mm", "ut_mm", "shift_mm", "slip",  "zone"};
@@ -237,7 +237,7 @@ static void json_and_table_hold_the_same_numbers(void **state)
 }
 
 /* P and Q summed from the table; |q| <= mu p; slip and zones by their words. */
-static void table_obeys_its_own_conventions(void **state)
+TEST(table_obeys_its_own_conventions)
 {
     json_t *root = run_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
     const json_t *table = json_object_get(root, "table");
@@ -269,7 +269,7 @@ static void table_obeys_its_own_conventions(void **state)
 }
 
 /* Fitted is the default of steady rolling under a given load; what is asked for wins. */
-static void the_mesh_asked_for_is_used(void **state)
+TEST(the_mesh_asked_for_is_used)
 {
     static const struct {
         const char *options, *mesh;
@@ -291,7 +291,7 @@ static void the_mesh_asked_for_is_used(void **state)
     }
 }
 
-static void header_names_the_command(void **state)
+TEST(header_names_the_command)
 {
     assert_int_equal(rollbem(QUICK " --gap exact --quiet -- "), 0);
     assert_non_null(strstr(out, "# rollbem " RB_VERSION "\n"));
@@ -301,7 +301,7 @@ static void header_names_the_command(void **state)
     assert_non_null(strstr(out, "# rollbem 'it'\\''s.ini'\n"));
 }
 
-static void readme_case_is_solved(void **state)
+TEST(readme_case_is_solved)
 {
     assert_int_equal(rollbem("--mu 0.3 --creep 0.1"), 0);
     assert_non_null(strstr(err, "static: solved"));
@@ -309,7 +309,7 @@ static void readme_case_is_solved(void **state)
     assert_non_null(strstr(err, "--formulation steady")); /* the note */
 }
 
-static void version_help_and_usage(void **state)
+TEST(version_help_and_usage)
 {
     assert_int_equal(rollbem("--version"), 0);
     assert_string_equal(out, "rollbem " RB_VERSION "\n");
@@ -326,7 +326,7 @@ static void version_help_and_usage(void **state)
 }
 
 /* help WORD, --help=GROUP, --help=all, examples by either name. */
-static void words_are_found(void **state)
+TEST(words_are_found)
 {
     static const struct {
         const char *arguments, *there, *absent;
@@ -357,8 +357,8 @@ static void words_are_found(void **state)
                   "there are iterations, residual,");
 }
 
-static void
-verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify */
+/* what verify prints: tests/recorded/verify */
+TEST(verify_takes_no_operand)
 {
     check_refused("verify now", 64, "unexpected 'now'");
     assert_int_equal(rollbem("examples --json"), 0);
@@ -389,7 +389,7 @@ verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify *
 }
 
 /* As first word the completion for bash offers every command that the help lists. */
-static void completion_offers_every_command(void **state)
+TEST(completion_offers_every_command)
 {
     assert_int_equal(
         shell("\"$R\" --completion=bash > completion && bash -c '. ./completion; "
@@ -413,7 +413,7 @@ static void completion_offers_every_command(void **state)
 }
 
 /* What the schema describes of a case is what a result holds, no more and no less. */
-static void the_schema_describes_every_input(void **state)
+TEST(the_schema_describes_every_input)
 {
     json_t *result = run_json("--support halfplane --load 100"),
            *schema = run_json("--describe=schema");
@@ -431,7 +431,7 @@ static void the_schema_describes_every_input(void **state)
     json_decref(schema);
 }
 
-static void not_solved_is_1(void **state)
+TEST(not_solved_is_1)
 {
     assert_int_equal(rollbem("--approach 1e-9 --zone 5"), 1);
     assert_non_null(strstr(err, "no contact"));
@@ -453,7 +453,7 @@ static void not_solved_is_1(void **state)
 }
 
 /* --similar is what naming everything of B would be, but for what B has by itself. */
-static void similar_copies_all_that_a_has(void **state)
+TEST(similar_copies_all_that_a_has)
 {
     static const char *const of[][3] = {
         {"--support halfplane --layer-thickness 2 --base-young 3e5 --base-poisson 0.2",
@@ -494,7 +494,7 @@ static size_t history_length(const json_t *root, const char *name)
     return json_array_size(json_object_get(json_object_get(root, "history"), name));
 }
 
-static void static_history_from_a_table(void **state)
+TEST(static_history_from_a_table)
 {
     write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n100 -0.5\n");
     json_t *root = run_json("--support halfplane --similar --contact-elements 24 "
@@ -506,7 +506,7 @@ static void static_history_from_a_table(void **state)
     json_decref(root);
 }
 
-static void transient_rolls_step_by_step(void **state)
+TEST(transient_rolls_step_by_step)
 {
     json_t *root = run_json(QUICK " --similar --formulation transient --distance 1 "
                                   "--creep-ratio 0.5 --history-table steps.tsv");
@@ -525,7 +525,7 @@ static void transient_rolls_step_by_step(void **state)
 }
 
 /* A column replaces what a case file says, as the command line does. */
-static void columns_win_over_the_case_file(void **state)
+TEST(columns_win_over_the_case_file)
 {
     write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n");
     write_file("case.ini", "load = 7\nforce = 2\nsupport = halfplane\nsimilar = yes\n"
@@ -545,7 +545,7 @@ static void columns_win_over_the_case_file(void **state)
 }
 
 /* The unit of distance is told, and the rows end where the table does. */
-static void distances_have_a_unit(void **state)
+TEST(distances_have_a_unit)
 {
     write_file("history.txt", "distance load force_ratio\n0 100 0\n1 400 .5\n2 100 .5\n");
     json_t *root =
@@ -570,7 +570,7 @@ static void distances_have_a_unit(void **state)
 }
 
 /* Nothing touches where the surface is missing: null in JSON, nan in tables. */
-static void lost_contact_has_no_ratios(void **state)
+TEST(lost_contact_has_no_ratios)
 {
     write_file("hole.txt", "1.5 0\n2 .3\n4 1\n6 1\n8 .3\n9 0\n");
     json_t *root =
@@ -603,7 +603,7 @@ static void lost_contact_has_no_ratios(void **state)
 }
 
 /* Increments come with their history, in studies with the last state only. */
-static void increments_press_gradually(void **state)
+TEST(increments_press_gradually)
 {
     json_t *root = run_json("--support halfplane --gap parabola --load 100 "
                             "--contact-elements 40 --increments 5 --force-ratio .3 "
@@ -629,7 +629,7 @@ static void increments_press_gradually(void **state)
     check_refused("--history history.txt --increments 5", 64, "--increments:");
 }
 
-static void irregularities_are_of_transients(void **state)
+TEST(irregularities_are_of_transients)
 {
     write_file("open.txt", "1 0\n2 .3\n4 1\n");
     check_refused("--irregularity open.txt", 64,
@@ -644,7 +644,7 @@ static void irregularities_are_of_transients(void **state)
                   66, "nowhere.txt");
 }
 
-static void bad_histories_are_refused(void **state)
+TEST(bad_histories_are_refused)
 {
     write_file("history.txt", "distance load\n0 50\n1 50\n");
     check_refused("--history history.txt", 65, "static contact does not roll");
@@ -667,7 +667,7 @@ static void bad_histories_are_refused(void **state)
 }
 
 /* The steps that were finished are there. */
-static void interrupted_run_keeps_its_steps(void **state)
+TEST(interrupted_run_keeps_its_steps)
 {
     assert_int_equal(
         shell("\"$R\" " QUICK " --similar --formulation transient --distance 100000 "
@@ -682,7 +682,7 @@ static void interrupted_run_keeps_its_steps(void **state)
 }
 
 /* Files and pipes end, devices need not. */
-static void devices_are_refused(void **state)
+TEST(devices_are_refused)
 {
     static const char *const lines[] = {
         "--support halfplane --load 100 --gap /dev/zero",
@@ -714,7 +714,7 @@ static void devices_are_refused(void **state)
 }
 
 /* So many threads ended in a signal of OpenMP's. */
-static void threads_are_bounded(void **state)
+TEST(threads_are_bounded)
 {
     assert_int_equal(shell("OMP_NUM_THREADS=100000 \"$R\" stress --support halfplane "
                            "--load 100 --contact-elements 100 --grid 60x60 --quiet"),
@@ -723,7 +723,7 @@ static void threads_are_bounded(void **state)
 }
 
 /* Under nohup it goes on when the terminal goes; without, it is interrupted. */
-static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
+TEST(a_terminal_that_goes_interrupts_unless_nohup)
 {
     for (int nohup = 0; nohup < 2; nohup++) {
         char line[500];
@@ -742,7 +742,7 @@ static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
 /* ---- Error bars -------------------------------------------------------------------- */
 
 /* s = 0.4: exact Q/(mu P) = -0.64. */
-static void error_bars_hold_the_truth(void **state)
+TEST(error_bars_hold_the_truth)
 {
     json_t *root =
         run_json("--support halfplane --similar --gap parabola --load 100 "
@@ -783,7 +783,7 @@ static double *read_matrix(const char *name, int rows, int cols)
 
 /* The dumped LCP solved again gives the pressures of the table; the first tableau of the
  * trace, after z0 has entered, holds M and b. */
-static void dump_holds_the_problem(void **state)
+TEST(dump_holds_the_problem)
 {
     enum { N = 6, SIZE = 3 * N };
     json_t *root =
@@ -818,7 +818,7 @@ static void dump_holds_the_problem(void **state)
 }
 
 /* H annihilates the two translations. */
-static void dumped_influence_moves_rigidly(void **state)
+TEST(dumped_influence_moves_rigidly)
 {
     rb_io_matrix m;
     assert_int_equal(rollbem("--approach 5 --zone 20 --contact-elements 6 --dump h"), 0);
@@ -848,7 +848,7 @@ static double toeplitz(const double *first, const double *last, int n, int i, in
 
 /* Where no matrix is formed, four columns are dumped; with the tractions of the table
  * they give its displacements. */
-static void dump_of_a_large_contact_holds_its_flexibility(void **state)
+TEST(dump_of_a_large_contact_holds_its_flexibility)
 {
     enum { N = 1500, M = N + 1 };
     json_t *root = run_json("--support halfplane --half-width 0.05 --contact-elements "
@@ -884,7 +884,7 @@ static void dump_of_a_large_contact_holds_its_flexibility(void **state)
     assert_int_not_equal(system("test -e large.h5 || test -e none"), 0);
 }
 
-static void dump_that_cannot_be_written(void **state)
+TEST(dump_that_cannot_be_written)
 {
     assert_int_equal(rollbem(QUICK " --dump /nonexistent/d"), 73);
     write_file("file", "");
@@ -896,7 +896,7 @@ static void dump_that_cannot_be_written(void **state)
 
 /* The solution is Newton's, of a start with the zones of the mesh before: Lemke's pivots
  * can be seen all the same. */
-static void trace_of_a_case_that_newton_solved(void **state)
+TEST(trace_of_a_case_that_newton_solved)
 {
     assert_int_equal(rollbem("--support arc --similar --radius-b 50 --support-b arc "
                              "--formulation static --mesh fitted --contact-elements 40 "
@@ -907,7 +907,7 @@ static void trace_of_a_case_that_newton_solved(void **state)
 }
 
 /* The reason is told, not that there is nothing to draw. */
-static void no_picture_of_no_steps(void **state)
+TEST(no_picture_of_no_steps)
 {
     write_file("steep.txt", "load shift\n800 1\n800 2\n");
     assert_int_equal(rollbem("--support hub --formulation static --history steep.txt "
@@ -919,7 +919,7 @@ static void no_picture_of_no_steps(void **state)
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-static void output_is_whole_or_not_there(void **state)
+TEST(output_is_whole_or_not_there)
 {
     struct stat st;
     assert_int_equal(rollbem(QUICK " --quiet --output table.tsv"), 0);
@@ -938,7 +938,7 @@ static void output_is_whole_or_not_there(void **state)
     assert_int_equal(shell("ls | grep -c none"), 1); /* nor a temporary file */
 }
 
-static void full_device_is_73(void **state)
+TEST(full_device_is_73)
 {
     if (access("/dev/full", W_OK) != 0)
         skip();
@@ -950,7 +950,7 @@ static void full_device_is_73(void **state)
 }
 
 /* The reader is gone before anything is written. */
-static void closed_pipe_is_73(void **state)
+TEST(closed_pipe_is_73)
 {
     assert_int_equal(shell("{ sleep 0.2; \"$R\" " QUICK
                            " --quiet; echo $? >code; } | true; "
@@ -959,7 +959,7 @@ static void closed_pipe_is_73(void **state)
     assert_string_equal(err, ""); /* | head has seen enough */
 }
 
-static void pictures_are_written_or_not_there(void **state)
+TEST(pictures_are_written_or_not_there)
 {
     struct stat st;
     assert_int_equal(rollbem(QUICK " --quiet --plot picture.png"), 0);
@@ -982,7 +982,7 @@ static void pictures_are_written_or_not_there(void **state)
 
 /* What goes for one command that solves a case goes for all. */
 /* At half of full sliding the stick zone ends at 0 but for rounding. */
-static void rounding_about_0_is_0(void **state)
+TEST(rounding_about_0_is_0)
 {
     assert_int_equal(rollbem("--support halfplane --similar --load 500 --creep-ratio 0.5 "
                              "--formulation steady"),
@@ -990,7 +990,7 @@ static void rounding_about_0_is_0(void **state)
     assert_non_null(strstr(err, "; stick 0 ... 0.81"));
 }
 
-static void commands_on_a_case_offer_the_same(void **state)
+TEST(commands_on_a_case_offer_the_same)
 {
     static const char *const commands[] = {"", "stress --grid 5x4",
                                            "wear --cycles 1 --wear-coefficient 1e-10",
@@ -1009,54 +1009,4 @@ static void commands_on_a_case_offer_the_same(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_arguments_are_refused),
-        cmocka_unit_test(two_case_files_are_refused),
-        cmocka_unit_test(bad_files_are_refused_with_their_line),
-        cmocka_unit_test(long_line_is_refused),
-        cmocka_unit_test(bad_profile_is_refused),
-        cmocka_unit_test(case_file_equals_options),
-        cmocka_unit_test(command_line_wins_over_the_file),
-        cmocka_unit_test(output_options_stand_in_the_file_too),
-        cmocka_unit_test(json_and_table_hold_the_same_numbers),
-        cmocka_unit_test(table_obeys_its_own_conventions),
-        cmocka_unit_test(the_mesh_asked_for_is_used),
-        cmocka_unit_test(header_names_the_command),
-        cmocka_unit_test(readme_case_is_solved),
-        cmocka_unit_test(version_help_and_usage),
-        cmocka_unit_test(words_are_found),
-        cmocka_unit_test(verify_takes_no_operand),
-        cmocka_unit_test(completion_offers_every_command),
-        cmocka_unit_test(the_schema_describes_every_input),
-        cmocka_unit_test(not_solved_is_1),
-        cmocka_unit_test(similar_copies_all_that_a_has),
-        cmocka_unit_test(static_history_from_a_table),
-        cmocka_unit_test(columns_win_over_the_case_file),
-        cmocka_unit_test(distances_have_a_unit),
-        cmocka_unit_test(lost_contact_has_no_ratios),
-        cmocka_unit_test(increments_press_gradually),
-        cmocka_unit_test(irregularities_are_of_transients),
-        cmocka_unit_test(transient_rolls_step_by_step),
-        cmocka_unit_test(bad_histories_are_refused),
-        cmocka_unit_test(interrupted_run_keeps_its_steps),
-        cmocka_unit_test(devices_are_refused),
-        cmocka_unit_test(threads_are_bounded),
-        cmocka_unit_test(a_terminal_that_goes_interrupts_unless_nohup),
-        cmocka_unit_test(error_bars_hold_the_truth),
-        cmocka_unit_test(dump_holds_the_problem),
-        cmocka_unit_test(dumped_influence_moves_rigidly),
-        cmocka_unit_test(dump_of_a_large_contact_holds_its_flexibility),
-        cmocka_unit_test(dump_that_cannot_be_written),
-        cmocka_unit_test(trace_of_a_case_that_newton_solved),
-        cmocka_unit_test(no_picture_of_no_steps),
-        cmocka_unit_test(output_is_whole_or_not_there),
-        cmocka_unit_test(full_device_is_73),
-        cmocka_unit_test(closed_pipe_is_73),
-        cmocka_unit_test(rounding_about_0_is_0),
-        cmocka_unit_test(commands_on_a_case_offer_the_same),
-        cmocka_unit_test(pictures_are_written_or_not_there),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

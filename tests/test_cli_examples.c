@@ -53,7 +53,7 @@ static void compare_tables(const char *got_path, const char *wanted_path)
     rb_io_table_free(&wanted);
 }
 
-static void tables_are_as_recorded(void **state)
+TEST(tables_are_as_recorded)
 {
     static const struct {
         const char *command, *output, *wanted;
@@ -80,7 +80,7 @@ static void tables_are_as_recorded(void **state)
     }
 }
 
-static void figures_of_the_paper_are_drawn(void **state)
+TEST(figures_of_the_paper_are_drawn)
 {
     assert_int_equal(run("ROLLBEM=%s/rollbem examples/paper/figures %s/figures",
                          build_folder(), folder),
@@ -119,7 +119,7 @@ static void compare_pages(const char *got_path, const char *wanted_path)
     fclose(wanted);
 }
 
-static void by_hand_is_computed_again_by_octave(void **state)
+TEST(by_hand_is_computed_again_by_octave)
 {
     if (run("command -v octave >/dev/null") != 0)
         skip();
@@ -132,14 +132,14 @@ static void by_hand_is_computed_again_by_octave(void **state)
     compare_pages(page, "examples/by-hand/page.txt");
 }
 
-static void blocks_of_the_readme_print_what_it_shows(void **state)
+TEST(blocks_of_the_readme_print_what_it_shows)
 {
     int wrong = 0;
     assert_true(run_page("README.md", folder, &wrong) >= 3);
     assert_int_equal(wrong, 0);
 }
 
-static void commands_of_the_cookbook_run(void **state)
+TEST(commands_of_the_cookbook_run)
 {
     int wrong = 0;
     assert_true(run_page("docs/rolling-cookbook.md", folder, &wrong) >= 12);
@@ -148,7 +148,7 @@ static void commands_of_the_cookbook_run(void **state)
     assert_int_equal(run("test -s %s/fringes.png", folder), 0);
 }
 
-static void commands_of_the_rolls_run(void **state)
+TEST(commands_of_the_rolls_run)
 {
     int wrong = 0;
     assert_true(run_page("docs/rolls.md", folder, &wrong) >= 7);
@@ -157,7 +157,7 @@ static void commands_of_the_rolls_run(void **state)
     assert_int_equal(run("test -s %s/resistance.png", folder), 0);
 }
 
-static void commands_of_the_cracks_run(void **state)
+TEST(commands_of_the_cracks_run)
 {
     int wrong = 0;
     assert_true(run_page("docs/crack.md", folder, &wrong) >= 2);
@@ -176,16 +176,4 @@ static int remove_folder(void **state)
     return run("rm -rf %s", folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_are_as_recorded),
-        cmocka_unit_test(figures_of_the_paper_are_drawn),
-        cmocka_unit_test(blocks_of_the_readme_print_what_it_shows),
-        cmocka_unit_test(commands_of_the_cookbook_run),
-        cmocka_unit_test(commands_of_the_rolls_run),
-        cmocka_unit_test(commands_of_the_cracks_run),
-        cmocka_unit_test(by_hand_is_computed_again_by_octave),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+RUN_TESTS(make_folder, remove_folder)

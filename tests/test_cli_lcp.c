@@ -70,7 +70,7 @@ static int leave_folder(void **state)
     return chdir("/") || rmdir(folder);
 }
 
-static void a_line_per_file(void **state)
+TEST(a_line_per_file)
 {
     char status[40];
     int n, pivots;
@@ -87,7 +87,7 @@ static void a_line_per_file(void **state)
     CHECK_MAX(residual, 1e-14, "residual");
 }
 
-static void the_largest_exit_code_wins_and_all_files_run(void **state)
+TEST(the_largest_exit_code_wins_and_all_files_run)
 {
     assert_int_equal(lcp("good ray"), 1);
     assert_non_null(strstr(err, "ray: lcp: secondary ray"));
@@ -105,14 +105,14 @@ static void the_largest_exit_code_wins_and_all_files_run(void **state)
     assert_non_null(strstr(err, "--trace"));
 }
 
-static void the_tie_rule_can_be_chosen(void **state)
+TEST(the_tie_rule_can_be_chosen)
 {
     assert_int_equal(lcp("--rule first-index --max-pivots 100 kostreva"), 1);
     assert_non_null(strstr(out, "iteration-limit\t3\t100"));
     assert_int_equal(lcp("kostreva"), 0);
 }
 
-static void trace_and_solution_are_tables(void **state)
+TEST(trace_and_solution_are_tables)
 {
     double z = 0.0, w = 1.0;
     assert_int_equal(lcp("--trace good"), 0);
@@ -138,7 +138,7 @@ static void solution(double z[2])
 }
 
 /* M = [1 2; 2 1] in plain text begins like a Siconos file by blocks: 2, 1, 2, 2. */
-static void plain_text_is_read(void **state)
+TEST(plain_text_is_read)
 {
     static const char *const files[] = {
         "# M is not positive definite\n2\n1 2 # row 1\n2 1\n-1 -2\n", "2 1 2 2 1 -1 -2",
@@ -164,7 +164,7 @@ static void refused(const char *text, const char *arguments, const char *words)
         fail_msg("expected '%s' in: %s", words, err);
 }
 
-static void what_is_no_problem_is_refused(void **state)
+TEST(what_is_no_problem_is_refused)
 {
     refused("2\n1 2\n2 1\n-1\n", "p", "p:5: q, number 2: expected a finite number");
     refused("2\n1 2\n2 1\n-1\n", "- <p", "standard input:5: q, number 2");
@@ -182,7 +182,7 @@ static void what_is_no_problem_is_refused(void **state)
     assert_int_equal(lcp("--q x p good"), 64);
 }
 
-static void matrix_market_is_read(void **state)
+TEST(matrix_market_is_read)
 {
     double z[2];
     put("p",
@@ -198,7 +198,7 @@ static void matrix_market_is_read(void **state)
     CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
 }
 
-static void a_cover_may_hold_zeros_where_q_is_not_negative(void **state)
+TEST(a_cover_may_hold_zeros_where_q_is_not_negative)
 {
     double z[2];
     put("p", "2\n2 1\n-3 2\n-1 0.5\n");
@@ -219,7 +219,7 @@ static void a_cover_may_hold_zeros_where_q_is_not_negative(void **state)
 }
 
 /* Murty's example of order 11 takes 2^11 pivots, more than 50 n + 1000. */
-static void the_cap_is_named(void **state)
+TEST(the_cap_is_named)
 {
     FILE *f = fopen("p", "w");
     assert_non_null(f);
@@ -238,7 +238,7 @@ static void the_cap_is_named(void **state)
 
 /* The obstacle problem of 100 x 100 points: without a dense tableau, which takes 800 MB.
  */
-static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
+TEST(a_large_sparse_problem_needs_no_dense_tableau)
 {
     char line[1500];
     double residual;
@@ -258,7 +258,7 @@ static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
 }
 
 /* Lemke's method itself on 50 x 50 points: a dense tableau would be 50 MB larger. */
-static void lemke_on_a_large_sparse_problem_needs_no_tableau(void **state)
+TEST(lemke_on_a_large_sparse_problem_needs_no_tableau)
 {
     char line[1500];
     double residual;
@@ -274,7 +274,7 @@ static void lemke_on_a_large_sparse_problem_needs_no_tableau(void **state)
     assert_non_null(strstr(out, "\"lemke-sparse\""));
 }
 
-static void the_solver_can_be_chosen(void **state)
+TEST(the_solver_can_be_chosen)
 {
     double z[2];
     assert_int_equal(lcp("--solution --solver newton good"), 0);
@@ -288,7 +288,7 @@ static void the_solver_can_be_chosen(void **state)
 }
 
 /* w(1) < 0 at the upper end, w(2) = 0 in between. */
-static void boxes_are_solved(void **state)
+TEST(boxes_are_solved)
 {
     double z[2];
     put("x", "1 inf # the upper bounds\n");
@@ -332,7 +332,7 @@ static int pivots_of(const char *file)
     return pivots;
 }
 
-static void a_start_saves_the_pivots(void **state)
+TEST(a_start_saves_the_pivots)
 {
     put("x", "1.3 2.3");
     assert_int_equal(lcp("--start x --solver lemke good"), 0);
@@ -344,7 +344,7 @@ static void a_start_saves_the_pivots(void **state)
     assert_int_equal(lcp("--start missing good"), 66);
 }
 
-static void all_solutions_are_listed(void **state)
+TEST(all_solutions_are_listed)
 {
     put("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
     assert_int_equal(lcp("--all p"), 0);
@@ -363,7 +363,7 @@ static void all_solutions_are_listed(void **state)
     assert_non_null(strstr(out, "\"solutions\""));
 }
 
-static void games_are_solved(void **state)
+TEST(games_are_solved)
 {
     put("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");
     assert_int_equal(lcp("--game --solution p"), 0);
@@ -394,7 +394,7 @@ static const char *text_of(const json_t *p, const char *key)
     return json_string_value(json_object_get(p, key));
 }
 
-static void json_holds_every_file(void **state)
+TEST(json_holds_every_file)
 {
     assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
     json_t *root = json_loads(out, 0, NULL);
@@ -420,7 +420,7 @@ static void json_holds_every_file(void **state)
     json_decref(root);
 }
 
-static void the_collection_is_solved(void **state)
+TEST(the_collection_is_solved)
 {
     char arguments[1100];
     snprintf(arguments, sizeof arguments, "%s/*.dat", outside_data("siconos/lcp"));
@@ -431,27 +431,4 @@ static void the_collection_is_solved(void **state)
     assert_true(solved >= 9);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_per_file),
-        cmocka_unit_test(the_largest_exit_code_wins_and_all_files_run),
-        cmocka_unit_test(the_tie_rule_can_be_chosen),
-        cmocka_unit_test(trace_and_solution_are_tables),
-        cmocka_unit_test(plain_text_is_read),
-        cmocka_unit_test(what_is_no_problem_is_refused),
-        cmocka_unit_test(matrix_market_is_read),
-        cmocka_unit_test(a_cover_may_hold_zeros_where_q_is_not_negative),
-        cmocka_unit_test(the_cap_is_named),
-        cmocka_unit_test(the_solver_can_be_chosen),
-        cmocka_unit_test(boxes_are_solved),
-        cmocka_unit_test(a_start_saves_the_pivots),
-        cmocka_unit_test(all_solutions_are_listed),
-        cmocka_unit_test(games_are_solved),
-        cmocka_unit_test(a_large_sparse_problem_needs_no_dense_tableau),
-        cmocka_unit_test(lemke_on_a_large_sparse_problem_needs_no_tableau),
-        cmocka_unit_test(json_holds_every_file),
-        cmocka_unit_test(the_collection_is_solved),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -7,7 +7,7 @@ static const char page[] = "<p>before</p><script type=\"application/json\" "
                            "{\"left_out\":[\"accuracy\",\"error\"],"
                            "\"largest\":{\"contact-elements\":400}}</script>\n";
 
-static void the_page_carries_the_case(void **state)
+TEST(the_page_carries_the_case)
 {
     write_file("page.html", page);
     write_file("case.ini", "[friction]\nmu = 0.25\n[body-a]\nsupport = halfplane\n");
@@ -33,7 +33,7 @@ static void the_page_carries_the_case(void **state)
 }
 
 /* Neither beside the program nor where make install puts it; then there. */
-static void an_installed_program_finds_its_page(void **state)
+TEST(an_installed_program_finds_its_page)
 {
     write_file("page.html", page);
     assert_int_equal(shell("mkdir -p tree/bin && cp \"$R\" tree/bin/rollbem"), 0);
@@ -51,7 +51,7 @@ static void an_installed_program_finds_its_page(void **state)
     assert_non_null(strstr(out, "beside")); /* the nearer one */
 }
 
-static void what_no_page_can_be_made_of_is_refused(void **state)
+TEST(what_no_page_can_be_made_of_is_refused)
 {
     write_file("page.html", page);
     write_file("other.html", "<p>nothing</p>");
@@ -82,12 +82,4 @@ static void what_no_page_can_be_made_of_is_refused(void **state)
     check_refused("page --page page.html --output no/folder.html", 73, "no/folder.html");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_page_carries_the_case),
-        cmocka_unit_test(an_installed_program_finds_its_page),
-        cmocka_unit_test(what_no_page_can_be_made_of_is_refused),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -53,13 +53,13 @@ static const struct {
     {"--plot a.svg --plot-script a.svg", 64, "both would write 'a.svg'"},
 };
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
         check_refused(bad[k].arguments, bad[k].code, bad[k].part);
 }
 
-static void bad_points_are_named_by_their_line(void **state)
+TEST(bad_points_are_named_by_their_line)
 {
     static const char *const texts[][2] = {
         {"0 1\n0 1 2\n", "points:2: expected 2 numbers, got 3"},
@@ -77,7 +77,7 @@ static void bad_points_are_named_by_their_line(void **state)
 /* ---- Curves ------------------------------------------------------------------------ */
 
 /* Carter (1926): Q/(mu P) = -s (2 - s). */
-static void curve_follows_carter(void **state)
+TEST(curve_follows_carter)
 {
     json_t *root = run_json("curve " SIMILAR "--from -1.2 --to 1.2 --points 25 "
                             "--contact-elements 50");
@@ -94,7 +94,7 @@ static void curve_follows_carter(void **state)
     json_decref(root);
 }
 
-static void table_holds_the_numbers_of_json(void **state)
+TEST(table_holds_the_numbers_of_json)
 {
     static const char *const columns[][2] = {{"creepage", "creepage"},
                                              {"creep_ratio", "creep_ratio"},
@@ -124,7 +124,7 @@ static void table_holds_the_numbers_of_json(void **state)
 }
 
 /* 100 points at 100 elements; a second leaves room for a busy machine. */
-static void curve_is_fast(void **state)
+TEST(curve_is_fast)
 {
     json_t *root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
     const json_t *curve = json_object_get(root, "curve");
@@ -147,7 +147,7 @@ static void check_maximum(const json_t *root, const char *name, double value, do
 }
 
 /* Closed forms for nu = 0.3 (theory.md 6). */
-static void maxima_are_those_of_hertz_and_full_sliding(void **state)
+TEST(maxima_are_those_of_hertz_and_full_sliding)
 {
     json_t *root = run_json("stress " SIMILAR "--shift 0 --mesh fitted --grid 3x3");
     check_maximum(root, "max_shear", 0.30028, 0.0, 0.78615);
@@ -168,7 +168,7 @@ static void maxima_are_those_of_hertz_and_full_sliding(void **state)
 }
 
 /* The first row of the grid lies on the surface: its tractions are those of the table. */
-static void surface_row_shows_the_tractions(void **state)
+TEST(surface_row_shows_the_tractions)
 {
     json_t *root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
                             "--grid 41x2 --contact-elements 200");
@@ -187,7 +187,7 @@ static void surface_row_shows_the_tractions(void **state)
     json_decref(root);
 }
 
-static void table_of_points(void **state)
+TEST(table_of_points)
 {
     rb_io_table t;
     write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
@@ -277,7 +277,7 @@ static void check_cells(int points, const json_t *grid, int nx, int ny)
 }
 
 /* A wheel's grid follows its surface; places in the hub are left out. */
-static void grid_of_a_wheel(void **state)
+TEST(grid_of_a_wheel)
 {
     const char *wheel = "stress --support hub --approach 5 --outer-elements 60 "
                         "--contact-elements 30 --grid 21x31 --depth 90";
@@ -311,7 +311,7 @@ static void grid_of_a_wheel(void **state)
     json_decref(root);
 }
 
-static void vtk_holds_the_numbers_of_the_table(void **state)
+TEST(vtk_holds_the_numbers_of_the_table)
 {
     enum { NX = 7, NY = 5, N = NX * NY };
     double x[6 * N + 3];
@@ -357,7 +357,7 @@ static double last_of(const char *path, const char *column)
 }
 
 /* Carter at s = 0.4, the end of a curve and of a long way. */
-static void curves_and_steps_have_error_bars(void **state)
+TEST(curves_and_steps_have_error_bars)
 {
     assert_int_equal(rollbem("curve " SIMILAR "--to 0.4 --points 3 --error --plot c.svg "
                              "--output c.tsv"),
@@ -377,7 +377,7 @@ static void curves_and_steps_have_error_bars(void **state)
 
 #define ROLLING SIMILAR "--formulation transient --creep-ratio 0.5 --contact-elements 20 "
 
-static void steps_leave_snapshots_and_a_picture(void **state)
+TEST(steps_leave_snapshots_and_a_picture)
 {
     rb_io_table first, last;
     assert_int_equal(rollbem(ROLLING "--distance 0.5 --quiet --output last.tsv "
@@ -400,7 +400,7 @@ static void steps_leave_snapshots_and_a_picture(void **state)
     check_refused(SIMILAR "--every 2", 64, "--every: for --formulation transient");
 }
 
-static void bad_rows_are_named_by_their_line(void **state)
+TEST(bad_rows_are_named_by_their_line)
 {
     static const char *const histories[][2] = {
         {"distance load creep\n0 50 0\n\n2 50 1e-3\n1 50 1e-3\n",
@@ -430,7 +430,7 @@ static void bad_rows_are_named_by_their_line(void **state)
 /* ---- Slip -------------------------------------------------------------------------- */
 
 /* The friction power along the contact adds up to the dissipation, which is -xi Q. */
-static void friction_power_adds_up(void **state)
+TEST(friction_power_adds_up)
 {
     json_t *root =
         run_json(SIMILAR "--formulation steady --creep-ratio 0.5 --contact-elements 100");
@@ -450,7 +450,7 @@ static void friction_power_adds_up(void **state)
 
 /* Where hardly anything is dissipated, the mean of the tractions on both sides of a slip
  * can be of the wrong sign: the balance holds, and the error bar too. */
-static void power_below_zero_is_named(void **state)
+TEST(power_below_zero_is_named)
 {
     static const char *const unlike =
         "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
@@ -474,7 +474,7 @@ static void power_below_zero_is_named(void **state)
 
 /* A load held for 2 s in one step, while the stress relaxes within 0.25 s: by Lee and
  * Radok, pressure 1/(2R) int E*(t - s) d sqrt(a(s)^2 - x^2), p0 = 2.66927 MPa. */
-static void steps_too_long_for_relaxation_are_named(void **state)
+TEST(steps_too_long_for_relaxation_are_named)
 {
     static const struct {
         const char *step, *says;
@@ -503,7 +503,7 @@ static void steps_too_long_for_relaxation_are_named(void **state)
 }
 
 /* On standard error, in the table and in JSON, as those of a single case. */
-static void curves_have_notes(void **state)
+TEST(curves_have_notes)
 {
     static const char note[] = "note: The strains are far beyond";
     json_t *root = run_json("curve --support hub --contact-elements 12 --points 3");
@@ -517,7 +517,7 @@ static void curves_have_notes(void **state)
     assert_non_null(strstr(out, note));
 }
 
-static void full_sliding_says_that_creepage_is_open(void **state)
+TEST(full_sliding_says_that_creepage_is_open)
 {
     assert_int_equal(rollbem(SIMILAR "--formulation steady --force-ratio -1"), 0);
     assert_non_null(strstr(err, "the creepage is not unique"));
@@ -525,7 +525,7 @@ static void full_sliding_says_that_creepage_is_open(void **state)
     assert_null(strstr(err, "not unique"));
 }
 
-static void fitted_is_the_default_for_steady(void **state)
+TEST(fitted_is_the_default_for_steady)
 {
     static const struct {
         const char *arguments, *mesh;
@@ -547,7 +547,7 @@ static void fitted_is_the_default_for_steady(void **state)
 
 /* ---- Pictures ---------------------------------------------------------------------- */
 
-static void pictures_are_drawn(void **state)
+TEST(pictures_are_drawn)
 {
     struct stat st;
     assert_int_equal(rollbem("curve " SIMILAR "--points 9 --contact-elements 20 --mu "
@@ -588,7 +588,7 @@ static void check_titles_of_axes(const char *line)
 /* Each command in the sizes of pages: width and height as asked for, at 96 pixels an
  * inch. A slide, whose size is the same for all and the widest, is asked of each third.
  * What the script draws is the picture, which is seen in one size of each. */
-static void pictures_in_sizes(void **state)
+TEST(pictures_in_sizes)
 {
     static const struct {
         const char *line, *option;
@@ -650,7 +650,7 @@ static void pictures_in_sizes(void **state)
 }
 
 /* What a reader needs who has the picture alone. */
-static void pictures_name_the_case(void **state)
+TEST(pictures_name_the_case)
 {
     static const struct {
         const char *line, *option, *text;
@@ -687,7 +687,7 @@ static void pictures_name_the_case(void **state)
 }
 
 /* Where an option of a body varies, no one body is that of the whole picture. */
-static void pictures_of_varied_bodies_name_none(void **state)
+TEST(pictures_of_varied_bodies_name_none)
 {
     for (int k = 0; k < 2; k++) {
         char line[300];
@@ -701,7 +701,7 @@ static void pictures_of_varied_bodies_name_none(void **state)
 }
 
 /* Free rolling slips nowhere: what rounding leaves is no curve over an axis of 10^-18. */
-static void rounding_is_not_drawn_as_slip(void **state)
+TEST(rounding_is_not_drawn_as_slip)
 {
     assert_int_equal(rollbem("--example rail --quiet --output out.tsv --plot free.svg "
                              "--plot-script free.gp"),
@@ -727,7 +727,7 @@ static double last_x_of(const char *script, const char *name)
 
 /* Over equal ratios, curves of several mu end at different creepages; those of the
  * picture do not, and the table has the ratios that were asked for. */
-static void curves_of_a_picture_share_their_range(void **state)
+TEST(curves_of_a_picture_share_their_range)
 {
     assert_int_equal(rollbem("curve " SIMILAR "--mu 0.1,0.4 --points 7 --quiet "
                              "--contact-elements 20 --plot c.svg --plot-script c.gp "
@@ -750,7 +750,7 @@ static double top_of(const char *script)
 }
 
 /* A pressure far beyond the limit stays below the upper edge of the map, by a tenth. */
-static void the_shakedown_map_shows_its_case(void **state)
+TEST(the_shakedown_map_shows_its_case)
 {
     const double yield_shear = 40.0;
     json_t *root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
@@ -764,7 +764,7 @@ static void the_shakedown_map_shows_its_case(void **state)
 
 /* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room.
  */
-static void a_large_bound_leaves_room_to_the_pressure(void **state)
+TEST(a_large_bound_leaves_room_to_the_pressure)
 {
     json_t *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
            *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
@@ -775,7 +775,7 @@ static void a_large_bound_leaves_room_to_the_pressure(void **state)
 
 /* The value of the largest stress stands in the title of its panel, where it covers no
  * label of a contour. */
-static void the_largest_stress_covers_no_contour(void **state)
+TEST(the_largest_stress_covers_no_contour)
 {
     json_t *root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
                             "--plot-script s.gp");
@@ -789,7 +789,7 @@ static void the_largest_stress_covers_no_contour(void **state)
     json_decref(root);
 }
 
-static void a_truss_is_drawn_with_its_bars(void **state)
+TEST(a_truss_is_drawn_with_its_bars)
 {
     assert_int_equal(rollbem("example truss --nodes 4 --output t.tsv --plot t.svg "
                              "--plot-script t.gp"),
@@ -806,7 +806,7 @@ static void a_truss_is_drawn_with_its_bars(void **state)
 }
 
 /* Friction that is rounding beside the pressure: every number is one. */
-static void almost_no_friction(void **state)
+TEST(almost_no_friction)
 {
     static const char *const lines[] = {
         "--support halfplane --half-width 1 --mu 1e-12 --formulation steady "
@@ -829,7 +829,7 @@ static void almost_no_friction(void **state)
 #define FALLS "--friction-law exponential --mu-fall 0.12 --slip-scale 10 --speed 45000 "
 
 /* What is wrong with a friction law, in one line each. */
-static void bad_friction_laws_are_refused(void **state)
+TEST(bad_friction_laws_are_refused)
 {
     write_file("back.txt", "0 0.3\n0 0.2\n");
     write_file("less.txt", "0 0.3\n1 -0.2\n");
@@ -870,7 +870,7 @@ static void bad_friction_laws_are_refused(void **state)
 }
 
 /* Units of every number of a list, a file's own certificate, several solutions. */
-static void friction_laws_by_words(void **state)
+TEST(friction_laws_by_words)
 {
     json_t *mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
                                      "--slip-scale 100,50");
@@ -909,41 +909,4 @@ static void friction_laws_by_words(void **state)
     json_decref(several);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(almost_no_friction),
-        cmocka_unit_test(bad_arguments_are_refused),
-        cmocka_unit_test(bad_points_are_named_by_their_line),
-        cmocka_unit_test(curve_follows_carter),
-        cmocka_unit_test(table_holds_the_numbers_of_json),
-        cmocka_unit_test(curve_is_fast),
-        cmocka_unit_test(maxima_are_those_of_hertz_and_full_sliding),
-        cmocka_unit_test(surface_row_shows_the_tractions),
-        cmocka_unit_test(table_of_points),
-        cmocka_unit_test(grid_of_a_wheel),
-        cmocka_unit_test(vtk_holds_the_numbers_of_the_table),
-        cmocka_unit_test(curves_and_steps_have_error_bars),
-        cmocka_unit_test(steps_leave_snapshots_and_a_picture),
-        cmocka_unit_test(bad_rows_are_named_by_their_line),
-        cmocka_unit_test(friction_power_adds_up),
-        cmocka_unit_test(power_below_zero_is_named),
-        cmocka_unit_test(steps_too_long_for_relaxation_are_named),
-        cmocka_unit_test(curves_have_notes),
-        cmocka_unit_test(full_sliding_says_that_creepage_is_open),
-        cmocka_unit_test(fitted_is_the_default_for_steady),
-        cmocka_unit_test(pictures_are_drawn),
-        cmocka_unit_test(pictures_in_sizes),
-        cmocka_unit_test(pictures_of_varied_bodies_name_none),
-        cmocka_unit_test(rounding_is_not_drawn_as_slip),
-        cmocka_unit_test(curves_of_a_picture_share_their_range),
-        cmocka_unit_test(the_shakedown_map_shows_its_case),
-        cmocka_unit_test(a_large_bound_leaves_room_to_the_pressure),
-        cmocka_unit_test(the_largest_stress_covers_no_contour),
-        cmocka_unit_test(a_truss_is_drawn_with_its_bars),
-        cmocka_unit_test(pictures_name_the_case),
-        cmocka_unit_test(bad_friction_laws_are_refused),
-        cmocka_unit_test(friction_laws_by_words),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

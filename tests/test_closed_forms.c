@@ -38,7 +38,7 @@ static double integral(traction c)
     return result;
 }
 
-static void hertz_pressure_carries_the_load(void **state)
+TEST(hertz_pressure_carries_the_load)
 {
     const double R = 25.0, E = 51572.3, P = 16.20192;
     const double a = rb_closed_hertz_half_width(P, R, E);
@@ -50,7 +50,7 @@ static void hertz_pressure_carries_the_load(void **state)
     CHECK_ABS(rb_closed_hertz_pressure(p0, a, 1.01 * a), 0.0, 0.0, "outside");
 }
 
-static void carter_traction_sums_to_s_2_minus_s(void **state)
+TEST(carter_traction_sums_to_s_2_minus_s)
 {
     const double mu = 0.3, p0 = 500.0, a = 0.2, P = M_PI * a * p0 / 2.0;
     for (int k = -12; k <= 12; k++) {
@@ -66,7 +66,7 @@ static void carter_traction_sums_to_s_2_minus_s(void **state)
     assert_true(rb_closed_carter_force_ratio(0.5) < 0.0); /* braked: Q < 0 */
 }
 
-static void carter_sticks_at_the_leading_edge(void **state)
+TEST(carter_sticks_at_the_leading_edge)
 {
     const double mu = 0.3, p0 = 500.0, a = 0.2, s = 0.4;
     for (int k = 1; k < 100; k++) {
@@ -80,7 +80,7 @@ static void carter_sticks_at_the_leading_edge(void **state)
     }
 }
 
-static void cattaneo_traction_sums_to_the_force(void **state)
+TEST(cattaneo_traction_sums_to_the_force)
 {
     const double mu = 0.2, p0 = 800.0, a = 0.3, P = M_PI * a * p0 / 2.0;
     for (int k = -10; k <= 10; k++) {
@@ -93,7 +93,7 @@ static void cattaneo_traction_sums_to_the_force(void **state)
 
 /* Of two parts whose squares add up to 1 the ratios beta/mu are inverse; little sticks
  * where friction is low: K(c/a) = pi/2 and K' = ln(4a/c) to second order. */
-static void spence_of_complementary_parts(void **state)
+TEST(spence_of_complementary_parts)
 {
     const double beta = 0.01;
     CHECK_REL(rb_closed_spence_friction(beta, sqrt(0.5)), beta, 1e-14, "mu = beta");
@@ -108,7 +108,7 @@ static void spence_of_complementary_parts(void **state)
 }
 
 /* theory.md 6: aluminium on steel */
-static void bentall_johnson_published_numbers(void **state)
+TEST(bentall_johnson_published_numbers)
 {
     const double beta = 0.143834, R = 25.0;
     const rb_closed_bentall_johnson b =
@@ -124,7 +124,7 @@ static void bentall_johnson_published_numbers(void **state)
 }
 
 /* The same with the load put in by Hertz: P/E* = pi a^2/(4R). */
-static void half_cylinder_approach(void **state)
+TEST(half_cylinder_approach)
 {
     const double R = 50.0, E = 94500.0 / 0.99, P = 100.0;
     const double a = rb_closed_hertz_half_width(P, R, E);
@@ -135,24 +135,11 @@ static void half_cylinder_approach(void **state)
 
 /* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress.
  */
-static void shakedown_limit(void **state)
+TEST(shakedown_limit)
 {
     CHECK_REL(rb_closed_shakedown_limit(0.0), 4.0, 1e-6, "free rolling");
     CHECK_REL(rb_closed_shakedown_limit(0.2), 3.20236, 1e-5, "below the surface");
     CHECK_REL(rb_closed_shakedown_limit(0.5), 2.0, 1e-9, "at the surface");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shakedown_limit),
-        cmocka_unit_test(hertz_pressure_carries_the_load),
-        cmocka_unit_test(carter_traction_sums_to_s_2_minus_s),
-        cmocka_unit_test(carter_sticks_at_the_leading_edge),
-        cmocka_unit_test(cattaneo_traction_sums_to_the_force),
-        cmocka_unit_test(spence_of_complementary_parts),
-        cmocka_unit_test(bentall_johnson_published_numbers),
-        cmocka_unit_test(half_cylinder_approach),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

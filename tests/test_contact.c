@@ -43,7 +43,7 @@ static json_t *run_file(const char *options, int t, int f, const char *force,
 }
 
 /* The same case by options of our own. */
-static void a_case_is_the_one_of_our_options(void **state)
+TEST(a_case_is_the_one_of_our_options)
 {
     static const struct {
         int t, f;
@@ -82,7 +82,7 @@ static void a_case_is_the_one_of_our_options(void **state)
 }
 
 /* CONTACT writes 1e20 where nothing yields; from more than 1e10 on it reads that so. */
-static void a_huge_yield_stress_is_none(void **state)
+TEST(a_huge_yield_stress_is_none)
 {
     rb_io_contact_case in = {.module = 3,
                              .digit = {.M = 4, .T = 3, .N = 1, .P = 2},
@@ -114,7 +114,7 @@ static void a_huge_yield_stress_is_none(void **state)
 }
 
 /* Rolling towards -x is the mirror image. */
-static void rolling_back_turns_the_signs(void **state)
+TEST(rolling_back_turns_the_signs)
 {
     json_t *there = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
     json_t *back = run_file("", 3, 0, "0.0004", BACK, GRID, GAP);
@@ -126,7 +126,7 @@ static void rolling_back_turns_the_signs(void **state)
 }
 
 /* The four ways of telling a grid, and a gap whose lowest point is elsewhere. */
-static void grids_and_gaps_are_those_of_the_file(void **state)
+TEST(grids_and_gaps_are_those_of_the_file)
 {
     static const char *const grids[] = {" 2\n 60 1 -1.5 -50. 1.5 50.\n",
                                         " 3\n 60 1 -1.475 0. 0.05 100.\n"};
@@ -153,7 +153,7 @@ static void two_cases(const char *second)
     write_file("two.inp", text);
 }
 
-static void cases_go_on_from_the_one_before(void **state)
+TEST(cases_go_on_from_the_one_before)
 {
     two_cases(" 3 MODULE\n 203110\n 100000\n 0101331\n 25000. 0.6 0. 0.\n");
     assert_int_equal(rollbem("contact two.inp --json"), 0);
@@ -164,7 +164,7 @@ static void cases_go_on_from_the_one_before(void **state)
     json_decref(root);
 }
 
-static void what_is_left_out_is_named(void **state)
+TEST(what_is_left_out_is_named)
 {
     static const struct {
         const char *second, *wanted;
@@ -230,7 +230,7 @@ static json_t *case_of(const char *file, size_t k)
 
 /* From rest: the steps of our own transient rolling, by one element and by 0.7. The force
  * stays what it was at rest, so that the depth where the strip rests does not matter. */
-static void steps_are_those_of_our_transients(void **state)
+TEST(steps_are_those_of_our_transients)
 {
     static const char *const lengths[] = {"0.05", "0.035"};
     enum { STEPS = 8 };
@@ -258,7 +258,7 @@ static void steps_are_those_of_our_transients(void **state)
 }
 
 /* Rolled on for long, steps end in steady rolling, which they stay in. */
-static void steps_end_in_steady_rolling(void **state)
+TEST(steps_end_in_steady_rolling)
 {
     char next[200];
     sequence(3, 1, "0.6", ROLLS, 3, NEXT);
@@ -280,7 +280,7 @@ static void steps_end_in_steady_rolling(void **state)
 
 /* Cattaneo's problem does not care in how many steps the force grows; back and forth
  * leaves Mindlin's remainder. */
-static void shifts_add_up(void **state)
+TEST(shifts_add_up)
 {
     static const char half[] =
         " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. -.0002 0. 0.\n";
@@ -303,7 +303,7 @@ static void shifts_add_up(void **state)
 
 /* Of a rectangle with Hertz's pressure the load tells the half-length or the curvature.
  */
-static void hertzian_input_is_the_grid_it_means(void **state)
+TEST(hertzian_input_is_the_grid_it_means)
 {
     const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);
     char grid[3][200];
@@ -324,7 +324,7 @@ static void hertzian_input_is_the_grid_it_means(void **state)
 }
 
 /* R = 0: the next case has no line MODULE; numbers may go on on the next line. */
-static void a_module_that_stays_has_more_cases(void **state)
+TEST(a_module_that_stays_has_more_cases)
 {
     sequence(3, 0, "-0.0004", ROLLS, 0, "");
     assert_int_equal(
@@ -341,7 +341,7 @@ static void a_module_that_stays_has_more_cases(void **state)
 }
 
 /* A step needs the elements and the direction of the case before. */
-static void steps_elsewhere_are_refused(void **state)
+TEST(steps_elsewhere_are_refused)
 {
     sequence(3, 0, "0.0004", BACK, 1,
              " 3 MODULE\n 002100\n 102000\n 0101331\n 25000. -.0004 0. 0.\n"
@@ -356,7 +356,7 @@ static void steps_elsewhere_are_refused(void **state)
 }
 
 /* Each reason once; one line in the end; most cases skipped is not success. */
-static void skipped_cases_are_counted(void **state)
+TEST(skipped_cases_are_counted)
 {
     static const char step[] =
         " 3 MODULE\n 213100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n";
@@ -375,7 +375,7 @@ static void skipped_cases_are_counted(void **state)
 
 /* A case of our frame, changed by a line of sed: what is left out of it, and whether it
  * is run all the same. */
-static void what_is_left_out_is_said(void **state)
+TEST(what_is_left_out_is_said)
 {
     static const struct {
         int code;
@@ -428,7 +428,7 @@ static void what_is_left_out_is_said(void **state)
     }
 }
 
-static void bad_files_are_refused(void **state)
+TEST(bad_files_are_refused)
 {
     write_file("bad.inp", " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2\n");
     check_refused("contact bad.inp", 65, "bad.inp:5: expected MAXGS, MAXIN");
@@ -449,7 +449,7 @@ static void bad_files_are_refused(void **state)
 }
 
 /* Every line that the digits ask for is read, and each of its numbers kept. */
-static void every_number_has_its_name(void **state)
+TEST(every_number_has_its_name)
 {
     rb_io_contact_case *c;
     rb_message why = {""};
@@ -552,7 +552,7 @@ static void every_number_has_its_name(void **state)
 #define BODIES DIGITS " 1 2 3 4\n .3 .3\n 0 1 1\n .3 .3 1 1\n"
 
 /* Each line that is short, and each count that is none, with its place. */
-static void short_lines_are_named(void **state)
+TEST(short_lines_are_named)
 {
     static const struct {
         const char *text, *said;
@@ -592,7 +592,7 @@ static void short_lines_are_named(void **state)
     }
 }
 
-static void cases_without_memory_are_refused(void **state)
+TEST(cases_without_memory_are_refused)
 {
     write_file("three.inp", " 1 MODULE\n 1 MODULE\n 1 MODULE\n");
     rb_status s = RB_ENOMEM;
@@ -622,7 +622,7 @@ static const char *data(const char *name)
 }
 
 /* Figures of carter2d.ref_out. */
-static void carters_example_is_met(void **state)
+TEST(carters_example_is_met)
 {
     char line[700];
     snprintf(line, sizeof line, "contact %s", data("carter2d.inp"));
@@ -642,7 +642,7 @@ static void carters_example_is_met(void **state)
 
 /* Friction that falls with the slip: the steady case, FX 1.109E+05, FX/FSTAT/FN 0.5941,
  * power -4849, 45 in adhesion, 36 in slip. */
-static void falling_friction_is_met(void **state)
+TEST(falling_friction_is_met)
 {
     char line[700];
     snprintf(line, sizeof line, "contact %s --quiet", data("veldep_fric.inp"));
@@ -661,7 +661,7 @@ static void falling_friction_is_met(void **state)
 
 /* The steps of the same file: from below, and ten from above, of which the seventh finds
  * the branch that slips more again. */
-static void transient_falling_friction_is_met(void **state)
+TEST(transient_falling_friction_is_met)
 {
     static const struct {
         double ratio, power;
@@ -689,7 +689,7 @@ static void transient_falling_friction_is_met(void **state)
 
 /* Figures of testbank/examples_plast/catt2d_plast.ref_out, whose problem is that of
  * carter_plast: pressed and shifted, then rolled on step by step. */
-static void plastic_steps_are_met(void **state)
+TEST(plastic_steps_are_met)
 {
     static const struct {
         double ratio, power;
@@ -726,7 +726,7 @@ static void plastic_steps_are_met(void **state)
 
 /* Figures of testbank/examples_plast/carter_plast.ref_out: a third body that hardens
  * strongly, hardens, neither, and softens, on three grids. */
-static void plastic_examples_are_met(void **state)
+TEST(plastic_examples_are_met)
 {
     static const struct {
         double ratio, power;
@@ -753,7 +753,7 @@ static void plastic_examples_are_met(void **state)
     json_decref(root);
 }
 
-static void other_examples_are_run_or_named(void **state)
+TEST(other_examples_are_run_or_named)
 {
     static const struct {
         const char *name;
@@ -775,33 +775,4 @@ static void other_examples_are_run_or_named(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_case_is_the_one_of_our_options),
-        cmocka_unit_test(a_huge_yield_stress_is_none),
-        cmocka_unit_test(rolling_back_turns_the_signs),
-        cmocka_unit_test(grids_and_gaps_are_those_of_the_file),
-        cmocka_unit_test(cases_go_on_from_the_one_before),
-        cmocka_unit_test(what_is_left_out_is_named),
-        cmocka_unit_test(what_is_left_out_is_said),
-        cmocka_unit_test(steps_are_those_of_our_transients),
-        cmocka_unit_test(steps_end_in_steady_rolling),
-        cmocka_unit_test(shifts_add_up),
-        cmocka_unit_test(hertzian_input_is_the_grid_it_means),
-        cmocka_unit_test(a_module_that_stays_has_more_cases),
-        cmocka_unit_test(steps_elsewhere_are_refused),
-        cmocka_unit_test(skipped_cases_are_counted),
-        cmocka_unit_test(bad_files_are_refused),
-        cmocka_unit_test(every_number_has_its_name),
-        cmocka_unit_test(short_lines_are_named),
-        cmocka_unit_test(cases_without_memory_are_refused),
-        cmocka_unit_test(carters_example_is_met),
-        cmocka_unit_test(falling_friction_is_met),
-        cmocka_unit_test(transient_falling_friction_is_met),
-        cmocka_unit_test(plastic_steps_are_met),
-        cmocka_unit_test(plastic_examples_are_met),
-        cmocka_unit_test(other_examples_are_run_or_named),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -336,7 +336,7 @@ static outcome check_solvers(const kind *of)
     return o;
 }
 
-static void every_solver_solves_random_problems(void **state)
+TEST(every_solver_solves_random_problems)
 {
     int by_newton = 0, steps = 0;
 
@@ -359,7 +359,7 @@ static void every_solver_solves_random_problems(void **state)
 
 /* Where pressure and friction do not meet, Newton's method solves for one after the
  * other, the given force with what slides already carries. */
-static void uncoupled_problems_are_solved_in_turn(void **state)
+TEST(uncoupled_problems_are_solved_in_turn)
 {
     int sticks = 0, slides = 0;
 
@@ -389,7 +389,7 @@ static void uncoupled_problems_are_solved_in_turn(void **state)
 
 /* All that friction carries: every creepage beyond a least one would do, and this is the
  * least one, at which the slowest element is about to stick. */
-static void full_sliding_has_the_least_creepage(void **state)
+TEST(full_sliding_has_the_least_creepage)
 {
     numbers = 20;
     for (int k = 0; k < 8; k++) {
@@ -429,7 +429,7 @@ static void full_sliding_has_the_least_creepage(void **state)
 }
 
 /* A small contact that yields cannot carry every force, and says so whoever solves it. */
-static void every_solver_solves_layers_that_yield(void **state)
+TEST(every_solver_solves_layers_that_yield)
 {
     outcome all = {0};
 
@@ -460,7 +460,7 @@ static void every_solver_solves_layers_that_yield(void **state)
 
 /* A layer whose yield stress has been raised above all friction keeps nothing of what has
  * yielded before. */
-static void strong_layers_forget_what_has_yielded(void **state)
+TEST(strong_layers_forget_what_has_yielded)
 {
     numbers = 6;
     for (int k = 0; k < 12; k++) {
@@ -491,7 +491,7 @@ static void strong_layers_forget_what_has_yielded(void **state)
  * a given force the element sticks that wants to slide least, and a layer is followed
  * down from a higher yield stress: without one of these, some take twice the steps or
  * need Lemke. */
-static void cycles_of_laws_end_soon(void **state)
+TEST(cycles_of_laws_end_soon)
 {
     static const struct {
         int k, steps;
@@ -527,7 +527,7 @@ static void cycles_of_laws_end_soon(void **state)
 
 /* Lemke's solution is solved once more with its zones, which takes the rounding of its
  * pivots away: without that the means are 5e-15. */
-static void pivots_leave_no_rounding(void **state)
+TEST(pivots_leave_no_rounding)
 {
     double sum[3] = {0.0};
 
@@ -556,7 +556,7 @@ static void pivots_leave_no_rounding(void **state)
 }
 
 /* Pairs of elements have one traction each, and the mean gap and slip of the two. */
-static void pairs_move_as_their_elements(void **state)
+TEST(pairs_move_as_their_elements)
 {
     numbers = 18;
     const kind of = {
@@ -635,7 +635,7 @@ static void check_held(const rb_contact_problem *p, const rb_contact_state *s,
 
 /* One element after the other changes its zone: solves with an LU that is kept and what
  * has changed since at its border, and, after larger changes, with a new one. */
-static void zones_may_change_one_by_one(void **state)
+TEST(zones_may_change_one_by_one)
 {
     numbers = 3;
     for (int k = 0; k < 8; k++) {
@@ -668,7 +668,7 @@ static void zones_may_change_one_by_one(void **state)
 
 /* From zones of which one or two elements are wrong, a path leads to the solution within
  * a few bends: at its start every element obeys the law of its zone. */
-static void paths_lead_back_to_the_solution(void **state)
+TEST(paths_lead_back_to_the_solution)
 {
     const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
     int solves = 0, solved = 0;
@@ -721,7 +721,7 @@ static int allocations(rb_contact_problem *p, rb_contact_state *s)
 
 /* The second solve has the room of the first one, until that is forgotten; bounds that
  * stay what they are change nothing. */
-static void what_is_kept_can_be_forgotten(void **state)
+TEST(what_is_kept_can_be_forgotten)
 {
     for (int k = 0; k < 4; k++) {
         const kind of = {
@@ -754,7 +754,7 @@ static void what_is_kept_can_be_forgotten(void **state)
 
 /* Without a contact nothing can carry a load, without stick the creepage does not change
  * a force. */
-static void zones_that_determine_nothing_are_singular(void **state)
+TEST(zones_that_determine_nothing_are_singular)
 {
     numbers = 4;
     for (int k = 0; k < 2; k++) {
@@ -831,7 +831,7 @@ static void use_products(rb_contact_problem *p, by_products *k)
 }
 
 /* Loops need a matrix: the judge looks at a problem that has it. */
-static void products_give_what_matrices_do(void **state)
+TEST(products_give_what_matrices_do)
 {
     int refused = 0, products = 0;
 
@@ -893,7 +893,7 @@ static void make_diagonal(by_products *k)
  * border and whatever the unit of the creepage: five products, two of which are for the
  * right-hand side and the slips, one for the step, and two for its residual before and
  * after. */
-static void an_exact_preconditioner_needs_one_step(void **state)
+TEST(an_exact_preconditioner_needs_one_step)
 {
     for (int k = 0; k < 8; k++) {
         const kind of = {
@@ -936,7 +936,7 @@ static void an_exact_preconditioner_needs_one_step(void **state)
 
 /* Answers that differ by four digits from element to element need more steps than the
  * basis has room for: a second cycle goes on from where the first one has ended. */
-static void a_full_basis_begins_anew(void **state)
+TEST(a_full_basis_begins_anew)
 {
     enum { n = 130 };
     const kind of = {.n = n, .mu = 0.3, .load_given = 1, .force_given = 1};
@@ -970,7 +970,7 @@ static void a_full_basis_begins_anew(void **state)
 
 /* Large friction, where Newton's steps end from nearly the same friction only; the scales
  * and bounds of the problem stay what they were. */
-static void products_follow_friction(void **state)
+TEST(products_follow_friction)
 {
     static const struct {
         int n, load, force;
@@ -1014,7 +1014,7 @@ static void products_follow_friction(void **state)
 
 /* The answer to unit tractions at the middle element: by products, and by matrices, whose
  * diagonals are a mean over all. */
-static void responses_are_those_to_unit_tractions(void **state)
+TEST(responses_are_those_to_unit_tractions)
 {
     numbers = 24;
     for (int k = 0; k < 6; k++) {
@@ -1059,7 +1059,7 @@ static void count_steps(const rb_contact_state *state, void *context)
     ++*steps;
 }
 
-static void every_step_is_shown(void **state)
+TEST(every_step_is_shown)
 {
     numbers = 5;
     for (int yields = 0; yields < 2; yields++) {
@@ -1156,7 +1156,7 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
     rb_contact_state_free(&s);
 }
 
-static void every_row_of_the_lcp_is_its_equation(void **state)
+TEST(every_row_of_the_lcp_is_its_equation)
 {
     numbers = 6;
     for (int k = 0; k < 144; k++) {
@@ -1188,7 +1188,7 @@ static void every_row_of_the_lcp_is_its_equation(void **state)
 }
 
 /* Names on two elements, w then z; of a layer too. */
-static void variables_have_names(void **state)
+TEST(variables_have_names)
 {
     static const char *const names[][26] = {
         {"gap[1]",      "gap[2]",      "lambda+[1]", "lambda+[2]",  "gamma-[1]",
@@ -1230,7 +1230,7 @@ static void variables_have_names(void **state)
 }
 
 /* The state tells which LCP it came from. */
-static void the_lcp_of_a_state_is_the_one_that_gave_it(void **state)
+TEST(the_lcp_of_a_state_is_the_one_that_gave_it)
 {
     numbers = 8;
     for (int k = 0; k < 3; k++) {
@@ -1273,7 +1273,7 @@ static void the_lcp_of_a_state_is_the_one_that_gave_it(void **state)
  * and has yielded by 1e-8 of the slip's scale or more: it yields.  Not so where its
  * friction lacks 1e-6 (1), without pressure (2), without a plastic slip (4), and where
  * the friction of the surfaces is at its bound and they slide (5, 6). */
-static void zones_are_told_by_what_is_larger(void **state)
+TEST(zones_are_told_by_what_is_larger)
 {
     static const double yields_by[] = {-1e-8, 1e-8, 1e-8, 0.3, 0.0, 0.3, -0.3};
     static const int zone[] = {RB_ZONE_YIELD_POSITIVE, RB_ZONE_STICK,
@@ -1315,7 +1315,7 @@ static void zones_are_told_by_what_is_larger(void **state)
 
 /* ---- Residuals, forces ------------------------------------------------------------- */
 
-static void residuals_and_forces_are_sums_over_elements(void **state)
+TEST(residuals_and_forces_are_sums_over_elements)
 {
     numbers = 9;
     for (int k = 0; k < 64; k++) {
@@ -1401,7 +1401,7 @@ static rb_status number_tractions(const char *name, const rb_contact_cone *cone,
     return RB_OK;
 }
 
-static void cones_move_as_the_problem_does(void **state)
+TEST(cones_move_as_the_problem_does)
 {
     numbers = 10;
     const kind of = {.n = 5, .mu = 0.3, .coupling = 0.1};
@@ -1466,7 +1466,7 @@ static rb_status hand_back(const char *name, const rb_contact_cone *cone, double
 
 /* A solution counts whatever the cone solver says of it, and noise is taken from it; no
  * tractions at all do not count. */
-static void the_residual_judges_cone_solvers(void **state)
+TEST(the_residual_judges_cone_solvers)
 {
     static const struct {
         rb_status says;
@@ -1515,7 +1515,7 @@ static void the_residual_judges_cone_solvers(void **state)
 }
 
 /* The same of a layer: one solve with the laws that a state nearly obeys. */
-static void a_layer_is_solved_from_what_is_nearly_its_solution(void **state)
+TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
 {
     int polished = 0;
 
@@ -1555,7 +1555,7 @@ static void a_layer_is_solved_from_what_is_nearly_its_solution(void **state)
 /* ---- Refusals ---------------------------------------------------------------------- */
 
 /* What needs matrices says so of products. */
-static void products_have_no_lcp(void **state)
+TEST(products_have_no_lcp)
 {
     numbers = 11;
     const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .yields = 1};
@@ -1580,7 +1580,7 @@ static void products_have_no_lcp(void **state)
 }
 
 /* Kwak's form has the inverse of A F_TT. */
-static void kwaks_form_needs_an_inverse(void **state)
+TEST(kwaks_form_needs_an_inverse)
 {
     const int n = 2;
     double *S = rb_alloc(2, 4);
@@ -1601,7 +1601,7 @@ static void kwaks_form_needs_an_inverse(void **state)
 
 /* A force beyond friction, a layer's stress, or the resistance to rolling beyond
  * friction. */
-static void forces_that_nothing_carries_are_refused(void **state)
+TEST(forces_that_nothing_carries_are_refused)
 {
     static const struct {
         int yields;
@@ -1654,7 +1654,7 @@ static void forces_that_nothing_carries_are_refused(void **state)
 }
 
 /* A force that friction carries, in a problem that no solver solves to the tolerance. */
-static void what_is_not_solved_says_so(void **state)
+TEST(what_is_not_solved_says_so)
 {
     for (int k = 0; k < 4; k++) {
         const kind of = {.n = 6,
@@ -1697,7 +1697,7 @@ static void note_attempts(const rb_lcp_pivot *pivot, void *context)
 /* Where none is accurate enough, every form is tried once, evenly covered and unevenly,
  * in their order; Kwak's alone where it is asked for, with tableaus that are asked for.
  */
-static void every_form_is_tried(void **state)
+TEST(every_form_is_tried)
 {
     static const int all[] = {0, 2, 2, 0, 1, 1};
 
@@ -1727,7 +1727,7 @@ static void every_form_is_tried(void **state)
 
 /* A yield stress that is followed down to a problem which has no solution: surfaces that
  * do not give way, under a load. */
-static void a_layer_that_cannot_be_followed_is_not_solved(void **state)
+TEST(a_layer_that_cannot_be_followed_is_not_solved)
 {
     const kind of = {.n = 3, .mu = 0.3, .load_given = 1, .yields = 1};
     rb_contact_problem p;
@@ -1750,7 +1750,7 @@ static void a_layer_that_cannot_be_followed_is_not_solved(void **state)
 
 /* Surfaces that do not touch carry no force, with and without a layer, for every solver.
  */
-static void surfaces_apart_carry_nothing(void **state)
+TEST(surfaces_apart_carry_nothing)
 {
     static const rb_contact_solver solvers[] = {RB_SOLVER_LEMKE, RB_SOLVER_NEWTON};
 
@@ -1839,7 +1839,7 @@ static rb_status solve_all(void *context)
     return s;
 }
 
-static void no_memory_is_said(void **state)
+TEST(no_memory_is_said)
 {
     rb_contact_problem p[PROBLEMS];
     by_products by;
@@ -1865,43 +1865,4 @@ static void no_memory_is_said(void **state)
         rb_contact_problem_free(&p[k]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_solver_solves_random_problems),
-        cmocka_unit_test(uncoupled_problems_are_solved_in_turn),
-        cmocka_unit_test(full_sliding_has_the_least_creepage),
-        cmocka_unit_test(every_solver_solves_layers_that_yield),
-        cmocka_unit_test(strong_layers_forget_what_has_yielded),
-        cmocka_unit_test(cycles_of_laws_end_soon),
-        cmocka_unit_test(pivots_leave_no_rounding),
-        cmocka_unit_test(pairs_move_as_their_elements),
-        cmocka_unit_test(zones_may_change_one_by_one),
-        cmocka_unit_test(paths_lead_back_to_the_solution),
-        cmocka_unit_test(what_is_kept_can_be_forgotten),
-        cmocka_unit_test(zones_that_determine_nothing_are_singular),
-        cmocka_unit_test(products_give_what_matrices_do),
-        cmocka_unit_test(an_exact_preconditioner_needs_one_step),
-        cmocka_unit_test(a_full_basis_begins_anew),
-        cmocka_unit_test(products_follow_friction),
-        cmocka_unit_test(responses_are_those_to_unit_tractions),
-        cmocka_unit_test(every_step_is_shown),
-        cmocka_unit_test(every_row_of_the_lcp_is_its_equation),
-        cmocka_unit_test(variables_have_names),
-        cmocka_unit_test(the_lcp_of_a_state_is_the_one_that_gave_it),
-        cmocka_unit_test(zones_are_told_by_what_is_larger),
-        cmocka_unit_test(residuals_and_forces_are_sums_over_elements),
-        cmocka_unit_test(cones_move_as_the_problem_does),
-        cmocka_unit_test(the_residual_judges_cone_solvers),
-        cmocka_unit_test(a_layer_is_solved_from_what_is_nearly_its_solution),
-        cmocka_unit_test(products_have_no_lcp),
-        cmocka_unit_test(kwaks_form_needs_an_inverse),
-        cmocka_unit_test(forces_that_nothing_carries_are_refused),
-        cmocka_unit_test(what_is_not_solved_says_so),
-        cmocka_unit_test(every_form_is_tried),
-        cmocka_unit_test(a_layer_that_cannot_be_followed_is_not_solved),
-        cmocka_unit_test(surfaces_apart_carry_nothing),
-        cmocka_unit_test(no_memory_is_said),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -21,7 +21,7 @@ static rb_status solve(const char *const *words, rb_case_result *r, rb_message *
     return s;
 }
 
-static void the_core_solves_a_case(void **state)
+TEST(the_core_solves_a_case)
 {
     static const char *const carter[] = {"support",     "halfplane", "similar", "yes",
                                          "formulation", "steady",    "load",    "300",
@@ -38,7 +38,7 @@ static void the_core_solves_a_case(void **state)
     rb_case_result_free(&r);
 }
 
-static void cone_solvers_are_not_at_hand(void **state)
+TEST(cone_solvers_are_not_at_hand)
 {
     static const char *const cone[] = {"solver", "nsn-ac", NULL};
     rb_case_result r = {0};
@@ -49,9 +49,4 @@ static void cone_solvers_are_not_at_hand(void **state)
     rb_case_result_free(&r);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_core_solves_a_case),
-                                       cmocka_unit_test(cone_solvers_are_not_at_hand)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -11,7 +11,7 @@ enum { LESSONS = 12, EXERCISES = 5, MAX_NUMBERS = 40000 };
 static char folder[] = "/tmp/rollbem-course-XXXXXX";
 static glob_t lessons, solutions;
 
-static void blocks_print_what_the_pages_show(void **state)
+TEST(blocks_print_what_the_pages_show)
 {
     int wrong = 0;
     for (size_t k = 0; k < lessons.gl_pathc; k++) {
@@ -22,7 +22,7 @@ static void blocks_print_what_the_pages_show(void **state)
 }
 
 /* The test above leaves them out where they cannot be run; this one says so. */
-static void blocks_in_python_are_run(void **state)
+TEST(blocks_in_python_are_run)
 {
     if (!interpreter_of("python")) {
         print_message("blocks in Python are left out: no NumPy here (apt-get install "
@@ -128,7 +128,7 @@ static int count_unfounded(const numbers *all, const char *page)
     return wrong;
 }
 
-static void numbers_of_the_sentences_are_printed_by_a_block(void **state)
+TEST(numbers_of_the_sentences_are_printed_by_a_block)
 {
     static numbers all;
     int wrong = 0;
@@ -200,7 +200,7 @@ static int check_links(const char *page)
     return of_the_page;
 }
 
-static void links_and_pictures_are_there(void **state)
+TEST(links_and_pictures_are_there)
 {
     assert_int_equal(
         run("ROLLBEM=%s/build/rollbem docs/course/pictures %s/pictures", folder, folder),
@@ -214,7 +214,7 @@ static void links_and_pictures_are_there(void **state)
     check_links("docs/glossary.md");
 }
 
-static void lessons_have_all_their_parts(void **state)
+TEST(lessons_have_all_their_parts)
 {
     static char text[MAX_TEXT];
     static const char *wanted[] = {"**Aim.**",         "](../../build/course/",
@@ -261,14 +261,4 @@ static int remove_folder(void **state)
     return run("rm -rf %s", folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lessons_have_all_their_parts),
-        cmocka_unit_test(blocks_print_what_the_pages_show),
-        cmocka_unit_test(blocks_in_python_are_run),
-        cmocka_unit_test(numbers_of_the_sentences_are_printed_by_a_block),
-        cmocka_unit_test(links_and_pictures_are_there),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+RUN_TESTS(make_folder, remove_folder)

@@ -120,13 +120,13 @@ static void bars_of_a_solution(rb_bem_support support)
     rb_rolling_solution_free(&own);
 }
 
-static void a_solution_s_bars_are_of_its_coarser_runs(void **state)
+TEST(a_solution_s_bars_are_of_its_coarser_runs)
 {
     bars_of_a_solution(RB_BEM_HALFPLANE);
     bars_of_a_solution(RB_BEM_HUB);
 }
 
-static void stresses_have_bars_where_they_are_asked_for(void **state)
+TEST(stresses_have_bars_where_they_are_asked_for)
 {
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     rb_rolling_model model;
@@ -150,7 +150,7 @@ static void stresses_have_bars_where_they_are_asked_for(void **state)
     rb_rolling_solution_free(&own);
 }
 
-static void a_curve_s_bars_are_of_its_coarser_curves(void **state)
+TEST(a_curve_s_bars_are_of_its_coarser_curves)
 {
     enum { POINTS = 5 };
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
@@ -283,19 +283,10 @@ static void bars_of_a_history(int force_is_given)
     rb_rolling_model_free(&model);
 }
 
-static void a_history_s_bars_are_of_its_coarser_histories(void **state)
+TEST(a_history_s_bars_are_of_its_coarser_histories)
 {
     bars_of_a_history(0);
     bars_of_a_history(1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_solution_s_bars_are_of_its_coarser_runs),
-        cmocka_unit_test(stresses_have_bars_where_they_are_asked_for),
-        cmocka_unit_test(a_curve_s_bars_are_of_its_coarser_curves),
-        cmocka_unit_test(a_history_s_bars_are_of_its_coarser_histories),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

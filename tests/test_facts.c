@@ -94,7 +94,7 @@ static void check_mirror(const char *rest, const char *control, double value,
     json_decref(b);
 }
 
-static void test_mirror(void **state)
+TEST(test_mirror)
 {
     static const char *const planes[] = {
         "--support halfplane --young 60000 --poisson 0.31 --radius 50 --young-b 210000 "
@@ -150,7 +150,7 @@ static void check_scaling(const char *format, double L, double E)
     json_decref(b);
 }
 
-static void test_scaling(void **state)
+TEST(test_scaling)
 {
     static const char *const cases[] = {
         "--support halfplane --formulation steady --creep-ratio 0.4 --contact-elements "
@@ -173,7 +173,7 @@ static void test_scaling(void **state)
 
 /* Half-planes of one E* are one: whose the material is does not matter to the pressure.
  * And increments of the load end where one load does. */
-static void test_no_friction(void **state)
+TEST(test_no_friction)
 {
     json_t *pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
                             "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
@@ -217,7 +217,7 @@ static void check_refinement(const char *rest)
                   value[i][2]);
 }
 
-static void test_refinement(void **state)
+TEST(test_refinement)
 {
     static const char *const cases[] = {
         "--support halfplane --formulation steady --load 700 --creep-ratio 0.4",
@@ -237,7 +237,7 @@ static const char *const supports[] = {
     "--support arc --young-b 2e5 --radius-b 80 --support-b hub"};
 
 /* A history of one increment is the increment. */
-static void test_static_history_of_one_step(void **state)
+TEST(test_static_history_of_one_step)
 {
     char line[500];
     write_file("one.txt", "load shift\n700 1e-3\n");
@@ -255,7 +255,7 @@ static void test_static_history_of_one_step(void **state)
 }
 
 /* What has not rolled yet is static. */
-static void test_transient_at_rest(void **state)
+TEST(test_transient_at_rest)
 {
     static const int same[] = {X, H, GAP, P, Q, UN, UT};
     char line[500];
@@ -274,7 +274,7 @@ static void test_transient_at_rest(void **state)
 }
 
 /* Each point of a curve is a case. */
-static void test_curve(void **state)
+TEST(test_curve)
 {
     char line[500];
     for (int k = 0; k < 3; k++) {
@@ -320,7 +320,7 @@ static double cell(const char *text, int row, const char *name)
 }
 
 /* Each row of a study is a case, to the last digit. */
-static void test_sweep(void **state)
+TEST(test_sweep)
 {
     static char study[sizeof out];
     char line[500];
@@ -349,7 +349,7 @@ static void test_sweep(void **state)
 }
 
 /* The library's words are the program's. */
-static void test_library(void **state)
+TEST(test_library)
 {
     static const char *const words[][2] = {{"formulation", "steady"},
                                            {"load", "700"},
@@ -390,18 +390,4 @@ static void test_library(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_scaling),
-        cmocka_unit_test(test_no_friction),
-        cmocka_unit_test(test_refinement),
-        cmocka_unit_test(test_static_history_of_one_step),
-        cmocka_unit_test(test_transient_at_rest),
-        cmocka_unit_test(test_curve),
-        cmocka_unit_test(test_sweep),
-        cmocka_unit_test(test_library),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

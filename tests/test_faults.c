@@ -436,17 +436,17 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
     none_wrong(tried, name);
 }
 
-static void every_write(void **state)
+TEST(every_write)
 {
     fail_calls(FAULT_WRITE, "write", 25);
 }
 
-static void every_rename(void **state)
+TEST(every_rename)
 {
     fail_calls(FAULT_RENAME, "rename", 10);
 }
 
-static void every_close(void **state)
+TEST(every_close)
 {
     fail_calls(FAULT_CLOSE, "close", 8);
 }
@@ -532,7 +532,7 @@ static int fail_every_call(const job *j)
 }
 
 /* Every call of the program that leads to an allocation sees one fail. */
-static void every_call_that_allocates(void **state)
+TEST(every_call_that_allocates)
 {
     int tried = 0;
     if (!preloaded())
@@ -547,7 +547,7 @@ static void every_call_that_allocates(void **state)
 }
 
 /* From one allocation on all fail, also those of the way out. */
-static void every_allocation_from_one_on(void **state)
+TEST(every_allocation_from_one_on)
 {
     int tried = 0;
     if (!preloaded())
@@ -639,14 +639,4 @@ static int prepare_inputs(void **state)
     return rollbem("case.ini --quiet --fclib input.hdf5");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_write),
-        cmocka_unit_test(every_rename),
-        cmocka_unit_test(every_close),
-        cmocka_unit_test(every_call_that_allocates),
-        cmocka_unit_test(every_allocation_from_one_on),
-    };
-    return cmocka_run_group_tests(tests, prepare_inputs, leave_folder);
-}
+RUN_TESTS(prepare_inputs, leave_folder)

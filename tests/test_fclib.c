@@ -77,7 +77,7 @@ static void same_sparse(const rb_sparse *a, const rb_sparse *b)
     assert_memory_equal(a->x, b->x, (size_t)a->p[a->cols] * sizeof *a->x);
 }
 
-static void what_is_written_is_read_in_every_layout(void **state)
+TEST(what_is_written_is_read_in_every_layout)
 {
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
@@ -114,7 +114,7 @@ static void what_is_written_is_read_in_every_layout(void **state)
     }
 }
 
-static void one_triangle_of_m_is_completed(void **state)
+TEST(one_triangle_of_m_is_completed)
 {
     rb_io_fclib p, back;
     rb_message why = {""};
@@ -198,7 +198,7 @@ static void refused_with(const char *name, hid_t type, hsize_t n, const void *va
     refused(part);
 }
 
-static void sizes_and_indices_are_checked(void **state)
+TEST(sizes_and_indices_are_checked)
 {
     const int p_down[] = {0, 3, 1, 3, 5, 6, 8}, p_long[] = {0, 1, 2, 3, 4, 5, 900};
     const int i_far[] = {0, 1, 2, 3, 4, 5, 6, 0};
@@ -326,7 +326,7 @@ static void drop(const char *name)
     H5Fclose(file);
 }
 
-static void constraints_are_whole_or_refused(void **state)
+TEST(constraints_are_whole_or_refused)
 {
     rb_io_fclib p;
     const double few[] = {1.0};
@@ -379,7 +379,7 @@ static void constraints_are_whole_or_refused(void **state)
 }
 
 /* Also a matrix without an entry, and each vector of a solution by itself. */
-static void constraints_are_read_as_written_in_every_layout(void **state)
+TEST(constraints_are_read_as_written_in_every_layout)
 {
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
@@ -449,7 +449,7 @@ static void ints_of(hid_t file, const char *name, int n, int *x)
 }
 
 /* What other programs look for: the texts, the sign of nz, and what p holds. */
-static void files_are_as_the_format_says(void **state)
+TEST(files_are_as_the_format_says)
 {
     static const int nz[] = {5, -1, -2}, length[] = {5, 4, 4};
     static const int p[][5] = {{0, 0, 1, 1, 2}, {0, 2, 4, 5}, {0, 2, 4, 5}};
@@ -517,7 +517,7 @@ static void put_set(hid_t file, const char *name, hsize_t size, hid_t properties
 }
 
 /* What would open a second file is refused, whether that file is there or not. */
-static void nothing_is_read_of_another_file(void **state)
+TEST(nothing_is_read_of_another_file)
 {
     static const char q[] = "/fclib_local/vectors/q";
     hid_t file = without(q);
@@ -550,7 +550,7 @@ static void nothing_is_read_of_another_file(void **state)
 
 /* Small files that claim many entries: arrays that were never written, and a matrix of
  * many columns with few entries. */
-static void memory_is_bounded_by_the_size_of_the_file(void **state)
+TEST(memory_is_bounded_by_the_size_of_the_file)
 {
     static const char q[] = "/fclib_local/vectors/q";
     const hsize_t chunk = 1 << 16;
@@ -575,7 +575,7 @@ static void memory_is_bounded_by_the_size_of_the_file(void **state)
     refused("/fclib_local/vectors/q: unreadable size");
 }
 
-static void other_files_are_refused(void **state)
+TEST(other_files_are_refused)
 {
     rb_io_fclib p;
     rb_message why = {""};
@@ -605,7 +605,7 @@ static void other_files_are_refused(void **state)
     rb_io_fclib_free(NULL);
 }
 
-static void problems_go_through_files(void **state)
+TEST(problems_go_through_files)
 {
     rb_friction_problem p;
     rb_message why = {""};
@@ -678,7 +678,7 @@ static rb_status in_child(deed what, char **bytes, size_t *size, rb_message *why
     return rb_io_in_child("it", do_it, &what, bytes, size, why);
 }
 
-static void a_child_answers_or_is_located(void **state)
+TEST(a_child_answers_or_is_located)
 {
     static const struct {
         deed what;
@@ -702,7 +702,7 @@ static void a_child_answers_or_is_located(void **state)
     }
 }
 
-static void a_child_without_means_is_told(void **state)
+TEST(a_child_without_means_is_told)
 {
     static const struct {
         const char *call;
@@ -733,7 +733,7 @@ static void a_child_without_means_is_told(void **state)
     free(bytes);
 }
 
-static void a_child_is_quiet(void **state)
+TEST(a_child_is_quiet)
 {
     char *bytes;
     size_t size;
@@ -752,7 +752,7 @@ static void a_child_is_quiet(void **state)
     free(bytes);
 }
 
-static void failing_allocations_are_reported(void **state)
+TEST(failing_allocations_are_reported)
 {
     for (int global = 0; global < 2; global++) {
         rb_io_fclib p;
@@ -787,7 +787,7 @@ static void failing_allocations_are_reported(void **state)
     }
 }
 
-static void outside_files_are_read(void **state)
+TEST(outside_files_are_read)
 {
     rb_friction_problem p;
     rb_friction_facts facts;
@@ -808,24 +808,4 @@ static void outside_files_are_read(void **state)
     rb_friction_problem_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read_in_every_layout),
-        cmocka_unit_test(one_triangle_of_m_is_completed),
-        cmocka_unit_test(sizes_and_indices_are_checked),
-        cmocka_unit_test(constraints_are_whole_or_refused),
-        cmocka_unit_test(constraints_are_read_as_written_in_every_layout),
-        cmocka_unit_test(files_are_as_the_format_says),
-        cmocka_unit_test(nothing_is_read_of_another_file),
-        cmocka_unit_test(memory_is_bounded_by_the_size_of_the_file),
-        cmocka_unit_test(other_files_are_refused),
-        cmocka_unit_test(problems_go_through_files),
-        cmocka_unit_test(a_child_answers_or_is_located),
-        cmocka_unit_test(a_child_without_means_is_told),
-        cmocka_unit_test(a_child_is_quiet),
-        cmocka_unit_test(failing_allocations_are_reported),
-        cmocka_unit_test(outside_files_are_read),
-    };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
-}
+RUN_TESTS(make_path, remove_path)

@@ -60,7 +60,7 @@ static double worst_product(int n, const double *K, const double *u)
     return worst;
 }
 
-static void rigid_motions_cost_nothing(void **state)
+TEST(rigid_motions_cost_nothing)
 {
     for (int d = 2; d <= 3; d++) {
         const int n = d << d;
@@ -78,7 +78,7 @@ static void rigid_motions_cost_nothing(void **state)
     }
 }
 
-static void bar_pulls_along_itself(void **state)
+TEST(bar_pulls_along_itself)
 {
     const double x[6] = {1, 2, 3, 3, 5, 9}; /* length 7 */
     double K[36];
@@ -96,7 +96,7 @@ static void bar_pulls_along_itself(void **state)
 }
 
 /* Energy of a linear displacement u = G x in a distorted cell: volume sigma : eps / 2. */
-static void linear_displacement_is_exact(void **state)
+TEST(linear_displacement_is_exact)
 {
     const double G[3][3] = {{0.3, -0.2, 0.5}, {0.7, 0.1, -0.4}, {0.2, 0.6, -0.9}};
     const double shear = 7.0 / 2.6, lambda = 2.0 * shear * 0.3 / 0.4;
@@ -125,7 +125,7 @@ static void linear_displacement_is_exact(void **state)
 
 /* A 3 x 2 mesh with a distorted inside; linear displacements leave inner nodes in
  * balance. */
-static void patch_test(void **state)
+TEST(patch_test)
 {
     rb_fem_mesh mesh;
     CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 12, 6, &mesh), RB_OK);
@@ -154,7 +154,7 @@ static void patch_test(void **state)
     rb_fem_mesh_free(&mesh);
 }
 
-static void truss_has_the_stated_layouts(void **state)
+TEST(truss_has_the_stated_layouts)
 {
     static const struct {
         rb_fem_layout layout;
@@ -190,7 +190,7 @@ static double mean_diagonal(const rb_sparse *K)
 }
 
 /* The figures of tests/data/kanno/reference.json, soclcp_method. */
-static void condensed_stiffness_is_the_reference(void **state)
+TEST(condensed_stiffness_is_the_reference)
 {
     rb_fem_model model;
     rb_fem_condensation *c = NULL;
@@ -211,7 +211,7 @@ static void condensed_stiffness_is_the_reference(void **state)
 }
 
 /* Held contact nodes: condensed and full equations agree. */
-static void expansion_solves_the_full_system(void **state)
+TEST(expansion_solves_the_full_system)
 {
     rb_fem_model model;
     rb_fem_condensation *c = NULL;
@@ -242,7 +242,7 @@ static void expansion_solves_the_full_system(void **state)
     rb_fem_model_free(&model);
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     double K[576], x[24], line[6] = {1, 1, 1, 1, 1, 1};
     rb_message why;
@@ -294,7 +294,7 @@ static void bad_input_is_refused(void **state)
 }
 
 /* The smallest models are there, those beside the range are not. */
-static void models_have_their_range(void **state)
+TEST(models_have_their_range)
 {
     static const struct {
         int truss, nx, ny, is_there;
@@ -315,7 +315,7 @@ static void models_have_their_range(void **state)
 
 /* A structure by hand: all unknowns touch a contact, one is left over, one is loose, or
  * nothing touches anything. */
-static void condensation_of_every_kind(void **state)
+TEST(condensation_of_every_kind)
 {
     static const double K[9] = {2.0, 1.0, 0.5, 1.0, 3.0, 0.0, 0.5, 0.0, 4.0};
     static const double load[3] = {1.0, -2.0, 3.0};
@@ -366,7 +366,7 @@ static void condensation_of_every_kind(void **state)
 }
 
 /* Without a load and without stiffness forces and lengths keep their units. */
-static void units_without_a_load(void **state)
+TEST(units_without_a_load)
 {
     static const double none[4] = {0.0}, half[4] = {0.0, 0.5, 0.5, 8.0};
     for (int stiff = 0; stiff < 2; stiff++)
@@ -410,7 +410,7 @@ static rb_status build_and_condense(void)
     return s;
 }
 
-static void memory_runs_out(void **state)
+TEST(memory_runs_out)
 {
     for (int k = 0;; k++) {
         alloc_fail_after(k);
@@ -425,21 +425,4 @@ static void memory_runs_out(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rigid_motions_cost_nothing),
-        cmocka_unit_test(bar_pulls_along_itself),
-        cmocka_unit_test(linear_displacement_is_exact),
-        cmocka_unit_test(patch_test),
-        cmocka_unit_test(truss_has_the_stated_layouts),
-        cmocka_unit_test(condensed_stiffness_is_the_reference),
-        cmocka_unit_test(expansion_solves_the_full_system),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(models_have_their_range),
-        cmocka_unit_test(condensation_of_every_kind),
-        cmocka_unit_test(units_without_a_load),
-        cmocka_unit_test(memory_runs_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -71,7 +71,7 @@ static void matches(const char *recorded)
     rb_io_table_free(&want);
 }
 
-static void recorded_outputs_are_todays(void **state)
+TEST(recorded_outputs_are_todays)
 {
     assert_int_equal(run("bar --solver lemke --output %s", inside("out.tsv")), 0);
     matches("examples/bar/output.tsv");
@@ -82,7 +82,7 @@ static void recorded_outputs_are_todays(void **state)
     matches("examples/truss/upper-overhanging.tsv");
 }
 
-static void json_and_picture_are_written(void **state)
+TEST(json_and_picture_are_written)
 {
     assert_int_equal(run("truss --nodes 4 --json --output %s --plot %s.png",
                          inside("out.json"), folder),
@@ -108,7 +108,7 @@ static void json_and_picture_are_written(void **state)
     assert_string_equal(head, "\x89PNG");
 }
 
-static void the_wall_writes_its_problems(void **state)
+TEST(the_wall_writes_its_problems)
 {
     assert_int_equal(
         run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
@@ -136,7 +136,7 @@ static void the_wall_writes_its_problems(void **state)
     }
 }
 
-static void refusals_have_their_exit_codes(void **state)
+TEST(refusals_have_their_exit_codes)
 {
     assert_int_equal(run("2>/dev/null"), 64);
     assert_int_equal(run("bra 2>/dev/null"), 64);
@@ -153,13 +153,4 @@ static void refusals_have_their_exit_codes(void **state)
     assert_int_equal(run("truss --nodes 4 --output /no/such/folder/x 2>/dev/null"), 73);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(recorded_outputs_are_todays),
-        cmocka_unit_test(json_and_picture_are_written),
-        cmocka_unit_test(the_wall_writes_its_problems),
-        cmocka_unit_test(refusals_have_their_exit_codes),
-    };
-    return cmocka_run_group_tests(tests, make_folder, drop_folder);
-}
+RUN_TESTS(make_folder, drop_folder)

@@ -141,12 +141,12 @@ static void bar_by(const char *solver, double tol)
 }
 
 /* Pivots leave 6e-13 to 1.2e-12, by the kernels of the processor. */
-static void bar_by_lemke(void **state)
+TEST(bar_by_lemke)
 {
     bar_by("lemke", 1e-11);
 }
 
-static void bar_by_newton(void **state)
+TEST(bar_by_newton)
 {
     bar_by("nsn-nm", 1e-12);
 }
@@ -242,27 +242,27 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
     rb_fem_model_free(&model);
 }
 
-static void small_trusses_by_every_newton(void **state)
+TEST(small_trusses_by_every_newton)
 {
     static const char *const solvers[] = {"nsn-ac", "soclcp-smoothing"};
     for (int k = 0; k < 4; k++)
         truss_by(solvers[k / 2], (rb_fem_layout)(k % 2), 4);
 }
 
-static void trusses_by_newton(void **state)
+TEST(trusses_by_newton)
 {
     truss_by("nsn-ac", RB_FEM_UPPER_INSIDE, 12);
     truss_by("nsn-ac", RB_FEM_UPPER_OVERHANGING, 12);
 }
 
-static void trusses_by_smoothing(void **state)
+TEST(trusses_by_smoothing)
 {
     truss_by("soclcp-smoothing", RB_FEM_UPPER_INSIDE, 12);
     truss_by("soclcp-smoothing", RB_FEM_UPPER_OVERHANGING, 12);
 }
 
 /* The full system, without condensation, gives the same first increment. */
-static void condensation_changes_nothing(void **state)
+TEST(condensation_changes_nothing)
 {
     rb_fem_model model;
     rb_fem_history h;
@@ -293,7 +293,7 @@ static void condensation_changes_nothing(void **state)
     rb_fem_model_free(&model);
 }
 
-static void an_unknown_solver_is_refused(void **state)
+TEST(an_unknown_solver_is_refused)
 {
     rb_fem_model model;
     rb_fem_history h;
@@ -307,7 +307,7 @@ static void an_unknown_solver_is_refused(void **state)
 
 /* The whole stiffness of a truss is singular, so that a solver of the condensed problem
  * does not begin: there is no increment whose numbers anybody could take for a result. */
-static void an_increment_that_has_not_begun_is_none(void **state)
+TEST(an_increment_that_has_not_begun_is_none)
 {
     rb_fem_model model;
     rb_fem_history h;
@@ -320,7 +320,7 @@ static void an_increment_that_has_not_begun_is_none(void **state)
     rb_fem_model_free(&model);
 }
 
-static void memory_runs_out(void **state)
+TEST(memory_runs_out)
 {
     rb_fem_model model;
     CHECK_STATUS(rb_fem_model_bar(4, 2, &model, NULL), RB_OK);
@@ -340,18 +340,4 @@ static void memory_runs_out(void **state)
     rb_fem_model_free(&model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bar_by_lemke),
-        cmocka_unit_test(bar_by_newton),
-        cmocka_unit_test(small_trusses_by_every_newton),
-        cmocka_unit_test(trusses_by_newton),
-        cmocka_unit_test(trusses_by_smoothing),
-        cmocka_unit_test(condensation_changes_nothing),
-        cmocka_unit_test(an_unknown_solver_is_refused),
-        cmocka_unit_test(an_increment_that_has_not_begun_is_none),
-        cmocka_unit_test(memory_runs_out),
-    };
-    return cmocka_run_group_tests(tests, load_reference, drop_reference);
-}
+RUN_TESTS(load_reference, drop_reference)

@@ -139,7 +139,7 @@ static void place(const solved_wall *w, double factor, int node, double at[2])
 }
 
 /* Every face of the front, displaced, and the outline of every block. */
-static void front_of_the_wall_is_drawn(void **state)
+TEST(front_of_the_wall_is_drawn)
 {
     static double mesh[2 * POINTS], edge[2 * POINTS];
     const solved_wall *w = &walls[0];
@@ -183,7 +183,7 @@ static void front_of_the_wall_is_drawn(void **state)
 }
 
 /* Blocks that have not moved are drawn as they are. */
-static void wall_at_rest_is_not_magnified(void **state)
+TEST(wall_at_rest_is_not_magnified)
 {
     static double mesh[2 * POINTS];
     solved_wall still = walls[0];
@@ -201,7 +201,7 @@ static void wall_at_rest_is_not_magnified(void **state)
     rb_fem_wall_free(still.wall);
 }
 
-static void steps_of_the_wall_are_drawn(void **state)
+TEST(steps_of_the_wall_are_drawn)
 {
     const solved_wall *w = &walls[0];
     for (int steps = 1; steps <= STEPS; steps += STEPS - 1) {
@@ -220,7 +220,7 @@ static void steps_of_the_wall_are_drawn(void **state)
 }
 
 /* Panels side by side; in a column of print one below the other, without a title. */
-static void panels_lie_beside_or_below_each_other(void **state)
+TEST(panels_lie_beside_or_below_each_other)
 {
     const solved_wall *w = &walls[0];
     for (int column = 0; column < 2; column++) {
@@ -256,7 +256,7 @@ static void panels_lie_beside_or_below_each_other(void **state)
     }
 }
 
-static void wall_needs_steps_and_memory(void **state)
+TEST(wall_needs_steps_and_memory)
 {
     rb_message why = {""};
     FILE *out = tmpfile();
@@ -281,7 +281,7 @@ static double number(const json_t *object, const char *name)
     return json_is_number(x) ? json_number_value(x) : NAN;
 }
 
-static void wall_as_json(void **state)
+TEST(wall_as_json)
 {
     rb_fem_wall_step steps[STEPS];
     memcpy(steps, walls[0].step, sizeof steps);
@@ -312,7 +312,7 @@ static void wall_as_json(void **state)
 
 /* ---- Bar and truss ----------------------------------------------------------------- */
 
-static void bar_and_truss_need_steps(void **state)
+TEST(bar_and_truss_need_steps)
 {
     const rb_fem_model model = {0};
     const rb_fem_history history = {0};
@@ -329,7 +329,7 @@ static void bar_and_truss_need_steps(void **state)
 
 /* A quarter of the truss: every node of it once in each panel, with its vector where it
  * slips, and at the end where it has moved, if only along one axis. */
-static void truss_is_drawn_by_its_slips(void **state)
+TEST(truss_is_drawn_by_its_slips)
 {
     enum { NODES = 4, QUARTER = 4 };
     static const char *const names[] = {"upper nodes inside", "upper nodes overhanging"};
@@ -378,17 +378,4 @@ static void truss_is_drawn_by_its_slips(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(front_of_the_wall_is_drawn),
-        cmocka_unit_test(wall_at_rest_is_not_magnified),
-        cmocka_unit_test(steps_of_the_wall_are_drawn),
-        cmocka_unit_test(panels_lie_beside_or_below_each_other),
-        cmocka_unit_test(wall_needs_steps_and_memory),
-        cmocka_unit_test(wall_as_json),
-        cmocka_unit_test(bar_and_truss_need_steps),
-        cmocka_unit_test(truss_is_drawn_by_its_slips),
-    };
-    return cmocka_run_group_tests(tests, solve_walls, free_walls);
-}
+RUN_TESTS(solve_walls, free_walls)

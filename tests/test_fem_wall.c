@@ -41,7 +41,7 @@ static void close_parts(parts *p)
     free(p->contact);
 }
 
-static void blocks_weigh_what_they_should(void **state)
+TEST(blocks_weigh_what_they_should)
 {
     const rb_fem_wall_options o = small_wall(0);
     parts p;
@@ -55,7 +55,7 @@ static void blocks_weigh_what_they_should(void **state)
     close_parts(&p);
 }
 
-static void contact_map_has_full_rank(void **state)
+TEST(contact_map_has_full_rank)
 {
     const rb_fem_wall_options o = small_wall(0);
     parts p;
@@ -67,7 +67,7 @@ static void contact_map_has_full_rank(void **state)
 }
 
 /* The wall moving as one rigid body opens and slides no joint between blocks. */
-static void common_motion_leaves_the_joints_alone(void **state)
+TEST(common_motion_leaves_the_joints_alone)
 {
     const rb_fem_wall_options o = small_wall(0);
     parts p;
@@ -97,7 +97,7 @@ static void common_motion_leaves_the_joints_alone(void **state)
 }
 
 /* R' M R of a box: m and m (b^2 + c^2)/12, exactly integrated. */
-static void rigid_blocks_have_their_inertia(void **state)
+TEST(rigid_blocks_have_their_inertia)
 {
     const rb_fem_wall_options o = small_wall(1);
     parts p;
@@ -134,7 +134,7 @@ static void rigid_blocks_have_their_inertia(void **state)
 /* Three steps of pressing and three of driving: every recorded problem is solved by
  * another solver too, with the same velocities (H has full rank and M + dt^2 K is
  * regular). */
-static void steps_are_problems_for_every_solver(void **state)
+TEST(steps_are_problems_for_every_solver)
 {
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
@@ -185,7 +185,7 @@ static void steps_are_problems_for_every_solver(void **state)
     rb_fem_wall_free(wall);
 }
 
-static void selection_is_by_difficulty(void **state)
+TEST(selection_is_by_difficulty)
 {
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
@@ -208,7 +208,7 @@ static void selection_is_by_difficulty(void **state)
 
 /* Rigid blocks: 73 freedoms, H of rank 73, hundreds of times hyperstatic; pressed only,
  * the contacts of the upper support carry the force. */
-static void rigid_wall_carries_its_load(void **state)
+TEST(rigid_wall_carries_its_load)
 {
     rb_fem_wall_options o = small_wall(1);
     rb_fem_wall *wall;
@@ -232,7 +232,7 @@ static void rigid_wall_carries_its_load(void **state)
 }
 
 /* An option of the wall out of its range is named, the last one within is taken. */
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     static const struct {
         const char *part; /* of the message; NULL: it is a wall */
@@ -275,7 +275,7 @@ static int stop_at_the_third(void *context)
 }
 
 /* Not only between the steps, and with sweeps as well as with Newton's method. */
-static void a_step_can_be_stopped(void **state)
+TEST(a_step_can_be_stopped)
 {
     static const char *const solvers[] = {"nsn-ac", "nsgs-ac", "admm", "auto"};
     for (size_t k = 0; k < sizeof solvers / sizeof *solvers; k++) {
@@ -298,7 +298,7 @@ static void a_step_can_be_stopped(void **state)
     }
 }
 
-static void failures_name_the_step(void **state)
+TEST(failures_name_the_step)
 {
     const rb_fem_wall_options o = small_wall(1);
     rb_fem_wall *wall;
@@ -347,7 +347,7 @@ static void failures_name_the_step(void **state)
 
 /* Pressed until nothing moves any more it is as short as a column of its section; blocks
  * that are rigid only move and turn. */
-static void displacements_are_those_of_the_blocks(void **state)
+TEST(displacements_are_those_of_the_blocks)
 {
     for (int rigid = 0; rigid < 2; rigid++) {
         rb_fem_wall_options o = small_wall(rigid);
@@ -390,7 +390,7 @@ static void displacements_are_those_of_the_blocks(void **state)
     }
 }
 
-static void memory_runs_out(void **state)
+TEST(memory_runs_out)
 {
     for (int rigid = 0; rigid < 2; rigid++) {
         const rb_fem_wall_options o = small_wall(rigid);
@@ -448,7 +448,7 @@ static double violation(const rb_friction_problem *p, const double *r, const dou
 }
 
 /* The wall with little friction, under its weight: Newton from zero cycles. */
-static void auto_turns_to_smoothing_where_newton_cycles(void **state)
+TEST(auto_turns_to_smoothing_where_newton_cycles)
 {
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
@@ -484,22 +484,4 @@ static void auto_turns_to_smoothing_where_newton_cycles(void **state)
     rb_fem_wall_free(wall);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_weigh_what_they_should),
-        cmocka_unit_test(contact_map_has_full_rank),
-        cmocka_unit_test(common_motion_leaves_the_joints_alone),
-        cmocka_unit_test(rigid_blocks_have_their_inertia),
-        cmocka_unit_test(steps_are_problems_for_every_solver),
-        cmocka_unit_test(selection_is_by_difficulty),
-        cmocka_unit_test(rigid_wall_carries_its_load),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(a_step_can_be_stopped),
-        cmocka_unit_test(failures_name_the_step),
-        cmocka_unit_test(displacements_are_those_of_the_blocks),
-        cmocka_unit_test(memory_runs_out),
-        cmocka_unit_test(auto_turns_to_smoothing_where_newton_cycles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

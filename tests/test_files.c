@@ -55,7 +55,7 @@ static const struct {
     {"compare m.ini --output m.ini", "--output: 'm.ini' is an input"},
 };
 
-static void inputs_are_not_written_over(void **state)
+TEST(inputs_are_not_written_over)
 {
     write_file("m.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n");
     write_file("gap.tsv", "-1 0.01\n0 0\n1 0.01\n");
@@ -82,14 +82,14 @@ static const char *const unwritable[] = {
     "example bar --output /no/file",  "example wall --output /no/folder",
 };
 
-static void what_cannot_be_written_is_not_solved(void **state)
+TEST(what_cannot_be_written_is_not_solved)
 {
     for (size_t k = 0; k < sizeof unwritable / sizeof unwritable[0]; k++)
         check_refused(unwritable[k], 73, "cannot write: No such file or directory");
 }
 
 /* A limit of file sizes is what a full disk looks like. */
-static void full_disks_leave_nothing(void **state)
+TEST(full_disks_leave_nothing)
 {
     static const char *const lines[] = {CASE "--contact-elements 300 --output a.tsv",
                                         CASE "--fclib a.hdf5", CASE "--plot a.png",
@@ -113,7 +113,7 @@ static void full_disks_leave_nothing(void **state)
 }
 
 /* Links, pipes and devices stay what they are; modes too. */
-static void fclib_files_are_written_as_all_others(void **state)
+TEST(fclib_files_are_written_as_all_others)
 {
     struct stat st;
     clear();
@@ -140,7 +140,7 @@ static void fclib_files_are_written_as_all_others(void **state)
 }
 
 /* A dump of one case beside the matrices of another would be of neither. */
-static void a_dump_replaces_the_one_before(void **state)
+TEST(a_dump_replaces_the_one_before)
 {
     clear();
     assert_int_equal(
@@ -165,7 +165,7 @@ static void a_dump_replaces_the_one_before(void **state)
 
 /* The signal comes once the run has used a tenth of a second of processor time: it is at
  * work then, however busy the machine is, and none of these ends so soon. */
-static void signals_leave_nothing_behind(void **state)
+TEST(signals_leave_nothing_behind)
 {
     static const char *const jobs[] = {
         CASE "--support hub --contact-elements 1200 --error --output a.tsv",
@@ -199,7 +199,7 @@ static void signals_leave_nothing_behind(void **state)
 
 /* ---- Descriptors and names --------------------------------------------------------- */
 
-static void a_closed_output_matters_only_where_it_is_used(void **state)
+TEST(a_closed_output_matters_only_where_it_is_used)
 {
     assert_int_equal(shell("\"$R\" " CASE "--output a.tsv >&-"), 0);
     assert_int_equal(shell("\"$R\" " CASE "--output b.tsv >&- 2>&- <&-"), 0);
@@ -208,7 +208,7 @@ static void a_closed_output_matters_only_where_it_is_used(void **state)
     clear();
 }
 
-static void the_longest_names_are_taken(void **state)
+TEST(the_longest_names_are_taken)
 {
     clear();
     assert_int_equal(shell("n() { printf \"$1%.0s\" $(seq $2); }; i=$(n i 251).ini; "
@@ -226,7 +226,7 @@ static void the_longest_names_are_taken(void **state)
     clear();
 }
 
-static void names_of_any_bytes_are_printed(void **state)
+TEST(names_of_any_bytes_are_printed)
 {
     clear();
     assert_int_equal(
@@ -247,7 +247,7 @@ static void names_of_any_bytes_are_printed(void **state)
 
 /* ---- What is no text --------------------------------------------------------------- */
 
-static void files_that_are_no_text_are_named(void **state)
+TEST(files_that_are_no_text_are_named)
 {
     static const char *const commands[] = {"case", CASE "--gap case", "--history case",
                                            "sweep " CASE "--cases case",
@@ -269,7 +269,7 @@ static void files_that_are_no_text_are_named(void **state)
 /* ---- Memory ------------------------------------------------------------------------ */
 
 /* OpenBLAS waits for ever for its buffer. */
-static void a_limit_of_memory_is_said(void **state)
+TEST(a_limit_of_memory_is_said)
 {
 #if SANITIZED
     skip(); /* reserves terabytes */
@@ -292,20 +292,4 @@ static void a_limit_of_memory_is_said(void **state)
     assert_true(said > 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inputs_are_not_written_over),
-        cmocka_unit_test(what_cannot_be_written_is_not_solved),
-        cmocka_unit_test(full_disks_leave_nothing),
-        cmocka_unit_test(fclib_files_are_written_as_all_others),
-        cmocka_unit_test(a_dump_replaces_the_one_before),
-        cmocka_unit_test(signals_leave_nothing_behind),
-        cmocka_unit_test(a_closed_output_matters_only_where_it_is_used),
-        cmocka_unit_test(the_longest_names_are_taken),
-        cmocka_unit_test(names_of_any_bytes_are_printed),
-        cmocka_unit_test(files_that_are_no_text_are_named),
-        cmocka_unit_test(a_limit_of_memory_is_said),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -102,7 +102,7 @@ static void make_sparse(rb_friction_problem *p)
 
 /* Its spectral values s and those of x obey s - mu^2/s = x, along the same axis; D is its
  * derivative. */
-static void smoothed_projections_obey_their_definition(void **state)
+TEST(smoothed_projections_obey_their_definition)
 {
     unsigned seed = 11;
     double zero = 0.0, own = NAN, slope = NAN;
@@ -155,7 +155,7 @@ static double floor_again(const rb_friction_problem *p, const double *r)
     return 1e-14 * sqrt(sums / size);
 }
 
-static void the_measure_is_equation_13(void **state)
+TEST(the_measure_is_equation_13)
 {
     unsigned seed = 3;
     for (int d = 2; d <= 3; d++) {
@@ -222,7 +222,7 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
     }
 }
 
-static void condensation_gives_the_same_problem(void **state)
+TEST(condensation_gives_the_same_problem)
 {
     enum { NC = 6, M = 3 * NC };
     rb_friction_problem p, local;
@@ -293,7 +293,7 @@ static void chains(int size, int nc, rb_friction_problem *p)
 }
 
 /* Masses (one degree of freedom), bodies inverted densely and bodies for CHOLMOD. */
-static void bodies_of_every_size_are_condensed(void **state)
+TEST(bodies_of_every_size_are_condensed)
 {
     static const int sizes[] = {1, 2, 6, 12, 13, 40};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -315,7 +315,7 @@ static void bodies_of_every_size_are_condensed(void **state)
 }
 
 /* The same structure under other loads: as if each were solved by itself. */
-static void a_handle_solves_one_load_after_another(void **state)
+TEST(a_handle_solves_one_load_after_another)
 {
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
@@ -362,7 +362,7 @@ static void a_handle_solves_one_load_after_another(void **state)
     rb_friction_handle_free(NULL);
 }
 
-static void a_structure_held_by_friction_alone_is_solved(void **state)
+TEST(a_structure_held_by_friction_alone_is_solved)
 {
     enum { NC = 2, M = 3 * NC, N = 2 * M };
     rb_friction_problem p, local;
@@ -404,7 +404,7 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
 }
 
 /* Every Newton method on planted problems, dense and sparse, from its own residual. */
-static void newton_solves_planted_problems(void **state)
+TEST(newton_solves_planted_problems)
 {
     const char *names[] = {"nsn-ac", "nsn-jm",     "nsn-nm",     "nsn-fb",
                            "auto",   "nsn-ac-nls", "nsn-jm-nls", "nsn-fb-nls"};
@@ -430,7 +430,7 @@ static void newton_solves_planted_problems(void **state)
             }
 }
 
-static void facts_are_reported(void **state)
+TEST(facts_are_reported)
 {
     rb_friction_problem p;
     rb_friction_facts facts;
@@ -453,7 +453,7 @@ static void facts_are_reported(void **state)
     rb_friction_problem_free(&p);
 }
 
-static void zero_q_has_the_trivial_solution(void **state)
+TEST(zero_q_has_the_trivial_solution)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -481,7 +481,7 @@ static void refuse(rb_friction_problem *p, const char *words)
     assert_non_null(strstr(info.msg.text, words));
 }
 
-static void bad_problems_are_refused(void **state)
+TEST(bad_problems_are_refused)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -537,7 +537,7 @@ static void bad_problems_are_refused(void **state)
 /* Without friction K is a half-line.  A contact that pulls with just the force that
  * closes it, u = 0, is no solution, though the point (-1, 0) has ||z_T|| <= 0 z_N in
  * floating point: 0 <= -0. */
-static void a_frictionless_contact_does_not_pull(void **state)
+TEST(a_frictionless_contact_does_not_pull)
 {
     for (int d = 2; d <= 3; d++) {
         double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, r[3], u[3];
@@ -567,7 +567,7 @@ static void a_frictionless_contact_does_not_pull(void **state)
     }
 }
 
-static void success_is_never_claimed_above_the_tolerance(void **state)
+TEST(success_is_never_claimed_above_the_tolerance)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -627,7 +627,7 @@ static rb_status solve_anew(void *context)
 }
 
 /* Each alone, where the ones after it succeed. */
-static void each_failing_allocation_is_reported(void **state)
+TEST(each_failing_allocation_is_reported)
 {
     static const char *const names[] = {
         "auto",          "nsn-ac",           "nsn-fb",  "nsn-ac-hybrid",
@@ -648,7 +648,7 @@ static void each_failing_allocation_is_reported(void **state)
     assert_true(calls > 10);
 }
 
-static void failing_allocations_are_reported(void **state)
+TEST(failing_allocations_are_reported)
 {
     static const char *const solvers[] = {"auto",    "nsn-ac",      "nsn-ac-hybrid",
                                           "nsgs-ac", "fixed-point", "soclcp-smoothing"};
@@ -667,23 +667,4 @@ static void failing_allocations_are_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smoothed_projections_obey_their_definition),
-        cmocka_unit_test(the_measure_is_equation_13),
-        cmocka_unit_test(condensation_gives_the_same_problem),
-        cmocka_unit_test(bodies_of_every_size_are_condensed),
-        cmocka_unit_test(a_handle_solves_one_load_after_another),
-        cmocka_unit_test(a_structure_held_by_friction_alone_is_solved),
-        cmocka_unit_test(newton_solves_planted_problems),
-        cmocka_unit_test(facts_are_reported),
-        cmocka_unit_test(zero_q_has_the_trivial_solution),
-        cmocka_unit_test(bad_problems_are_refused),
-        cmocka_unit_test(a_frictionless_contact_does_not_pull),
-        cmocka_unit_test(success_is_never_claimed_above_the_tolerance),
-        cmocka_unit_test(failing_allocations_are_reported),
-        cmocka_unit_test(each_failing_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -153,7 +153,7 @@ static void solve_and_assess(const structure *s, const rb_friction_problem *p, d
     CHECK_MAX(violation(0.4, r, want), 1e-8, "Coulomb's law on the saddle point system");
 }
 
-static void eliminated_constraints_are_those_of_the_saddle_point(void **state)
+TEST(eliminated_constraints_are_those_of_the_saddle_point)
 {
     int loaded = 0;
     for (unsigned seed = 1; seed <= 40; seed++) {
@@ -215,7 +215,7 @@ static void make_local(const structure *s, rb_io_fclib *file)
     CHECK_STATUS(rb_sparse_from_dense(JOINTS, JOINTS, R, JOINTS, &file->R), RB_OK);
 }
 
-static void both_forms_come_from_files(void **state)
+TEST(both_forms_come_from_files)
 {
     char path[] = "/tmp/rollbem-bilateral-XXXXXX";
     close(mkstemp(path));
@@ -249,7 +249,7 @@ static void both_forms_come_from_files(void **state)
     unlink(path);
 }
 
-static void redundant_constraints_drop_out(void **state)
+TEST(redundant_constraints_drop_out)
 {
     structure s;
     rb_friction_problem p, q;
@@ -284,7 +284,7 @@ static void redundant_constraints_drop_out(void **state)
 
 /* Two masses of 1 on the ground, mu = 1/2, joined by a rod along it; both fall at speed
  * 1, one is pushed along by `push`.  The friction is at most 1 in all. */
-static void a_rod_slides_or_sticks_as_a_whole(void **state)
+TEST(a_rod_slides_or_sticks_as_a_whole)
 {
     for (int slides = 0; slides < 2; slides++) {
         int at[] = {0, 1, 2, 3}, rod[] = {1, 3}, first[] = {0, 0};
@@ -343,7 +343,7 @@ static void refused(rb_status s, const rb_message *why, const char *words)
         fail_msg("'%s' lacks '%s'", why->text, words);
 }
 
-static void what_cannot_be_is_refused(void **state)
+TEST(what_cannot_be_is_refused)
 {
     structure s;
     rb_friction_problem p;
@@ -423,7 +423,7 @@ static void put_dense(const rb_sparse *W, double *dense)
 }
 
 /* A dense W becomes a sparse one, the same as from a sparse one. */
-static void dense_problems_lose_their_constraints_alike(void **state)
+TEST(dense_problems_lose_their_constraints_alike)
 {
     enum { M = 3 * CONTACTS };
     double W[2][M * M] = {{0.0}};
@@ -463,7 +463,7 @@ static void dense_problems_lose_their_constraints_alike(void **state)
     rb_friction_problem_free(&p[1]);
 }
 
-static void failing_allocations_leave_the_problem(void **state)
+TEST(failing_allocations_leave_the_problem)
 {
     structure s;
     rb_io_fclib file;
@@ -500,16 +500,4 @@ static void failing_allocations_leave_the_problem(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eliminated_constraints_are_those_of_the_saddle_point),
-        cmocka_unit_test(both_forms_come_from_files),
-        cmocka_unit_test(redundant_constraints_drop_out),
-        cmocka_unit_test(a_rod_slides_or_sticks_as_a_whole),
-        cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(dense_problems_lose_their_constraints_alike),
-        cmocka_unit_test(failing_allocations_leave_the_problem),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -227,7 +227,7 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
                 c->hopeless ? ", and there is no solution" : "");
 }
 
-static void no_solver_claims_what_is_not_so(void **state)
+TEST(no_solver_claims_what_is_not_so)
 {
     static const double tolerances[] = {1e-8, 1e-4, 1e-12};
     const int wanted = getenv("ROLLBEM_TEST_ALL") ? 200000 : 5000;
@@ -248,7 +248,7 @@ static void no_solver_claims_what_is_not_so(void **state)
 }
 
 /* The judge sees a force that is a millionth off. */
-static void the_judge_sees_small_errors(void **state)
+TEST(the_judge_sees_small_errors)
 {
     challenge c;
     double r[MOST], u[MOST], error, floor;
@@ -272,11 +272,4 @@ static void the_judge_sees_small_errors(void **state)
     CHECK_MAX(1e-8, error, "no solution");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_judge_sees_small_errors),
-        cmocka_unit_test(no_solver_claims_what_is_not_so),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

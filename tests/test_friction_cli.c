@@ -31,7 +31,7 @@ static int set_up(void **state)
     return 0;
 }
 
-static void the_answer_can_be_checked(void **state)
+TEST(the_answer_can_be_checked)
 {
     assert_int_equal(rollbem("friction --json --solution slides"), 0);
     json_t *root = json_loads(out, 0, NULL);
@@ -51,7 +51,7 @@ static void the_answer_can_be_checked(void **state)
 }
 
 /* File, solver, status: what does not depend on the clock. */
-static void compare_writes_its_file(void **state)
+TEST(compare_writes_its_file)
 {
     const char *const command = "compare --solvers nsn-ac,lemke slides zero";
     char line[200];
@@ -72,7 +72,7 @@ static void compare_writes_its_file(void **state)
     json_decref(root);
 }
 
-static void every_solver_is_there_by_name(void **state)
+TEST(every_solver_is_there_by_name)
 {
     static const char *const names[] = {"auto",
                                         "nsn-ac",
@@ -103,7 +103,7 @@ static void every_solver_is_there_by_name(void **state)
     }
 }
 
-static void bad_files_get_a_line_each_and_the_others_run(void **state)
+TEST(bad_files_get_a_line_each_and_the_others_run)
 {
     const int code =
         rollbem("friction nan mu short dimension empty foreign.hdf5 nowhere slides");
@@ -126,7 +126,7 @@ static void bad_files_get_a_line_each_and_the_others_run(void **state)
     check_refused("friction --output x nowhere", 66, "nowhere");
 }
 
-static void what_is_not_solved_says_so(void **state)
+TEST(what_is_not_solved_says_so)
 {
     assert_int_equal(rollbem("friction no slides"), 1);
     assert_non_null(strstr(err, "rollbem: no: "));
@@ -146,7 +146,7 @@ static void what_is_not_solved_says_so(void **state)
 
 /* One row more than are looked at unasked.  W is the identity but for its last entries,
  * which are not symmetric. */
-static void large_problems_are_looked_at_when_asked(void **state)
+TEST(large_problems_are_looked_at_when_asked)
 {
     enum { ROWS = 3002 };
     static double q[ROWS], mu[ROWS / 2];
@@ -173,7 +173,7 @@ static void large_problems_are_looked_at_when_asked(void **state)
     rb_sparse_free(&p.Ws);
 }
 
-static void cones_and_forced_formats(void **state)
+TEST(cones_and_forced_formats)
 {
     assert_int_equal(rollbem("friction --format siconos-soclcp --solution cone"), 0);
     assert_non_null(strstr(out, "soclcp-smoothing"));
@@ -188,7 +188,7 @@ static void cones_and_forced_formats(void **state)
 /* Siconos' text form of M v = H r + q, u = H' v + b.  In the plane one mass of 2 that
  * falls on the ground and sticks, with as many degrees of freedom as rows, which a local
  * problem has as well; in space one of four coordinates that slides. */
-static void global_problems_are_read_as_text(void **state)
+TEST(global_problems_are_read_as_text)
 {
     write_file("plane", "2 1 0 2 2 2 2 2 0 0 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
     write_file("loose", "2 1 0 2 2 2 2 2 0 0 0\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
@@ -224,7 +224,7 @@ static void global_problems_are_read_as_text(void **state)
                   "rows of the matrix: expected 4, got '3'");
 }
 
-static void the_command_line_is_checked(void **state)
+TEST(the_command_line_is_checked)
 {
     check_refused("friction", 64, "FILE");
     check_refused("friction --solver nsn-acc slides", 64, "did you mean 'nsn-ac'");
@@ -236,7 +236,7 @@ static void the_command_line_is_checked(void **state)
     check_refused("compare", 64, "FILE");
 }
 
-static void profiles_are_printed(void **state)
+TEST(profiles_are_printed)
 {
     assert_int_equal(
         rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
@@ -259,7 +259,7 @@ static void profiles_are_printed(void **state)
 
 /* In units in which W is 1e4 times as large, (13) with rho = 1 is content after one
  * sweep; the scaled measure does not see the units. */
-static void the_chosen_measure_decides(void **state)
+TEST(the_chosen_measure_decides)
 {
     static const char *const sweeps[] = {"scaled", "acary"};
     write_file("stiff", "3\n2\n0\n6 6\n6 6\n2e4 0 0 1e4 0 0\n0 2e4 0 0 1e4 0\n"
@@ -284,20 +284,4 @@ static void the_chosen_measure_decides(void **state)
     check_refused("compare stiff --measure flops", 64, "--measure: expected scaled or");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_answer_can_be_checked),
-        cmocka_unit_test(the_chosen_measure_decides),
-        cmocka_unit_test(every_solver_is_there_by_name),
-        cmocka_unit_test(bad_files_get_a_line_each_and_the_others_run),
-        cmocka_unit_test(what_is_not_solved_says_so),
-        cmocka_unit_test(large_problems_are_looked_at_when_asked),
-        cmocka_unit_test(cones_and_forced_formats),
-        cmocka_unit_test(global_problems_are_read_as_text),
-        cmocka_unit_test(the_command_line_is_checked),
-        cmocka_unit_test(profiles_are_printed),
-        cmocka_unit_test(compare_writes_its_file),
-    };
-    return cmocka_run_group_tests(tests, set_up, leave_folder);
-}
+RUN_TESTS(set_up, leave_folder)

@@ -102,7 +102,7 @@ static void to_dense(const rb_sparse *a, double *x)
         }
 }
 
-static void bodies_that_meet_anywhere_are_condensed(void **state)
+TEST(bodies_that_meet_anywhere_are_condensed)
 {
     static double K[DOFS * DOFS], X[DOFS * (M + 1)], H[DOFS * M], W[M * M];
     for (int trial = 0; trial < 10; trial++) {
@@ -135,7 +135,7 @@ static void bodies_that_meet_anywhere_are_condensed(void **state)
 }
 
 /* One of the bodies has a matrix of ones, which is of rank 1, or no stiffness at all. */
-static void a_loose_body_is_told(void **state)
+TEST(a_loose_body_is_told)
 {
     for (int b = 0; b < BODIES; b++) {
         const int full = b < FULL && sizes[b] > 1;
@@ -163,7 +163,7 @@ static rb_status condense(void *context)
     return s;
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     rb_friction_problem p;
     make_bodies(&p);
@@ -171,12 +171,4 @@ static void short_memory_is_reported(void **state)
     rb_friction_problem_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_that_meet_anywhere_are_condensed),
-        cmocka_unit_test(a_loose_body_is_told),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -46,7 +46,7 @@ static double violation(int d, double mu, const double *r, const double *u)
                 fmax(fabs(r[0] * u[0]), fabs(power)));
 }
 
-static void one_contact_obeys_coulomb(void **state)
+TEST(one_contact_obeys_coulomb)
 {
     unsigned seed = 5;
     int states[3] = {0, 0, 0}; /* open, stuck, sliding */
@@ -75,7 +75,7 @@ static void one_contact_obeys_coulomb(void **state)
 
 /* Compliances 2^-40 times as large carry 2^40 times the force, to the last bit; the root
  * lambda is a compliance. */
-static void one_contact_has_no_unit(void **state)
+TEST(one_contact_has_no_unit)
 {
     unsigned seed = 7;
     for (int k = 0; k < 500; k++) {
@@ -98,7 +98,7 @@ static void one_contact_has_no_unit(void **state)
 }
 
 /* Elimination and Newton on Alart-Curnier's function are two ways to the same force. */
-static void elimination_agrees_with_newton(void **state)
+TEST(elimination_agrees_with_newton)
 {
     unsigned seed = 7;
     for (int k = 0; k < 200; k++) {
@@ -119,7 +119,7 @@ static void elimination_agrees_with_newton(void **state)
 }
 
 /* A block need not be symmetric: stick and sliding to either side, and Newton's steps. */
-static void newton_obeys_coulomb_with_unsymmetric_blocks(void **state)
+TEST(newton_obeys_coulomb_with_unsymmetric_blocks)
 {
     unsigned seed = 11;
     int states[3] = {0, 0, 0};
@@ -141,7 +141,7 @@ static void newton_obeys_coulomb_with_unsymmetric_blocks(void **state)
     assert_true(states[0] > 100 && states[1] > 100 && states[2] > 100);
 }
 
-static void a_singular_block_is_left_to_newton(void **state)
+TEST(a_singular_block_is_left_to_newton)
 {
     const double loose[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     const double upside_down[] = {-1.0, 0.0, 0.0, 1.0};
@@ -179,7 +179,7 @@ static void make_sparse(rb_friction_problem *p)
     p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 
-static void blocks_multiply_as_the_matrix_does(void **state)
+TEST(blocks_multiply_as_the_matrix_does)
 {
     unsigned seed = 3;
     for (int k = 0; k < 4; k++) {
@@ -209,7 +209,7 @@ static void blocks_multiply_as_the_matrix_does(void **state)
 
 /* (A + B W) dr + F, with some contacts open (A = 1, B = 0), by the dense and by the
  * sparse LU (which large orders take) */
-static void a_newton_step_solves_its_system(void **state)
+TEST(a_newton_step_solves_its_system)
 {
     unsigned seed = 9;
     static const int sizes[] = {5, 130};
@@ -256,7 +256,7 @@ static void a_newton_step_solves_its_system(void **state)
 }
 
 /* r -> M r + b in four dimensions, u = 2 r - 1: GMRES needs four products. */
-static void acceleration_solves_a_linear_iteration(void **state)
+TEST(acceleration_solves_a_linear_iteration)
 {
     enum { M = 4 };
     const double b[M] = {1.0, -2.0, 0.5, 3.0};
@@ -287,7 +287,7 @@ static void acceleration_solves_a_linear_iteration(void **state)
     rb_friction_anderson_free(&a);
 }
 
-static void acceleration_goes_back_where_it_was_led_astray(void **state)
+TEST(acceleration_goes_back_where_it_was_led_astray)
 {
     static const double led_to[] = {1.0, 1.5, 40.0};
     double r[1] = {0.0}, u[1] = {0.0}, start[1];
@@ -323,7 +323,7 @@ static void pile(int nc, double coupling, rb_friction_problem *p)
         p->mu[c] = 0.5;
 }
 
-static void acceleration_saves_sweeps(void **state)
+TEST(acceleration_saves_sweeps)
 {
     rb_friction_problem p;
     rb_friction_info plain, fast;
@@ -343,7 +343,7 @@ static void acceleration_saves_sweeps(void **state)
 
 /* K dv - H dr = -e and B H' dv + A dr = -F of bodies in a row, each of which touches the
  * next one.  Operations: the blocks B H', and dense LU with its two substitutions. */
-static void a_step_of_all_bodies_solves_its_system(void **state)
+TEST(a_step_of_all_bodies_solves_its_system)
 {
     unsigned seed = 6;
     for (int sparse = 0; sparse < 2; sparse++) {
@@ -407,7 +407,7 @@ static void a_step_of_all_bodies_solves_its_system(void **state)
 /* A pile that shrugs off what happens a few contacts away: seven sweeps leave Newton one
  * step. One in which every contact feels all the others: Newton goes from zero as if
  * there had been no sweeps. */
-static void the_hybrid_sees_what_sweeps_are_worth(void **state)
+TEST(the_hybrid_sees_what_sweeps_are_worth)
 {
     for (int strong = 0; strong < 2; strong++) {
         rb_friction_problem p;
@@ -432,7 +432,7 @@ static void the_hybrid_sees_what_sweeps_are_worth(void **state)
 
 /* Contacts that push each other the more, the more they are pushed: no solution.  Sweeps
  * that may yield pause where they stall, and go on when they are asked again. */
-static void sweeps_that_stall_yield(void **state)
+TEST(sweeps_that_stall_yield)
 {
     rb_friction_problem p;
     rb_friction_info info = {0};
@@ -469,22 +469,4 @@ static void sweeps_that_stall_yield(void **state)
     rb_friction_problem_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_contact_obeys_coulomb),
-        cmocka_unit_test(one_contact_has_no_unit),
-        cmocka_unit_test(elimination_agrees_with_newton),
-        cmocka_unit_test(newton_obeys_coulomb_with_unsymmetric_blocks),
-        cmocka_unit_test(a_singular_block_is_left_to_newton),
-        cmocka_unit_test(blocks_multiply_as_the_matrix_does),
-        cmocka_unit_test(a_newton_step_solves_its_system),
-        cmocka_unit_test(a_step_of_all_bodies_solves_its_system),
-        cmocka_unit_test(acceleration_solves_a_linear_iteration),
-        cmocka_unit_test(acceleration_goes_back_where_it_was_led_astray),
-        cmocka_unit_test(acceleration_saves_sweeps),
-        cmocka_unit_test(the_hybrid_sees_what_sweeps_are_worth),
-        cmocka_unit_test(sweeps_that_stall_yield),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

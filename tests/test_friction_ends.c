@@ -80,7 +80,7 @@ static int takes(const rb_friction_solver *solver, int d)
     return d == 2 || !(solver->needs & RB_FRICTION_ONLY_2D);
 }
 
-static void without_time_every_solver_says_so(void **state)
+TEST(without_time_every_solver_says_so)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -104,7 +104,7 @@ static void without_time_every_solver_says_so(void **state)
 }
 
 /* Velocities whose squares and sums overflow are not solved, and not called solved. */
-static void numbers_beyond_the_largest_are_not_solved(void **state)
+TEST(numbers_beyond_the_largest_are_not_solved)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -137,7 +137,7 @@ static int count_looks(const rb_friction_progress *at, void *context)
 
 /* The measure costs as much as a sweep: it is looked at after 1, 2, 4 ... 128 sweeps and
  * every 200, and else only where the change of a sweep says that it may be met. */
-static void sweeps_seldom_look_at_the_measure(void **state)
+TEST(sweeps_seldom_look_at_the_measure)
 {
     for (int d = 2; d <= 3; d++) {
         rb_friction_problem p;
@@ -164,7 +164,7 @@ static void sweeps_seldom_look_at_the_measure(void **state)
     }
 }
 
-static void options_that_are_none_are_refused(void **state)
+TEST(options_that_are_none_are_refused)
 {
     static const rb_friction_options bad[] = {{.tol = 0.0},
                                               {.tol = NAN},
@@ -194,7 +194,7 @@ static void options_that_are_none_are_refused(void **state)
 
 /* A handle starts from its last solution, unless it is given another start, and forgets
  * nothing where a call fails. */
-static void a_handle_keeps_its_last_solution(void **state)
+TEST(a_handle_keeps_its_last_solution)
 {
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
@@ -231,7 +231,7 @@ static void a_handle_keeps_its_last_solution(void **state)
 
 /* ---- Facts and refusals of problems ------------------------------------------------ */
 
-static void facts_do_not_depend_on_the_form(void **state)
+TEST(facts_do_not_depend_on_the_form)
 {
     for (int with_rank = 0; with_rank < 2; with_rank++) {
         rb_friction_problem p;
@@ -261,7 +261,7 @@ static void facts_do_not_depend_on_the_form(void **state)
 
 typedef enum { NO_P, NO_I, NO_X, NO_ROWS, NO_COLS, INFINITE, DEFECTS } defect;
 
-static void damaged_matrices_are_named(void **state)
+TEST(damaged_matrices_are_named)
 {
     static const char *const words[DEFECTS] = {"H is missing", "H is missing",
                                                "H is missing", "H is 11 x 12",
@@ -305,7 +305,7 @@ static void damaged_matrices_are_named(void **state)
     rb_friction_problem_free(NULL);
 }
 
-static void damaged_vectors_are_named(void **state)
+TEST(damaged_vectors_are_named)
 {
     for (int global = 0; global < 2; global++) {
         rb_friction_problem p;
@@ -342,7 +342,7 @@ static void damaged_vectors_are_named(void **state)
 }
 
 /* Two ends of one body that move together to 1e-12: no matrix to condense with. */
-static void nearly_loose_bodies_are_not_condensed(void **state)
+TEST(nearly_loose_bodies_are_not_condensed)
 {
     const double K[] = {1.0, 1.0 - 1e-13, 1.0 - 1e-13, 1.0}, H[] = {1.0, 0.0, 0.0, 1.0};
     double mu[] = {0.5}, f[] = {1.0, 1.0}, w[] = {0.0, 0.0};
@@ -365,7 +365,7 @@ static void nearly_loose_bodies_are_not_condensed(void **state)
 
 /* A constraint that follows from the others but for rounding drops out; one that says
  * otherwise is refused. */
-static void constraints_are_redundant_but_for_rounding(void **state)
+TEST(constraints_are_redundant_but_for_rounding)
 {
     for (int trial = 0; trial < 20; trial++)
         for (int contradicts = 0; contradicts < 2; contradicts++) {
@@ -391,7 +391,7 @@ static void constraints_are_redundant_but_for_rounding(void **state)
 
 /* ---- Cones ------------------------------------------------------------------------- */
 
-static void cones_that_are_none_are_refused(void **state)
+TEST(cones_that_are_none_are_refused)
 {
     static const struct {
         int n, size[2];
@@ -422,7 +422,7 @@ static const rb_friction_soclcp_problem on_cones = {3, cone_matrix, cone_q, 2,
                                                     cone_sizes};
 
 /* ||x - P(x - y)|| / ||q||, whatever the unit of both; absolute where q = 0. */
-static void the_error_on_cones_is_relative(void **state)
+TEST(the_error_on_cones_is_relative)
 {
     const double x[3] = {1.0, 0.2, 0.3};
     double y[3], s[3], square = 0.0;
@@ -455,7 +455,7 @@ static void the_error_on_cones_is_relative(void **state)
     assert_true(rb_friction_soclcp_error(&at_rest, x, y) > 0.1);
 }
 
-static void limits_hold_on_cones(void **state)
+TEST(limits_hold_on_cones)
 {
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
@@ -512,7 +512,7 @@ static void make_wheels(rb_friction_problem *p)
     rb_triplets_free(&H);
 }
 
-static void what_does_not_roll_is_refused(void **state)
+TEST(what_does_not_roll_is_refused)
 {
     static const double fine[] = {0.1, 0.2};
     static const double bad[][2] = {{0.1, -0.1}, {NAN, 0.1}, {0.1, INFINITY}};
@@ -536,7 +536,7 @@ static void what_does_not_roll_is_refused(void **state)
 }
 
 /* A wheel whose motions have no stiffness of their own takes the length 1. */
-static void wheels_without_stiffness_have_the_length_one(void **state)
+TEST(wheels_without_stiffness_have_the_length_one)
 {
     static const double mu_r[] = {0.1, 0.2};
     for (int k = 0; k < 3; k++) {
@@ -572,7 +572,7 @@ static void make_loose(rb_friction_problem *p)
     }
 }
 
-static void contacts_without_tangential_compliance_slip(void **state)
+TEST(contacts_without_tangential_compliance_slip)
 {
     static const char *const names[] = {"nsgs-ac", "nsgs-aa", "lemke", "auto"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
@@ -645,7 +645,7 @@ static rb_status roll(void *context)
     return rb_friction_split_rolling(p, mu_r, NULL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     for (int k = 0; k < 3; k++) {
         rb_friction_problem p;
@@ -672,26 +672,4 @@ static void short_memory_is_reported(void **state)
     rb_friction_problem_free(&wheels);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_time_every_solver_says_so),
-        cmocka_unit_test(numbers_beyond_the_largest_are_not_solved),
-        cmocka_unit_test(sweeps_seldom_look_at_the_measure),
-        cmocka_unit_test(options_that_are_none_are_refused),
-        cmocka_unit_test(a_handle_keeps_its_last_solution),
-        cmocka_unit_test(facts_do_not_depend_on_the_form),
-        cmocka_unit_test(damaged_matrices_are_named),
-        cmocka_unit_test(damaged_vectors_are_named),
-        cmocka_unit_test(nearly_loose_bodies_are_not_condensed),
-        cmocka_unit_test(constraints_are_redundant_but_for_rounding),
-        cmocka_unit_test(cones_that_are_none_are_refused),
-        cmocka_unit_test(the_error_on_cones_is_relative),
-        cmocka_unit_test(limits_hold_on_cones),
-        cmocka_unit_test(what_does_not_roll_is_refused),
-        cmocka_unit_test(wheels_without_stiffness_have_the_length_one),
-        cmocka_unit_test(contacts_without_tangential_compliance_slip),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

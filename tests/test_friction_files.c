@@ -37,7 +37,7 @@ static void read_whole(const char *text, rb_friction_file kind, rb_friction_prob
     assert_string_equal(why.text, "");
 }
 
-static void local_problems_come_from_text(void **state)
+TEST(local_problems_come_from_text)
 {
     static const double W[] = {4.0, 1.0, 2.0, 3.0};
     rb_friction_problem p;
@@ -61,7 +61,7 @@ static void local_problems_come_from_text(void **state)
     rb_friction_problem_free(&p);
 }
 
-static void global_problems_come_from_text(void **state)
+TEST(global_problems_come_from_text)
 {
     for (int named = 0; named < 2; named++) {
         rb_friction_problem p;
@@ -86,7 +86,7 @@ static void global_problems_come_from_text(void **state)
 
 /* What the head leaves open is told by the length; where neither form has it, the message
  * is that of the local one. */
-static void a_head_of_both_forms_is_followed_to_the_end(void **state)
+TEST(a_head_of_both_forms_is_followed_to_the_end)
 {
     rb_friction_problem p;
     rb_message why = {""};
@@ -108,7 +108,7 @@ static void a_head_of_both_forms_is_followed_to_the_end(void **state)
 
 /* A cone ||x_T|| <= x_0 / slope becomes one of slope 1 by x_0 / slope in the place of
  * x_0; a half-line has none. */
-static void cones_get_the_slope_one(void **state)
+TEST(cones_get_the_slope_one)
 {
     static const double M[] = {8.0, 1.0, 2.0, 4.0, 1.0, 6.0, 3.0, 5.0,
                                2.0, 3.0, 9.0, 7.0, 4.0, 5.0, 7.0, 10.0};
@@ -134,7 +134,7 @@ static void cones_get_the_slope_one(void **state)
     rb_friction_soclcp_data_free(NULL);
 }
 
-static void what_is_no_friction_problem_is_refused(void **state)
+TEST(what_is_no_friction_problem_is_refused)
 {
     static const struct {
         const char *text;
@@ -185,7 +185,7 @@ static void check_vector(const char *name, size_t n, const double *x, const doub
 }
 
 /* What FCLib's file has is what was written, the solution with it where there is one. */
-static void problems_go_into_fclib_and_come_back(void **state)
+TEST(problems_go_into_fclib_and_come_back)
 {
     static const char *const texts[] = {full, half, global};
     double r[] = {1.5, 2.5}, u[] = {3.5, 4.5}, v[] = {5.5, 6.5, 7.5};
@@ -242,7 +242,7 @@ static rb_status read_cones(void *context)
     return s;
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static const char *const texts[] = {full, half, global};
     rb_friction_file kind;
@@ -257,16 +257,4 @@ static void short_memory_is_reported(void **state)
     assert_true(alloc_fail_each(read_cones, NULL) > 3);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(local_problems_come_from_text),
-        cmocka_unit_test(global_problems_come_from_text),
-        cmocka_unit_test(a_head_of_both_forms_is_followed_to_the_end),
-        cmocka_unit_test(cones_get_the_slope_one),
-        cmocka_unit_test(what_is_no_friction_problem_is_refused),
-        cmocka_unit_test(problems_go_into_fclib_and_come_back),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
-}
+RUN_TESTS(make_path, remove_path)

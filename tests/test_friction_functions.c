@@ -28,7 +28,7 @@ static double dot(int d, const double *x, const double *y)
 
 /* p in K, p - z in K* = {mu ||x_T|| <= x_N}, and p'(p - z) = 0: the three say that p is
  * nearest to z. */
-static void projections_are_nearest_points(void **state)
+TEST(projections_are_nearest_points)
 {
     static const double mus[] = {0.0, 0.3, 2.0};
     for (int k = 0; k < 600; k++) {
@@ -63,7 +63,7 @@ static void projections_are_nearest_points(void **state)
     }
 }
 
-static void norms_hold_over_all_sizes(void **state)
+TEST(norms_hold_over_all_sizes)
 {
     for (size_t n = 1; n < 12; n++) {
         double x[12], y[12], squares = 0.0, product = 0.0, apart = 0.0;
@@ -137,7 +137,7 @@ static void obey_coulomb(const rb_friction_cone *cone, int how, double *r, doubl
     }
 }
 
-static void solutions_are_the_roots(void **state)
+TEST(solutions_are_the_roots)
 {
     for (int trial = 0; trial < 300; trial++) {
         const rb_friction_cone cone = {2 + trial % 2, trial % 5 ? 0.6 : 0.0,
@@ -167,7 +167,7 @@ static void solutions_are_the_roots(void **state)
 }
 
 /* Against differences, away from the kinks: where those of two steps agree. */
-static void derivatives_are_those_of_the_functions(void **state)
+TEST(derivatives_are_those_of_the_functions)
 {
     int compared = 0, all = 0;
     for (int trial = 0; trial < 400; trial++) {
@@ -208,7 +208,7 @@ static void derivatives_are_those_of_the_functions(void **state)
 
 /* Where both are zero there are many derivatives: any element of the generalised one
  * keeps A and B between 0 and 1 in units of rho, and together regular. */
-static void at_zero_the_derivatives_are_regular(void **state)
+TEST(at_zero_the_derivatives_are_regular)
 {
     static const double zero[3];
     for (int d = 2; d <= 3; d++)
@@ -228,7 +228,7 @@ static void at_zero_the_derivatives_are_regular(void **state)
 }
 
 /* A block is kept for any entry of it, whatever stands in the others. */
-static void single_entries_make_blocks(void **state)
+TEST(single_entries_make_blocks)
 {
     for (int d = 2; d <= 3; d++)
         for (int entry = 0; entry < 4 * d * d; entry++) {
@@ -295,7 +295,7 @@ static double largest_eigenvalue(int d, const double *W, int m, int top)
     return size;
 }
 
-static void rho_is_the_inverse_of_a_contacts_own_compliance(void **state)
+TEST(rho_is_the_inverse_of_a_contacts_own_compliance)
 {
     for (int d = 2; d <= 3; d++) {
         const int m = d * NC;
@@ -329,7 +329,7 @@ static void rho_is_the_inverse_of_a_contacts_own_compliance(void **state)
 
 /* Of the global form: a tenth of diag(K) in the place of K; of the tangents the softer.
  */
-static void rho_of_a_structure_comes_from_its_diagonal(void **state)
+TEST(rho_of_a_structure_comes_from_its_diagonal)
 {
     int rows[] = {0, 1, 2, 0, 1}, cols[] = {0, 1, 2, 1, 0};
     double k[] = {2.0, 4.0, 5.0, -1.0, -1.0}, h[] = {1.0, 3.0, 2.0, 0.5, 0.0}, rho[2];
@@ -354,7 +354,7 @@ static void rho_of_a_structure_comes_from_its_diagonal(void **state)
 }
 
 /* u = H'v + c w and e = K v - H r - f, of a structure written out. */
-static void velocities_and_imbalance_are_those_of_the_structure(void **state)
+TEST(velocities_and_imbalance_are_those_of_the_structure)
 {
     enum { DOFS = 4, M = 2 };
     double K[DOFS * DOFS], H[DOFS * M], f[DOFS], w[M], r[M], v[DOFS], u[M], e[DOFS];
@@ -403,7 +403,7 @@ static void velocities_and_imbalance_are_those_of_the_structure(void **state)
 }
 
 /* || r - P(r - rho uhat) || / rho over the contacts, and the size of r in those units. */
-static void the_natural_norm_is_that_of_the_contacts(void **state)
+TEST(the_natural_norm_is_that_of_the_contacts)
 {
     for (int d = 2; d <= 3; d++) {
         double mu[NC], rho[2 * NC], r[3 * NC], u[3 * NC], work[3 * NC], one = 0.0;
@@ -448,19 +448,4 @@ static void the_natural_norm_is_that_of_the_contacts(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(projections_are_nearest_points),
-        cmocka_unit_test(norms_hold_over_all_sizes),
-        cmocka_unit_test(solutions_are_the_roots),
-        cmocka_unit_test(derivatives_are_those_of_the_functions),
-        cmocka_unit_test(at_zero_the_derivatives_are_regular),
-        cmocka_unit_test(single_entries_make_blocks),
-        cmocka_unit_test(rho_is_the_inverse_of_a_contacts_own_compliance),
-        cmocka_unit_test(rho_of_a_structure_comes_from_its_diagonal),
-        cmocka_unit_test(velocities_and_imbalance_are_those_of_the_structure),
-        cmocka_unit_test(the_natural_norm_is_that_of_the_contacts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

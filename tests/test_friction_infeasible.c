@@ -63,7 +63,7 @@ static void check_infeasible(const rb_friction_problem *p, const char *what)
 }
 
 /* Nothing gives way at a contact that closes. */
-static void nothing_can_push(void **state)
+TEST(nothing_can_push)
 {
     memset(W, 0, sizeof W);
     q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
@@ -72,7 +72,7 @@ static void nothing_can_push(void **state)
 }
 
 /* A free body of mass 1 between two walls that close: their normals are opposite. */
-static void two_walls_close(void **state)
+TEST(two_walls_close)
 {
     for (int d = 2; d <= 3; d++) {
         const int m = 2 * d;
@@ -95,7 +95,7 @@ static void two_walls_close(void **state)
 
 /* W = G G' with G' y_N = 0 for a given y >= 0, and y'q_N < 0; without the latter every
  * such problem has a solution, as W is then positive on what q asks for. */
-static void planted_proofs_are_found(void **state)
+TEST(planted_proofs_are_found)
 {
     static double G[MOST * MOST];
     for (int k = 0; k < 40; k++) {
@@ -143,7 +143,7 @@ static void planted_proofs_are_found(void **state)
     }
 }
 
-static void global_problems_are_condensed_first(void **state)
+TEST(global_problems_are_condensed_first)
 {
     double y[1], least;
     rb_friction_problem p = problem(2, 1);
@@ -151,7 +151,7 @@ static void global_problems_are_condensed_first(void **state)
     CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_EINVAL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     memset(W, 0, sizeof W);
     q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
@@ -168,14 +168,4 @@ static void short_memory_is_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_can_push),
-        cmocka_unit_test(two_walls_close),
-        cmocka_unit_test(planted_proofs_are_found),
-        cmocka_unit_test(global_problems_are_condensed_first),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

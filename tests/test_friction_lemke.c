@@ -192,7 +192,7 @@ static double operations(kind k, int attempt, const rb_friction_problem *p, int 
 }
 
 /* Paths in the displacement basis may end on a ray, and few do. */
-static void every_attempt_solves_by_itself(void **state)
+TEST(every_attempt_solves_by_itself)
 {
     enum { TRIALS = 10 };
     int solved[KINDS][RB_FRICTION_LEMKE_ATTEMPTS + 1] = {{0}};
@@ -227,7 +227,7 @@ static void every_attempt_solves_by_itself(void **state)
 
 /* Limits end an attempt; what went wrong first is what all of them together tell.  The
  * first three have no rays. */
-static void limits_hold_for_every_attempt(void **state)
+TEST(limits_hold_for_every_attempt)
 {
     rb_friction_problem p;
     make_problem(DENSE, &p);
@@ -257,7 +257,7 @@ static rb_status solve_anew(void *context)
                              NULL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     int calls = 0; /* of all kinds together: a call fails once */
     for (kind k = 0; k < KINDS; k++) {
@@ -269,12 +269,4 @@ static void short_memory_is_reported(void **state)
     assert_true(calls > 10);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_attempt_solves_by_itself),
-        cmocka_unit_test(limits_hold_for_every_attempt),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

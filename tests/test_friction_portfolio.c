@@ -90,7 +90,7 @@ static void compare(const char *name, const rb_friction_problem *p, double most)
     free(r);
 }
 
-static void auto_loses_little_to_its_members(void **state)
+TEST(auto_loses_little_to_its_members)
 {
     static const char *const packings[] = {
         "boxes 4 0.3 1",   "boxes 30 0.5 3",  "boxes 100 0.1 4", "discs 25 0 2",
@@ -106,7 +106,7 @@ static void auto_loses_little_to_its_members(void **state)
 
 /* Where one sweep is the answer the proof of it is made once: it cost 1.5 times as much.
  */
-static void the_first_member_costs_auto_nothing(void **state)
+TEST(the_first_member_costs_auto_nothing)
 {
     static const char *const files[] = {"siconos/fc2d/FrictionContactProblem00394.dat",
                                         "siconos/fc2d/FrictionContactProblem00031.dat",
@@ -132,7 +132,7 @@ static void the_first_member_costs_auto_nothing(void **state)
 
 /* Rigid bodies are condensed first, since that costs little: auto needs what it needs on
  * the condensed problem, where Newton on the global form went first and failed. */
-static void auto_condenses_rigid_bodies_first(void **state)
+TEST(auto_condenses_rigid_bodies_first)
 {
     rb_friction_problem global, local;
     rb_friction_info of_global, of_local;
@@ -150,7 +150,7 @@ static void auto_condenses_rigid_bodies_first(void **state)
 }
 
 /* 24 s and 18.7 s where plain sweeps took 0.03 and 0.13. */
-static void auto_on_the_packings_it_lost_on(void **state)
+TEST(auto_on_the_packings_it_lost_on)
 {
     static const char *const files[] = {"packings/boxes2d_300_mu2.0.dat",
                                         "packings/disks2d_300_mu0.5.dat"};
@@ -171,7 +171,7 @@ static void auto_on_the_packings_it_lost_on(void **state)
 
 /* W and q that the generator prints, and those condensed from its mass and H; condensing
  * takes less time than solving. */
-static void global_packings_condense_to_the_local_ones(void **state)
+TEST(global_packings_condense_to_the_local_ones)
 {
     static const char *const packings[] = {"boxes 30 0.5 3", "discs 60 0.5 3",
                                            "bricks 20 0.6 3", "spheres 360 0.7 9"};
@@ -216,7 +216,7 @@ static void global_packings_condense_to_the_local_ones(void **state)
 }
 
 /* Redundant bricks: sweeps need 13 566, Newton fails, ADMM takes 130 iterations. */
-static void splitting_solves_redundant_contacts(void **state)
+TEST(splitting_solves_redundant_contacts)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -235,7 +235,7 @@ static void splitting_solves_redundant_contacts(void **state)
 /* Lemke's method on stacks and heaps with redundant contacts: the form of order 3 n_c
  * ended on a ray, after 10 n + 1000 pivots or with a residual of 0.6 on those of mu = 2.
  * The answer of a pivoting method is right to rounding. */
-static void lemke_solves_redundant_contacts(void **state)
+TEST(lemke_solves_redundant_contacts)
 {
     static const struct {
         const char *packing;
@@ -258,7 +258,7 @@ static void lemke_solves_redundant_contacts(void **state)
     }
 }
 
-static void lemke_ends_in_time(void **state)
+TEST(lemke_ends_in_time)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -276,7 +276,7 @@ static void lemke_ends_in_time(void **state)
 }
 
 /* r, u and v of the portfolio, whoever of its members found them. */
-static void the_winner_hands_over_all_it_has(void **state)
+TEST(the_winner_hands_over_all_it_has)
 {
     static const struct {
         const char *packing, *winner;
@@ -321,7 +321,7 @@ static void the_winner_hands_over_all_it_has(void **state)
 }
 
 /* The same path twice, to the last digit. */
-static void auto_repeats_itself(void **state)
+TEST(auto_repeats_itself)
 {
     rb_friction_problem p;
     rb_friction_info one, two;
@@ -338,7 +338,7 @@ static void auto_repeats_itself(void **state)
 }
 
 /* A method that pauses and goes on arrives where it does without pauses. */
-static void pauses_change_nothing(void **state)
+TEST(pauses_change_nothing)
 {
     static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
                                         "extragradient", "nsgs-fp", "fixed-point",
@@ -404,7 +404,7 @@ static int hear(const rb_friction_progress *at, void *context)
     return ++l->calls == l->last;
 }
 
-static void the_caller_hears_and_may_stop(void **state)
+TEST(the_caller_hears_and_may_stop)
 {
     rb_friction_problem p;
     rb_friction_info info;
@@ -434,21 +434,4 @@ static void the_caller_hears_and_may_stop(void **state)
     rb_friction_problem_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(auto_loses_little_to_its_members),
-        cmocka_unit_test(the_first_member_costs_auto_nothing),
-        cmocka_unit_test(auto_condenses_rigid_bodies_first),
-        cmocka_unit_test(auto_on_the_packings_it_lost_on),
-        cmocka_unit_test(global_packings_condense_to_the_local_ones),
-        cmocka_unit_test(splitting_solves_redundant_contacts),
-        cmocka_unit_test(lemke_solves_redundant_contacts),
-        cmocka_unit_test(lemke_ends_in_time),
-        cmocka_unit_test(the_winner_hands_over_all_it_has),
-        cmocka_unit_test(auto_repeats_itself),
-        cmocka_unit_test(pauses_change_nothing),
-        cmocka_unit_test(the_caller_hears_and_may_stop),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -157,7 +157,7 @@ static rb_status solve_row(const row_of_balls *s, double unit, const char *solve
     return st;
 }
 
-static void rows_of_balls_obey_both_laws(void **state)
+TEST(rows_of_balls_obey_both_laws)
 {
     static const struct {
         int balls;
@@ -181,7 +181,7 @@ static void rows_of_balls_obey_both_laws(void **state)
         }
 }
 
-static void every_family_of_solvers_takes_it(void **state)
+TEST(every_family_of_solvers_takes_it)
 {
     static const char *const names[] = {"nsn-ac",  "nsn-fb",        "nsn-ac-hybrid",
                                         "nsgs-ac", "nsgs-aa",       "nsgs-fp",
@@ -197,7 +197,7 @@ static void every_family_of_solvers_takes_it(void **state)
 
 /* One ball, thrown down and along x at speed V without spin, r_N = 1.  Sliding to the
  * end: |r_T| = mu; rolling is stopped by the moment mu_r r_N at most. */
-static void one_ball_slides_rolls_or_stops(void **state)
+TEST(one_ball_slides_rolls_or_stops)
 {
     double r[6], u[6];
     row_of_balls s;
@@ -223,7 +223,7 @@ static void one_ball_slides_rolls_or_stops(void **state)
     CHECK_ABS(hypot(r[3], r[4]), 1.0, 1e-6, "by R V");
 }
 
-static void units_do_not_matter(void **state)
+TEST(units_do_not_matter)
 {
     static double r[6 * CONTACTS], u[6 * CONTACTS];
     row_of_balls s;
@@ -235,7 +235,7 @@ static void units_do_not_matter(void **state)
 }
 
 /* A held ball (bilateral constraints on its rates of turn) does not roll. */
-static void constraints_go_with_rolling_friction(void **state)
+TEST(constraints_go_with_rolling_friction)
 {
     double r[6], u[6];
     int turns[] = {3, 4, 5}, each[] = {0, 1, 2};
@@ -271,7 +271,7 @@ static void constraints_go_with_rolling_friction(void **state)
 
 /* Two contacts stand for a rolling one and carry the same pressure: what they do together
  * is what the united one does. */
-static void united_entries_do_the_same_work(void **state)
+TEST(united_entries_do_the_same_work)
 {
     const double r[6] = {3.0, 0.5, -0.7, 3.0, 0.2, 0.9},
                  u[6] = {0.4, -1.0, 2.0, -0.3, 5.0, 0.25};
@@ -287,7 +287,7 @@ static void united_entries_do_the_same_work(void **state)
     CHECK_REL(velocity[0], 0.1, 1e-12, "approach");
 }
 
-static void the_program_tells_five_entries_per_contact(void **state)
+TEST(the_program_tells_five_entries_per_contact)
 {
     const char *build = getenv("B") ? getenv("B") : "build";
     char command[300], line[300];
@@ -314,7 +314,7 @@ static void the_program_tells_five_entries_per_contact(void **state)
     assert_int_equal(dimension, 5);
 }
 
-static void bad_problems_are_refused(void **state)
+TEST(bad_problems_are_refused)
 {
     row_of_balls s;
     rb_io_fclib file;
@@ -356,17 +356,4 @@ static void bad_problems_are_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_of_balls_obey_both_laws),
-        cmocka_unit_test(every_family_of_solvers_takes_it),
-        cmocka_unit_test(one_ball_slides_rolls_or_stops),
-        cmocka_unit_test(united_entries_do_the_same_work),
-        cmocka_unit_test(the_program_tells_five_entries_per_contact),
-        cmocka_unit_test(units_do_not_matter),
-        cmocka_unit_test(constraints_go_with_rolling_friction),
-        cmocka_unit_test(bad_problems_are_refused),
-    };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
-}
+RUN_TESTS(make_path, remove_path)

@@ -54,7 +54,7 @@ static double violation(const rb_friction_problem *p, const double *r, const dou
     return worst;
 }
 
-static void every_solver_obeys_coulomb(void **state)
+TEST(every_solver_obeys_coulomb)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -115,7 +115,7 @@ static void a_loose_block(rb_friction_problem *p)
     p->mu[0] = 0.5, p->f[0] = -2.0, p->f[1] = 0.7;
 }
 
-static void solvers_without_need_of_w_take_a_singular_k(void **state)
+TEST(solvers_without_need_of_w_take_a_singular_k)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -145,7 +145,7 @@ static void solvers_without_need_of_w_take_a_singular_k(void **state)
 }
 
 /* Drawn beyond what friction can hold, nothing is in balance. */
-static void what_has_no_solution_is_not_solved(void **state)
+TEST(what_has_no_solution_is_not_solved)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -164,7 +164,7 @@ static void what_has_no_solution_is_not_solved(void **state)
     }
 }
 
-static void the_iteration_limit_is_that_of_the_whole_call(void **state)
+TEST(the_iteration_limit_is_that_of_the_whole_call)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -184,7 +184,7 @@ static void the_iteration_limit_is_that_of_the_whole_call(void **state)
         }
 }
 
-static void info_may_be_null(void **state)
+TEST(info_may_be_null)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
@@ -210,7 +210,7 @@ static void info_may_be_null(void **state)
 
 /* ---- The canonical SOCLCP ---------------------------------------------------------- */
 
-static void cones_of_every_size(void **state)
+TEST(cones_of_every_size)
 {
     enum { N = 14, CONES = 6 };
     const int size[CONES] = {3, 1, 5, 2, 1, 2};
@@ -255,7 +255,7 @@ static void cones_of_every_size(void **state)
 }
 
 /* x = (1, e), y = (1, -e) / 2 on one cone of 200 entries: W = 1, q = y - x. */
-static void a_cone_of_any_size(void **state)
+TEST(a_cone_of_any_size)
 {
     enum { N = 200 };
     const int size[] = {N};
@@ -276,7 +276,7 @@ static void a_cone_of_any_size(void **state)
     CHECK_ABS(x[0], norm, 1e-6, "x_0");
 }
 
-static void bad_cones_are_refused(void **state)
+TEST(bad_cones_are_refused)
 {
     const double M[] = {1.0, 0.0, 0.0, 1.0}, q[] = {-1.0, NAN}, fine[] = {-1.0, 1.0};
     const int ones[] = {1, 1}, three[] = {3}, none[] = {0, 2};
@@ -297,7 +297,7 @@ static void bad_cones_are_refused(void **state)
 
 /* ---- Memory ------------------------------------------------------------------------ */
 
-static void failing_allocations_are_reported(void **state)
+TEST(failing_allocations_are_reported)
 {
     int solvers;
     const rb_friction_solver *all = rb_friction_solvers(&solvers);
@@ -341,14 +341,14 @@ static void solve_outside(const char *file)
     rb_friction_problem_free(&p);
 }
 
-static void fclib_files_are_solved(void **state)
+TEST(fclib_files_are_solved)
 {
     solve_outside("fclib/CubeH8.hdf5");
     solve_outside("fclib/Capsules-i125-1213.hdf5");
     solve_outside("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5");
 }
 
-static void siconos_files_are_solved(void **state)
+TEST(siconos_files_are_solved)
 {
     solve_outside("siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat");
     solve_outside("siconos/fc2d/FrictionContactProblem00394.dat");
@@ -364,7 +364,7 @@ static void siconos_files_are_solved(void **state)
     solve_outside("siconos/fc3d/Capsules-i101-404.dat");
 }
 
-static void the_soclcp_file_is_solved(void **state)
+TEST(the_soclcp_file_is_solved)
 {
     /* from its README: the same reaction three times, slope 0.1 */
     const double want[] = {1.303196, -0.041211, -0.123632};
@@ -381,7 +381,7 @@ static void the_soclcp_file_is_solved(void **state)
     rb_friction_soclcp_data_free(&d);
 }
 
-static void other_text_files_are_refused(void **state)
+TEST(other_text_files_are_refused)
 {
     rb_friction_problem p;
     rb_message why = {""};
@@ -399,7 +399,7 @@ static void other_text_files_are_refused(void **state)
 
 /* ---- Profiles ---------------------------------------------------------------------- */
 
-static void profiles_count_as_dolan_and_more_do(void **state)
+TEST(profiles_count_as_dolan_and_more_do)
 {
     /* three problems, two solvers; the third is solved by neither */
     const double cost[] = {1.0, 4.0, INFINITY, 3.0, 2.0, INFINITY};
@@ -412,7 +412,7 @@ static void profiles_count_as_dolan_and_more_do(void **state)
 }
 
 /* The table of docs/friction.md says of every solver what the program says. */
-static void the_documentation_lists_every_solver(void **state)
+TEST(the_documentation_lists_every_solver)
 {
     static char text[200000];
     int count;
@@ -437,24 +437,4 @@ static void the_documentation_lists_every_solver(void **state)
     assert_int_not_equal(at[1], '|');
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_solver_obeys_coulomb),
-        cmocka_unit_test(solvers_without_need_of_w_take_a_singular_k),
-        cmocka_unit_test(what_has_no_solution_is_not_solved),
-        cmocka_unit_test(the_iteration_limit_is_that_of_the_whole_call),
-        cmocka_unit_test(info_may_be_null),
-        cmocka_unit_test(cones_of_every_size),
-        cmocka_unit_test(a_cone_of_any_size),
-        cmocka_unit_test(bad_cones_are_refused),
-        cmocka_unit_test(failing_allocations_are_reported),
-        cmocka_unit_test(fclib_files_are_solved),
-        cmocka_unit_test(siconos_files_are_solved),
-        cmocka_unit_test(the_soclcp_file_is_solved),
-        cmocka_unit_test(other_text_files_are_refused),
-        cmocka_unit_test(profiles_count_as_dolan_and_more_do),
-        cmocka_unit_test(the_documentation_lists_every_solver),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

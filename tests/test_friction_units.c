@@ -88,7 +88,7 @@ static double measure_again(const rb_friction_problem *p, const double *r)
     return sqrt(sum / norm);
 }
 
-static void the_scaled_measure_sees_no_units(void **state)
+TEST(the_scaled_measure_sees_no_units)
 {
     for (int d = 2; d <= 3; d++) {
         enum { NC = 6 };
@@ -159,7 +159,7 @@ static void same_in_other_units(const char *name, rb_friction_problem *p, double
     }
 }
 
-static void every_solver_in_other_units(void **state)
+TEST(every_solver_in_other_units)
 {
     for (int d = 2; d <= 3; d++) {
         rb_friction_problem p;
@@ -170,7 +170,7 @@ static void every_solver_in_other_units(void **state)
     }
 }
 
-static void every_solver_on_files_in_other_units(void **state)
+TEST(every_solver_on_files_in_other_units)
 {
     static const char *const files[] = {
         "siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat",
@@ -194,7 +194,7 @@ static void every_solver_on_files_in_other_units(void **state)
 }
 
 /* One contact, W about 1e-9, q about 1e-3: took 21 671 iterations and was not solved. */
-static void a_light_touch_is_solved_at_once(void **state)
+TEST(a_light_touch_is_solved_at_once)
 {
     double W[] = {1e-9, 3e-10, 0.0, 3e-10, 1e-9, 1e-10, 0.0, 1e-10, 1e-9};
     double q[] = {-1e-3, 5e-3, 0.0}, mu[] = {0.5};
@@ -217,7 +217,7 @@ static void a_light_touch_is_solved_at_once(void **state)
 }
 
 /* y in other units than x: s y = M x + q. */
-static void cones_in_other_units(void **state)
+TEST(cones_in_other_units)
 {
     const int size[] = {3, 1, 2};
     enum { N = 6 };
@@ -250,7 +250,7 @@ static void cones_in_other_units(void **state)
 
 /* Where (13) is asked for, it decides in every solver; else a note says where it is above
  * the tolerance.  W of a thousandth: (13) wants smaller forces at open contacts. */
-static void the_measure_of_acary_decides_where_asked(void **state)
+TEST(the_measure_of_acary_decides_where_asked)
 {
     int count, notes = 0;
     const rb_friction_solver *solvers = rb_friction_solvers(&count);
@@ -291,15 +291,4 @@ static void the_measure_of_acary_decides_where_asked(void **state)
     assert_true(notes > 5);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_scaled_measure_sees_no_units),
-        cmocka_unit_test(every_solver_in_other_units),
-        cmocka_unit_test(every_solver_on_files_in_other_units),
-        cmocka_unit_test(a_light_touch_is_solved_at_once),
-        cmocka_unit_test(cones_in_other_units),
-        cmocka_unit_test(the_measure_of_acary_decides_where_asked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -24,7 +24,7 @@ static void skip_where_nothing_is_hardened(void)
     skip();
 }
 
-static void the_program_is_hardened(void **state)
+TEST(the_program_is_hardened)
 {
     skip_where_nothing_is_hardened();
     check_lines_of("-hW \"$R\"", "DYN");
@@ -35,7 +35,7 @@ static void the_program_is_hardened(void **state)
     check_lines_of("--dyn-syms -W \"$R\"", "printf_chk");
 }
 
-static void the_library_is_hardened(void **state)
+TEST(the_library_is_hardened)
 {
     skip_where_nothing_is_hardened();
     check_lines_of("-lW \"${R%/*}/librollbem.so\"", "GNU_RELRO");
@@ -44,9 +44,4 @@ static void the_library_is_hardened(void **state)
     check_lines_of("--dyn-syms -W \"${R%/*}/librollbem.so\"", "printf_chk");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_program_is_hardened),
-                                       cmocka_unit_test(the_library_is_hardened)};
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -134,7 +134,7 @@ static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double 
 }
 
 /* The error follows the tolerance, and the matrix is small. */
-static void solves_what_the_dense_matrix_says(void **state)
+TEST(solves_what_the_dense_matrix_says)
 {
     double ratio;
     CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-5, &ratio), 1e-3,
@@ -147,7 +147,7 @@ static void solves_what_the_dense_matrix_says(void **state)
 }
 
 /* Held contours with corners, where their terms are no kernel's. */
-static void incompressible_bodies(void **state)
+TEST(incompressible_bodies)
 {
     const rb_bem_material rubber = {1.0, 0.5};
     double ratio;
@@ -156,7 +156,7 @@ static void incompressible_bodies(void **state)
 }
 
 /* Two holes at the same place: their rows are the same. */
-static void singular_systems_are_refused(void **state)
+TEST(singular_systems_are_refused)
 {
     rb_bem_mesh mesh = plate(-1.3);
     rb_message why;
@@ -189,7 +189,7 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
 
 /* Neighbours that differ by orders of length, both supports, and loads whose singular
  * part is subtracted: what these leave is multiplied by a tree of clusters then. */
-static void the_flexibility_is_the_dense_one(void **state)
+TEST(the_flexibility_is_the_dense_one)
 {
     enum { M = CONTACT + 1, SIZE = 2 * M * 2 * CONTACT };
     const rb_bem_support support[] = {RB_BEM_HUB, RB_BEM_ARC, RB_BEM_HUB};
@@ -210,7 +210,7 @@ static void the_flexibility_is_the_dense_one(void **state)
 
 /* Corners; an incompressible body, where the mean pressure on each held contour is not
  * determined and is made zero. */
-static void plates_are_solved_as_by_the_dense_matrix(void **state)
+TEST(plates_are_solved_as_by_the_dense_matrix)
 {
     const double poisson[] = {0.3, 0.5, 0.4999999};
     rb_bem_mesh mesh = plate(1.1);
@@ -271,7 +271,7 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
     }
 }
 
-static void long_boundaries_are_solved(void **state)
+TEST(long_boundaries_are_solved)
 {
     rb_bem_mesh mesh = wheel(RB_BEM_HUB, 0.5, 2800);
     rb_bem_system *system;
@@ -308,7 +308,7 @@ static void long_boundaries_are_solved(void **state)
     free(t);
 }
 
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
     rb_bem_mesh mesh = wheel(RB_BEM_HUB, 2.5, 20);
     double *unit = units(&mesh, steel);
@@ -341,7 +341,7 @@ static void failing_allocations(void **state)
 
 /* What stands for all that is far is a closed polygon: a uniform pressure on it takes no
  * volume from an incompressible body, and displaces nothing outside. */
-static void a_pressed_circle_displaces_nothing_outside(void **state)
+TEST(a_pressed_circle_displaces_nothing_outside)
 {
     enum { n = 12, rows = 2 * n };
     const rb_bem_material rubber = {1.0, 0.5};
@@ -379,17 +379,4 @@ static void a_pressed_circle_displaces_nothing_outside(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solves_what_the_dense_matrix_says),
-        cmocka_unit_test(incompressible_bodies),
-        cmocka_unit_test(singular_systems_are_refused),
-        cmocka_unit_test(the_flexibility_is_the_dense_one),
-        cmocka_unit_test(plates_are_solved_as_by_the_dense_matrix),
-        cmocka_unit_test(long_boundaries_are_solved),
-        cmocka_unit_test(a_pressed_circle_displaces_nothing_outside),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

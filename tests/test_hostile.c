@@ -13,17 +13,17 @@ static char checker[700];
 
 /* ---- Numbers ----------------------------------------------------------------------- */
 
-static uint64_t state;
+static uint64_t bits;
 
 /* The k-th case is the same whichever others are run. */
 static void begin_case(int k)
 {
-    state = (uint64_t)(k + 1) * 0x9e3779b97f4a7c15u;
+    bits = (uint64_t)(k + 1) * 0x9e3779b97f4a7c15u;
 }
 
 static uint64_t next_random(void)
 {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    uint64_t z = bits += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
     z = (z ^ z >> 27) * 0x94d049bb133111ebu;
     return z ^ z >> 31;
@@ -310,12 +310,11 @@ static int asked(const char *name, int otherwise)
     return getenv(name) ? atoi(getenv(name)) : otherwise;
 }
 
-static void hostile_cases_are_right_or_say_why_not(void **state_of_test)
+TEST(hostile_cases_are_right_or_say_why_not)
 {
     const int from = asked("HOSTILE_FROM", 0), n = asked("HOSTILE", 120);
     int count[ENDS] = {0}, slowest = 0;
     double most = 0.0, seconds;
-    (void)state_of_test;
     for (int k = from; k < from + n; k++) {
         count[run_case(k, &seconds)]++;
         if (seconds > SECONDS_AIM && getenv("HOSTILE"))
@@ -338,11 +337,10 @@ static void hostile_cases_are_right_or_say_why_not(void **state_of_test)
 
 /* Large friction between unlike bodies, where every other element opens: of these one was
  * not solved in 11 s of the processor, the other took 22 s. */
-static void winding_paths_are_left_for_others(void **state_of_test)
+TEST(winding_paths_are_left_for_others)
 {
     static const int cases[] = {9100, 17680};
     double seconds;
-    (void)state_of_test;
     with_more = 0;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_int_equal(run_case(cases[k], &seconds), SOLVED);
@@ -355,13 +353,10 @@ int main(void)
 {
     const char *build = getenv("B") ? getenv("B") : "build";
     char here[400];
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(winding_paths_are_left_for_others),
-        cmocka_unit_test(hostile_cases_are_right_or_say_why_not)};
     if (!getcwd(here, sizeof here))
         return 1;
     snprintf(checker, sizeof checker,
              build[0] == '/' ? "%.0s%s/tests/checker" : "%s/%s/tests/checker", here,
              build);
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return run_all_tests(enter_folder, leave_folder);
 }

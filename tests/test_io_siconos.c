@@ -59,7 +59,7 @@ static void check_matrix(rb_io_matrix *m)
         CHECK_ABS(m->dense[k], want[k], 0.0, "entry %d", k);
 }
 
-static void every_storage_gives_the_same_lcp(void **state)
+TEST(every_storage_gives_the_same_lcp)
 {
     const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN};
     for (int k = 0; k < 4; k++) {
@@ -80,7 +80,7 @@ static void every_storage_gives_the_same_lcp(void **state)
     }
 }
 
-static void friction_and_cones(void **state)
+TEST(friction_and_cones)
 {
     rb_io_friction f;
     rb_io_soclcp s;
@@ -107,7 +107,7 @@ static void friction_and_cones(void **state)
 }
 
 /* By five numbers at the head; -1: of no kind. */
-static void kinds_are_told_by_their_sizes(void **state)
+TEST(kinds_are_told_by_their_sizes)
 {
     static const struct {
         const char *head;
@@ -136,7 +136,7 @@ static void kinds_are_told_by_their_sizes(void **state)
 }
 
 /* Blocks of one and two rows and columns, of which one is not stored. */
-static void blocks_of_other_sizes_are_in_their_places(void **state)
+TEST(blocks_of_other_sizes_are_in_their_places)
 {
     static const double want[] = {1, 0, 0, 2, 4, 5, 3, 6, 7};
     rb_io_lcp p;
@@ -208,7 +208,7 @@ static const char GLOBAL[] =
     "0\n4\n3\n4\t3\n 1 0 0 0\n 0 0 1 0\n 0 0 0 1\n"
     "-9.81 0 3 0\n0 0.5 0\n0.4\n";
 
-static void global_friction_problems(void **state)
+TEST(global_friction_problems)
 {
     rb_io_friction_global g;
     rb_io_siconos_kind kind;
@@ -263,7 +263,7 @@ static void check_refused(reader *read, const char *text, const char *words)
         fail_msg("expected '%s' after the path in: %s", words, why.text);
 }
 
-static void what_is_wrong_is_named_with_its_line(void **state)
+TEST(what_is_wrong_is_named_with_its_line)
 {
     check_refused(read_lcp, "", ":1: n: expected an integer >= 1, the file ends");
     check_refused(read_lcp, "abc", ":1: n: expected an integer >= 1, got 'abc'");
@@ -311,7 +311,7 @@ static void what_is_wrong_is_named_with_its_line(void **state)
     check_refused(guess, "2 1 0 2", "size at the head: expected an integer >= 0");
 }
 
-static void blocks_and_columns_must_fit(void **state)
+TEST(blocks_and_columns_must_fit)
 {
     check_refused(read_lcp, "2 1 2 2 1 1 1 3 2 2 1 0 1 0 0 1 2 3 4 -5 -6",
                   "cumulated block sizes: expected an integer from 1 to 2, got '3'");
@@ -350,7 +350,7 @@ static void blocks_and_columns_must_fit(void **state)
 
 /* Files of a few bytes that speak of gigabytes, or of sizes whose sums and products are
  * no integers any more. */
-static void absurd_sizes_are_refused(void **state)
+TEST(absurd_sizes_are_refused)
 {
     check_refused(read_market, "%%MatrixMarket matrix array real general\n2147483647 0\n",
                   ":2: a matrix of 2147483647 by 0 has no entries");
@@ -374,7 +374,7 @@ static void absurd_sizes_are_refused(void **state)
 
 /* Every file cut short is refused (a comment may be cut), and no file with one byte
  * changed does worse than that. */
-static void damaged_files_are_refused_or_read(void **state)
+TEST(damaged_files_are_refused_or_read)
 {
     const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP, BLOCK, PLAIN};
     reader *read[] = {read_lcp,      read_lcp,    read_lcp,     read_lcp,
@@ -401,7 +401,7 @@ static void damaged_files_are_refused_or_read(void **state)
     }
 }
 
-static void missing_files_and_folders(void **state)
+TEST(missing_files_and_folders)
 {
     rb_io_lcp p;
     CHECK_STATUS(rb_io_siconos_read_lcp("/nowhere/at all", &p, &why), RB_ENOENT);
@@ -409,7 +409,7 @@ static void missing_files_and_folders(void **state)
     CHECK_STATUS(rb_io_siconos_read_lcp("/tmp", &p, &why), RB_ENOENT);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static const char ARRAY[] =
         "%%MatrixMarket matrix array real symmetric\n2 2\n1 2 3\n",
@@ -443,7 +443,7 @@ static void short_memory_is_reported(void **state)
 
 /* ---- Matrix Market ----------------------------------------------------------------- */
 
-static void market_gives_back_the_same_numbers(void **state)
+TEST(market_gives_back_the_same_numbers)
 {
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
     rb_io_matrix m;
@@ -460,7 +460,7 @@ static void market_gives_back_the_same_numbers(void **state)
 }
 
 /* The four kinds give the same matrix. */
-static void market_kinds(void **state)
+TEST(market_kinds)
 {
     static const char *const files[] = {
         "%%MatrixMarket matrix array real general\n2 2\n4 -1 -1 3\n",
@@ -481,7 +481,7 @@ static void market_kinds(void **state)
     }
 }
 
-static void market_refusals(void **state)
+TEST(market_refusals)
 {
     const double x[4] = {0.0};
     check_refused(read_market, "", "MatrixMarket");
@@ -520,7 +520,7 @@ static void check_content(const char *wanted)
     assert_string_equal(text, wanted);
 }
 
-static void market_files_are_written_by_columns(void **state)
+TEST(market_files_are_written_by_columns)
 {
     const double x[] = {1.0, 2.0, NAN, 3.0, 4.0, NAN};
     static const rb_io_dense bad[] = {
@@ -541,7 +541,7 @@ static void market_files_are_written_by_columns(void **state)
 }
 
 /* Each word of the head, each size, and what stands behind. */
-static void market_heads_are_taken_word_by_word(void **state)
+TEST(market_heads_are_taken_word_by_word)
 {
     static const struct {
         const char *text, *words;
@@ -628,7 +628,7 @@ static void refused_with(reader *read, const char *text, const char *q, const ch
         fail_msg("expected '%s' in: %s", words, why.text);
 }
 
-static void kinds_of_lcp_are_told_apart(void **state)
+TEST(kinds_of_lcp_are_told_apart)
 {
     static const char M[] = "%%MatrixMarket matrix array real general\n2 2\n1 2 3 4\n",
                       WIDE[] = "%%MatrixMarket matrix array real general\n1 2\n1 2\n";
@@ -672,7 +672,7 @@ static void kinds_of_lcp_are_told_apart(void **state)
     unlink(second);
 }
 
-static void vectors_are_as_long_as_they_must(void **state)
+TEST(vectors_are_as_long_as_they_must)
 {
     double *x;
     put("1 inf\n-Infinity # no bound");
@@ -693,7 +693,7 @@ static void vectors_are_as_long_as_they_must(void **state)
     assert_non_null(strstr(why.text, "got '0123456789012345678901234567890123456789'"));
 }
 
-static void games_are_two_matrices(void **state)
+TEST(games_are_two_matrices)
 {
     rb_io_bimatrix p;
     put("1, 1 # sizes\n3\n4");
@@ -719,7 +719,7 @@ static void games_are_two_matrices(void **state)
 
 /* ---- Text -------------------------------------------------------------------------- */
 
-static void texts_are_told_from_what_is_none(void **state)
+TEST(texts_are_told_from_what_is_none)
 {
     char *text;
     size_t size;
@@ -793,7 +793,7 @@ static void check_collection(const char *folder, rb_io_siconos_kind kind, reader
     assert_true(files >= least);
 }
 
-static void the_collection_is_read(void **state)
+TEST(the_collection_is_read)
 {
     check_collection("siconos/lcp", RB_IO_SICONOS_LCP, read_lcp, 9);
     check_collection("siconos/fc2d", RB_IO_SICONOS_FRICTION, read_friction, 5);
@@ -801,32 +801,4 @@ static void the_collection_is_read(void **state)
     check_collection("siconos/soclcp", RB_IO_SICONOS_SOCLCP, read_soclcp, 1);
 }
 
-#define WITH_FILE(f) cmocka_unit_test_setup_teardown(f, make_path, remove_path)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_FILE(every_storage_gives_the_same_lcp),
-        WITH_FILE(friction_and_cones),
-        WITH_FILE(kinds_are_told_by_their_sizes),
-        WITH_FILE(global_friction_problems),
-        WITH_FILE(what_is_wrong_is_named_with_its_line),
-        WITH_FILE(blocks_and_columns_must_fit),
-        WITH_FILE(absurd_sizes_are_refused),
-        WITH_FILE(damaged_files_are_refused_or_read),
-        cmocka_unit_test(missing_files_and_folders),
-        WITH_FILE(short_memory_is_reported),
-        WITH_FILE(market_gives_back_the_same_numbers),
-        WITH_FILE(market_kinds),
-        WITH_FILE(market_refusals),
-        WITH_FILE(blocks_of_other_sizes_are_in_their_places),
-        WITH_FILE(market_files_are_written_by_columns),
-        WITH_FILE(market_heads_are_taken_word_by_word),
-        WITH_FILE(kinds_of_lcp_are_told_apart),
-        WITH_FILE(vectors_are_as_long_as_they_must),
-        WITH_FILE(games_are_two_matrices),
-        WITH_FILE(texts_are_told_from_what_is_none),
-        WITH_FILE(the_collection_is_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(make_path, remove_path)

@@ -39,14 +39,14 @@ static void check_history(const char *text, int first_line)
 }
 
 /* As written by hand, with tabs or commas, and as the program writes its own tables. */
-static void columns_are_named_in_three_ways(void **state)
+TEST(columns_are_named_in_three_ways)
 {
     check_history("distance load force\n0 10 -1.5\n1 20 2\n", 2);
     check_history("# a run\n# distance\tload\tforce\n0\t10\t-1.5\n\n1\t20\t2\n", 3);
     check_history("distance, load, force # names\n# more\n0, 10, -1.5\n1, 20, 2", 3);
 }
 
-static void names_may_be_missing(void **state)
+TEST(names_may_be_missing)
 {
     rb_io_table t;
     assert_int_equal(read_text("# two numbers a row\n1 2\n3 4 # end\n", &t, NULL), RB_OK);
@@ -57,7 +57,7 @@ static void names_may_be_missing(void **state)
     rb_io_table_free(&t);
 }
 
-static void bad_tables_are_named_with_their_line(void **state)
+TEST(bad_tables_are_named_with_their_line)
 {
     static const struct {
         const char *text, *part;
@@ -103,7 +103,7 @@ static void bad_tables_are_named_with_their_line(void **state)
 }
 
 /* The last comment before the numbers names the columns if it has as many words. */
-static void comments_name_columns_or_not(void **state)
+TEST(comments_name_columns_or_not)
 {
     static const struct {
         const char *text, *name;
@@ -121,7 +121,7 @@ static void comments_name_columns_or_not(void **state)
     }
 }
 
-static void long_tables_keep_every_row(void **state)
+TEST(long_tables_keep_every_row)
 {
     enum { ROWS = 300 }; /* the room grows twice */
     static char text[20 * ROWS];
@@ -139,7 +139,7 @@ static void long_tables_keep_every_row(void **state)
     rb_io_table_free(&t);
 }
 
-static void columns_are_counted_where_they_are_known(void **state)
+TEST(columns_are_counted_where_they_are_known)
 {
     rb_io_table t;
     rb_message why = {""};
@@ -160,7 +160,7 @@ static void columns_are_counted_where_they_are_known(void **state)
 
 /* A unit at the end of a name counts and is dropped; else the column has that of the
  * system. */
-static void units_of_columns_are_those_of_their_names(void **state)
+TEST(units_of_columns_are_those_of_their_names)
 {
     rb_io_table t;
     CHECK_STATUS(read_text("x_m gap\n1 2\n3 4\n", &t, NULL), RB_OK);
@@ -182,7 +182,7 @@ static void units_of_columns_are_those_of_their_names(void **state)
     rb_io_table_free(&t);
 }
 
-static void lines_of_any_length_are_read(void **state)
+TEST(lines_of_any_length_are_read)
 {
     enum { NUMBERS = 3000 };
     static char text[2 * NUMBERS + 1];
@@ -194,7 +194,7 @@ static void lines_of_any_length_are_read(void **state)
     rb_io_table_free(&t);
 }
 
-static void tables_without_memory(void **state)
+TEST(tables_without_memory)
 {
     char text[2000] = "load force\n";
     int refused = 1;
@@ -211,18 +211,4 @@ static void tables_without_memory(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_are_named_in_three_ways),
-        cmocka_unit_test(names_may_be_missing),
-        cmocka_unit_test(bad_tables_are_named_with_their_line),
-        cmocka_unit_test(comments_name_columns_or_not),
-        cmocka_unit_test(long_tables_keep_every_row),
-        cmocka_unit_test(columns_are_counted_where_they_are_known),
-        cmocka_unit_test(units_of_columns_are_those_of_their_names),
-        cmocka_unit_test(lines_of_any_length_are_read),
-        cmocka_unit_test(tables_without_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

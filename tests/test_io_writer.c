@@ -53,7 +53,7 @@ static void write_line(const char *line)
     CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
 }
 
-static void the_target_appears_on_commit(void **state)
+TEST_WITH(make_folder, remove_folder, the_target_appears_on_commit)
 {
     rb_io_writer w;
     CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
@@ -64,7 +64,7 @@ static void the_target_appears_on_commit(void **state)
     assert_int_equal(entries(), 1);
 }
 
-static void abandoning_leaves_the_old_file(void **state)
+TEST_WITH(make_folder, remove_folder, abandoning_leaves_the_old_file)
 {
     rb_io_writer w;
     write_line("old");
@@ -77,7 +77,7 @@ static void abandoning_leaves_the_old_file(void **state)
 }
 
 /* The lowest free descriptor tells how many are open. */
-static void no_descriptor_stays_open(void **state)
+TEST_WITH(make_folder, remove_folder, no_descriptor_stays_open)
 {
     const int before = dup(STDIN_FILENO);
     close(before);
@@ -90,7 +90,7 @@ static void no_descriptor_stays_open(void **state)
     assert_int_equal(before, after);
 }
 
-static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
+TEST_WITH(make_folder, remove_folder, an_old_file_keeps_its_mode_and_a_link_its_place)
 {
     char link[160];
     struct stat st;
@@ -111,7 +111,7 @@ static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
 }
 
 /* The link stays; what it names appears. */
-static void a_link_to_a_file_yet_to_come_is_followed(void **state)
+TEST_WITH(make_folder, remove_folder, a_link_to_a_file_yet_to_come_is_followed)
 {
     char link[160];
     struct stat st;
@@ -130,7 +130,7 @@ static void a_link_to_a_file_yet_to_come_is_followed(void **state)
     unlink(link);
 }
 
-static void a_new_file_has_the_mode_that_the_umask_leaves(void **state)
+TEST_WITH(make_folder, remove_folder, a_new_file_has_the_mode_that_the_umask_leaves)
 {
     struct stat st;
     const mode_t before = umask(027);
@@ -141,7 +141,7 @@ static void a_new_file_has_the_mode_that_the_umask_leaves(void **state)
 }
 
 /* Temporary names must not be longer than the target's. */
-static void the_longest_name_is_taken(void **state)
+TEST_WITH(make_folder, remove_folder, the_longest_name_is_taken)
 {
     char name[400];
     rb_io_writer w;
@@ -154,7 +154,7 @@ static void the_longest_name_is_taken(void **state)
     assert_int_equal(unlink(name), 0);
 }
 
-static void a_program_that_is_killed_leaves_nothing(void **state)
+TEST_WITH(make_folder, remove_folder, a_program_that_is_killed_leaves_nothing)
 {
     int status;
     const pid_t pid = fork();
@@ -170,7 +170,7 @@ static void a_program_that_is_killed_leaves_nothing(void **state)
     assert_int_equal(entries(), 0);
 }
 
-static void checking_changes_nothing(void **state)
+TEST_WITH(make_folder, remove_folder, checking_changes_nothing)
 {
     CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
     assert_int_equal(entries(), 0);
@@ -181,7 +181,7 @@ static void checking_changes_nothing(void **state)
     CHECK_STATUS(rb_io_writer_check("/dev/null", NULL), RB_OK);
 }
 
-static void what_cannot_be_written_is_refused(void **state)
+TEST_WITH(make_folder, remove_folder, what_cannot_be_written_is_refused)
 {
     rb_io_writer w;
     rb_message why;
@@ -193,7 +193,7 @@ static void what_cannot_be_written_is_refused(void **state)
     assert_int_equal(entries(), 0);
 }
 
-static void a_full_device_is_noticed(void **state)
+TEST(a_full_device_is_noticed)
 {
     rb_io_writer w;
     rb_message why = {""};
@@ -205,7 +205,7 @@ static void a_full_device_is_noticed(void **state)
     assert_true(strlen(why.text) > 0);
 }
 
-static void stdout_is_not_closed(void **state)
+TEST(stdout_is_not_closed)
 {
     rb_io_writer w;
     CHECK_STATUS(rb_io_writer_open("-", &w, NULL), RB_OK);
@@ -216,7 +216,7 @@ static void stdout_is_not_closed(void **state)
     assert_true(printf("# stdout is still open\n") > 0);
 }
 
-static void short_memory_is_reported(void **state)
+TEST_WITH(make_folder, remove_folder, short_memory_is_reported)
 {
     for (int i = 0;; i++) {
         rb_io_writer w;
@@ -236,7 +236,7 @@ static void short_memory_is_reported(void **state)
 }
 
 /* With a link on the way, a device, and a folder that is asked about. */
-static void short_memory_is_reported_on_every_way(void **state)
+TEST_WITH(make_folder, remove_folder, short_memory_is_reported_on_every_way)
 {
     char link[160], below[160];
     snprintf(link, sizeof link, "%s/link", folder);
@@ -265,7 +265,7 @@ static void short_memory_is_reported_on_every_way(void **state)
 
 /* Whatever fails between opening and the new name: the reason is told, the old file stays
  * as it was, and nothing lies beside it. */
-static void every_call_that_fails_leaves_the_old_file(void **state)
+TEST_WITH(make_folder, remove_folder, every_call_that_fails_leaves_the_old_file)
 {
     static const struct {
         const char *first, *call;
@@ -303,7 +303,7 @@ static void every_call_that_fails_leaves_the_old_file(void **state)
 }
 
 /* Where the file system has no nameless files, or gives them no name: the same file. */
-static void files_are_written_without_the_help_of_the_system(void **state)
+TEST_WITH(make_folder, remove_folder, files_are_written_without_the_help_of_the_system)
 {
     static const struct {
         const char *call;
@@ -334,7 +334,7 @@ static void files_are_written_without_the_help_of_the_system(void **state)
 }
 
 /* A name that an interrupted run of the same number left behind is passed over. */
-static void names_in_use_are_passed_over(void **state)
+TEST_WITH(make_folder, remove_folder, names_in_use_are_passed_over)
 {
     char used[2][160];
     for (int k = 0; k < 2; k++) {
@@ -356,7 +356,7 @@ static void names_in_use_are_passed_over(void **state)
 }
 
 /* The names of devices are told, and so is what became of what was buffered. */
-static void devices_that_fail_are_named(void **state)
+TEST(devices_that_fail_are_named)
 {
     rb_io_writer w;
     rb_message why = {""};
@@ -382,7 +382,7 @@ static void devices_that_fail_are_named(void **state)
 
 /* A write has failed before the commit, which no longer knows why: one more write tells
  * the reason where it still holds. */
-static void a_reason_that_is_forgotten_is_asked_for_again(void **state)
+TEST_WITH(make_folder, remove_folder, a_reason_that_is_forgotten_is_asked_for_again)
 {
     const int full = open("/dev/full", O_WRONLY);
     if (full < 0)
@@ -408,7 +408,7 @@ static void a_reason_that_is_forgotten_is_asked_for_again(void **state)
     close(full);
 }
 
-static void folders_are_made_or_refused(void **state)
+TEST_WITH(make_folder, remove_folder, folders_are_made_or_refused)
 {
     char name[4][160], *joined;
     rb_message why = {""};
@@ -443,31 +443,4 @@ static void folders_are_made_or_refused(void **state)
     rmdir(name[0]);
 }
 
-#define IN_FOLDER(f) cmocka_unit_test_setup_teardown(f, make_folder, remove_folder)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        IN_FOLDER(the_target_appears_on_commit),
-        IN_FOLDER(abandoning_leaves_the_old_file),
-        IN_FOLDER(no_descriptor_stays_open),
-        IN_FOLDER(an_old_file_keeps_its_mode_and_a_link_its_place),
-        IN_FOLDER(a_link_to_a_file_yet_to_come_is_followed),
-        IN_FOLDER(a_new_file_has_the_mode_that_the_umask_leaves),
-        IN_FOLDER(the_longest_name_is_taken),
-        IN_FOLDER(a_program_that_is_killed_leaves_nothing),
-        IN_FOLDER(checking_changes_nothing),
-        IN_FOLDER(what_cannot_be_written_is_refused),
-        cmocka_unit_test(a_full_device_is_noticed),
-        cmocka_unit_test(stdout_is_not_closed),
-        IN_FOLDER(short_memory_is_reported),
-        IN_FOLDER(short_memory_is_reported_on_every_way),
-        IN_FOLDER(every_call_that_fails_leaves_the_old_file),
-        IN_FOLDER(files_are_written_without_the_help_of_the_system),
-        IN_FOLDER(names_in_use_are_passed_over),
-        cmocka_unit_test(devices_that_fail_are_named),
-        IN_FOLDER(a_reason_that_is_forgotten_is_asked_for_again),
-        IN_FOLDER(folders_are_made_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -75,7 +75,7 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     rb_rolling_model_free(&model);
 }
 
-static void equals_the_matrix_in_steady_rolling(void **state)
+TEST(equals_the_matrix_in_steady_rolling)
 {
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
     compare_with_matrix(&rc);
@@ -85,7 +85,7 @@ static void equals_the_matrix_in_steady_rolling(void **state)
     compare_with_matrix(&rc);
 }
 
-static void equals_the_matrix_in_static_contact(void **state)
+TEST(equals_the_matrix_in_static_contact)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rc.formulation = RB_STATIC;
@@ -95,7 +95,7 @@ static void equals_the_matrix_in_static_contact(void **state)
     compare_with_matrix(&rc);
 }
 
-static void equals_the_matrix_that_it_helps(void **state)
+TEST(equals_the_matrix_that_it_helps)
 {
     rb_rolling_case rc = steady(DISSIMILAR, 300);
     rc.mesh = RB_MESH_UNIFORM;
@@ -110,7 +110,7 @@ static void equals_the_matrix_that_it_helps(void **state)
 
 /* A layer that yields, by products and by the matrix: pairs, controls, hardening as a
  * share of that of the bodies, softening, both ways that it follows the material. */
-static void equals_the_matrix_where_a_layer_yields(void **state)
+TEST(equals_the_matrix_where_a_layer_yields)
 {
     static const double hardening[] = {0.0, 1e4, 1e7, -1e4};
     int yielding = 0, slipping = 0;
@@ -146,7 +146,7 @@ static void equals_the_matrix_where_a_layer_yields(void **state)
 
 /* Where it is asked for, a model that was solved without one has the matrix of the bodies
  * with a tangential third body, and its state satisfies the problem of that matrix. */
-static void the_matrix_can_be_added(void **state)
+TEST(the_matrix_can_be_added)
 {
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_TRANSFORMS);
     rc.mesh = RB_MESH_ALIGNED;
@@ -171,7 +171,7 @@ static void the_matrix_can_be_added(void **state)
 }
 
 /* What GMRES leaves is more than so small a tolerance: the matrix solves once more. */
-static void a_small_tolerance_is_met_by_the_matrix(void **state)
+TEST(a_small_tolerance_is_met_by_the_matrix)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = steady(DISSIMILAR, 400);
@@ -239,7 +239,7 @@ static void watch(rb_contact_problem *p, watched *by)
 
 /* Zones of many elements are solved by the products, and by the matrices where these do
  * not come to an end; few elements by the matrices at once. */
-static void the_matrix_stands_in_for_products(void **state)
+TEST(the_matrix_stands_in_for_products)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = steady(DISSIMILAR, k == 2 ? 60 : 240);
@@ -313,7 +313,7 @@ static void check_rows(const rb_rolling_case *rc, const rb_rolling_solution *s)
     }
 }
 
-static void residual_is_true(void **state)
+TEST(residual_is_true)
 {
     for (int pair = SIMILAR; pair <= RIGID; pair++) {
         const rb_rolling_case rc = steady((pairing)pair, 4000);
@@ -329,7 +329,7 @@ static void residual_is_true(void **state)
 
 /* Newton's steps from nothing go round in circles here: the friction coefficient is
  * reached by way of smaller ones. */
-static void much_friction_is_reached_step_by_step(void **state)
+TEST(much_friction_is_reached_step_by_step)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rb_rolling_solution s;
@@ -347,7 +347,7 @@ static void much_friction_is_reached_step_by_step(void **state)
 /* ---- Closed forms ------------------------------------------------------------------ */
 
 /* Carter: Q/(mu P) = s (2 - s); Hertz: p0 = E* a/(2R).  First order in 1/n. */
-static void carter(void **state)
+TEST(carter)
 {
     for (int n = 5000; n <= 80000; n *= 4) {
         const rb_rolling_case rc = steady(SIMILAR, n);
@@ -366,7 +366,7 @@ static void carter(void **state)
 }
 
 /* Cattaneo and Mindlin: c/a = sqrt(1 - Q/(mu P)). */
-static void cattaneo(void **state)
+TEST(cattaneo)
 {
     rb_rolling_case rc = steady(SIMILAR, 20000);
     rb_rolling_solution s;
@@ -381,7 +381,7 @@ static void cattaneo(void **state)
 }
 
 /* The same elements find free rolling too: beta = 0.3, mu = beta/2. */
-static void driven_contacts_know_how_they_roll_freely(void **state)
+TEST(driven_contacts_know_how_they_roll_freely)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
     rb_rolling_solution s;
@@ -401,7 +401,7 @@ static void driven_contacts_know_how_they_roll_freely(void **state)
 }
 
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
-static void bentall_johnson(void **state)
+TEST(bentall_johnson)
 {
     rb_rolling_case rc = steady(RIGID, 6000);
     rc.mu = 1e-3;
@@ -415,7 +415,7 @@ static void bentall_johnson(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void frictionless_and_sliding(void **state)
+TEST(frictionless_and_sliding)
 {
     rb_rolling_case rc = steady(RIGID, 2000);
     rb_rolling_solution s;
@@ -437,7 +437,7 @@ static void frictionless_and_sliding(void **state)
 /* ---- Work and memory --------------------------------------------------------------- */
 
 /* Newton steps of all levels: they grow with the number of levels only. */
-static void steps_hardly_grow(void **state)
+TEST(steps_hardly_grow)
 {
     rb_rolling_case rc = steady(SIMILAR, 2000);
     rb_rolling_model model = solved_model(&rc);
@@ -450,7 +450,7 @@ static void steps_hardly_grow(void **state)
 }
 
 /* What needs a matrix says so: the LCP and the cones. */
-static void without_a_matrix_some_refuse(void **state)
+TEST(without_a_matrix_some_refuse)
 {
     const rb_rolling_case rc = steady(SIMILAR, 1500);
     rb_rolling_model model = solved_model(&rc);
@@ -465,7 +465,7 @@ static void without_a_matrix_some_refuse(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
     const rb_rolling_case given = steady(DISSIMILAR, RB_ROLLING_LARGE);
     for (int k = 0, refused = 1; k < 60 && refused; k++) { /* up to the coarser start */
@@ -499,26 +499,4 @@ static void failing_allocations(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_matrix_in_steady_rolling),
-        cmocka_unit_test(equals_the_matrix_in_static_contact),
-        cmocka_unit_test(equals_the_matrix_that_it_helps),
-        cmocka_unit_test(equals_the_matrix_where_a_layer_yields),
-        cmocka_unit_test(the_matrix_can_be_added),
-        cmocka_unit_test(a_small_tolerance_is_met_by_the_matrix),
-        cmocka_unit_test(the_matrix_stands_in_for_products),
-        cmocka_unit_test(residual_is_true),
-        cmocka_unit_test(much_friction_is_reached_step_by_step),
-        cmocka_unit_test(carter),
-        cmocka_unit_test(cattaneo),
-        cmocka_unit_test(driven_contacts_know_how_they_roll_freely),
-        cmocka_unit_test(bentall_johnson),
-        cmocka_unit_test(frictionless_and_sliding),
-        cmocka_unit_test(steps_hardly_grow),
-        cmocka_unit_test(without_a_matrix_some_refuse),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -56,7 +56,7 @@ static const double places[][2] = {{0.0, 0.1}, {0.7, 0.6},  {-1.3, 0.3},
 enum { PLACES = sizeof places / sizeof *places };
 
 /* A layer of its base's material is a half-plane, in the layer and below it. */
-static void a_layer_of_its_base_is_a_halfplane(void **state)
+TEST(a_layer_of_its_base_is_a_halfplane)
 {
     static const double nu[] = {-0.4, 0.3, 0.5}, thickness[] = {0.2, 0.7, 3.0};
     for (int m = 0; m < 3; m++)
@@ -75,7 +75,7 @@ static void a_layer_of_its_base_is_a_halfplane(void **state)
 }
 
 /* The strain along x of a rigid base's surface is zero. */
-static void a_rigid_base_does_not_stretch(void **state)
+TEST(a_rigid_base_does_not_stretch)
 {
     static const double nu[] = {0.0, 0.3, 0.5}, thickness[] = {0.2, 0.7, 3.0};
     for (int m = 0; m < 3; m++)
@@ -90,7 +90,7 @@ static void a_rigid_base_does_not_stretch(void **state)
 }
 
 /* Across the bond syy, sxy and the strain along x are continuous, sxx is not. */
-static void the_bond_holds(void **state)
+TEST(the_bond_holds)
 {
     static const double base[][2] = {{0.3, 0.45}, {20.0, 0.1}, {1e4, 0.3}};
     for (int k = 0; k < 3; k++)
@@ -110,7 +110,7 @@ static void the_bond_holds(void **state)
 }
 
 /* d s_xx/dx + d s_xy/dy = 0 and d s_xy/dx + d s_yy/dy = 0, by central differences. */
-static void the_field_is_in_equilibrium(void **state)
+TEST(the_field_is_in_equilibrium)
 {
     const rb_bem_surface body = layer(0.8, 2.0, 0.3, 9.0, 0.2);
     const double h = 1e-3;
@@ -130,7 +130,7 @@ static void the_field_is_in_equilibrium(void **state)
 
 /* On a rigid base the strain across the layer, from the stress, adds up to the
  * displacement of the surface, which comes from the transfer functions (L2). */
-static void strains_add_up_to_the_displacement_of_the_surface(void **state)
+TEST(strains_add_up_to_the_displacement_of_the_surface)
 {
     enum { DEPTHS = 100, STRIPS = NODES - 1 };
     const double d = 0.7, nu = 0.3, x = 0.25;
@@ -152,7 +152,7 @@ static void strains_add_up_to_the_displacement_of_the_surface(void **state)
 
 /* Thick: the half-plane of the layer, to (a/d)^1 of a rigid base.  Thin: that of the
  * base, to d/a. */
-static void its_limits_are_half_planes(void **state)
+TEST(its_limits_are_half_planes)
 {
     const rb_bem_surface of_layer = layer(0.0, 2.0, 0.3, 0.0, 0.0);
     double last[2] = {INFINITY, INFINITY};
@@ -178,7 +178,7 @@ static void its_limits_are_half_planes(void **state)
 
 /* Steady, a layer that relaxes on an elastic base is glassy where it passes fast, and
  * rubbery where it passes slowly. */
-static void a_relaxing_layer_lies_between_two_elastic_ones(void **state)
+TEST(a_relaxing_layer_lies_between_two_elastic_ones)
 {
     const double ratio = 3.0;
     for (int k = 0; k < 2; k++) {
@@ -199,7 +199,7 @@ static void a_relaxing_layer_lies_between_two_elastic_ones(void **state)
     }
 }
 
-static void bad_input(void **state)
+TEST(bad_input)
 {
     traction t;
     rb_bem_layer_field *field;
@@ -230,7 +230,7 @@ static void bad_input(void **state)
 
 /* A half-plane that relaxes has the stress that its tractions make in an elastic one; so
  * has a layer of it on a rigid base. */
-static void what_relaxes_everywhere_alike_has_the_elastic_stress(void **state)
+TEST(what_relaxes_everywhere_alike_has_the_elastic_stress)
 {
     static const double xy[] = {0.2, 0.3, -0.4, 0.8, 0.9, 0.1};
     for (int k = 0; k < 2; k++) {
@@ -255,17 +255,4 @@ static void what_relaxes_everywhere_alike_has_the_elastic_stress(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_layer_of_its_base_is_a_halfplane),
-        cmocka_unit_test(a_rigid_base_does_not_stretch),
-        cmocka_unit_test(the_bond_holds),
-        cmocka_unit_test(the_field_is_in_equilibrium),
-        cmocka_unit_test(strains_add_up_to_the_displacement_of_the_surface),
-        cmocka_unit_test(its_limits_are_half_planes),
-        cmocka_unit_test(a_relaxing_layer_lies_between_two_elastic_ones),
-        cmocka_unit_test(what_relaxes_everywhere_alike_has_the_elastic_stress),
-        cmocka_unit_test(bad_input)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -72,7 +72,7 @@ static int check_file(const char *path, const char *own, const char *headers)
     return lines;
 }
 
-static void folders_look_down_only(void **state)
+TEST(folders_look_down_only)
 {
     for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
         char folder[80];
@@ -163,7 +163,7 @@ static void close_calls(void)
 }
 
 /* A file and its helper may call each other; more than two in a circle may not. */
-static void files_call_each_other_in_no_circle(void **state)
+TEST(files_call_each_other_in_no_circle)
 {
     int longest = 0;
     read_symbols(0);
@@ -181,10 +181,4 @@ static void files_call_each_other_in_no_circle(void **state)
     assert_true(longest <= 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(folders_look_down_only),
-        cmocka_unit_test(files_call_each_other_in_no_circle)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -40,7 +40,7 @@ static double size_of(int n, const double *q)
 
 /* ---- Small problems worked by hand ------------------------------------------------ */
 
-static void a_nonnegative_q_needs_no_pivot(void **state)
+TEST(a_nonnegative_q_needs_no_pivot)
 {
     const double M[] = {-1.0, 0.0, 0.0, -1.0}, q[] = {0.0, 2.0};
     double z[2] = {9.0, 9.0};
@@ -53,7 +53,7 @@ static void a_nonnegative_q_needs_no_pivot(void **state)
 }
 
 /* Siconos' lcp_deudeu: z = (4/3, 7/3), with ldm > n. */
-static void two_by_two(void **state)
+TEST(two_by_two)
 {
     const double M[] = {2.0, 1.0, NAN, 1.0, 2.0, NAN}, q[] = {-5.0, -6.0};
     double z[2];
@@ -69,7 +69,7 @@ static void two_by_two(void **state)
 }
 
 /* w = -z - 1 has no solution: z enters and nothing stops it. */
-static void a_secondary_ray_names_its_variable(void **state)
+TEST(a_secondary_ray_names_its_variable)
 {
     const double M[] = {-1.0}, q[] = {-1.0};
     double z[1];
@@ -167,7 +167,7 @@ static void plant(int n, int ldm, const double *M, int degenerate, double *q)
     }
 }
 
-static void planted_problems_are_solved(void **state)
+TEST(planted_problems_are_solved)
 {
     for (int k = 0; k < 1000; k++) {
         const kind which = (kind)(k % KINDS);
@@ -192,7 +192,7 @@ static void planted_problems_are_solved(void **state)
 }
 
 /* Against a product written out, at a point that is no solution, across panels. */
-static void the_residual_is_that_of_z(void **state)
+TEST(the_residual_is_that_of_z)
 {
     const int n = 150, ldm = 151;
     double w[150];
@@ -233,7 +233,7 @@ static void keep_basis(const rb_lcp_pivot *seen, void *context)
 
 /* Kostreva (1979): a P-matrix on which Lemke's method, taking the first of the rows that
  * tie, comes back to the same basis every six pivots. */
-static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
+TEST(kostreva_cycles_only_without_the_lexicographic_rule)
 {
     const double M[] = {1.0, 0.0, 2.0, 2.0, 1.0, 0.0, 0.0, 2.0, 1.0},
                  q[] = {-1.0, -1.0, -1.0};
@@ -260,7 +260,7 @@ static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
 }
 
 /* Everything ties: small integers, q = -1, n up to 12. */
-static void integer_problems_do_not_cycle(void **state)
+TEST(integer_problems_do_not_cycle)
 {
     int solved = 0, rays = 0;
     for (int k = 0; k < 3000; k++) {
@@ -304,7 +304,7 @@ static void make_copositive(int n)
 /* Hundreds of pivots through ties: here the rounding error of a zero, grown to 2e-12 of
  * its column, was taken for a pivot, in two of the four with OpenBLAS' kernels for
  * AVX-512, in the other two with those for AVX2. */
-static void rounding_errors_are_no_pivots(void **state)
+TEST(rounding_errors_are_no_pivots)
 {
     const unsigned long long start[] = {2324, 4536, 1914, 2657}, before = seed;
     const int n = 145;
@@ -375,7 +375,7 @@ static watched p_, p_full_;
 
 /* The whole tableau is handed over and right; asking for it, so that every column is
  * brought up to date at every pivot, does not change the pivots. */
-static void the_trace_sees_every_pivot(void **state)
+TEST(the_trace_sees_every_pivot)
 {
     const int n = 180, ldm = 182;
     double cover[180];
@@ -402,7 +402,7 @@ static void the_trace_sees_every_pivot(void **state)
                  RB_OK); /* no info */
 }
 
-static void the_iteration_limit_keeps_the_last_point(void **state)
+TEST(the_iteration_limit_keeps_the_last_point)
 {
     const int n = 40;
     rb_lcp_info info;
@@ -431,7 +431,7 @@ static void check_refused(int n, const double *M, int ldm, const double *q,
         fail_msg("expected '%s' in: %s", words, info.msg.text);
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     const double M_nan[] = {2.0, 1.0, NAN, 2.0}, M_inf[] = {2.0, -INFINITY, 1.0, 2.0};
@@ -458,7 +458,7 @@ static void bad_input_is_refused(void **state)
 
 /* No cover is needed where q is not negative, and sums that overflow are no infinities.
  */
-static void odd_input_is_taken(void **state)
+TEST(odd_input_is_taken)
 {
     const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0},
                  cover[] = {0.0, 0.0};
@@ -484,7 +484,7 @@ static rb_status solve_anew(void *context)
     return rb_lcp_lemke(context, &opt, z, NULL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     rb_lcp_options opt = rb_lcp_defaults();
@@ -516,7 +516,7 @@ typedef struct {
     int n, pivots; /* of Siconos 4.4.0, by the collection's README */
 } listed;
 
-static void the_collection_is_solved(void **state)
+TEST(the_collection_is_solved)
 {
     const listed files[] = {
         {"lcp_deudeu", 2, 2}, {"lcp_deudeu_block", 2, 2}, {"lcp_ortiz", 4, 2},
@@ -570,7 +570,7 @@ static void friction_matrix(const rb_io_friction *p, double *M, double *q)
 /* Two of them have contacts without neighbours whose q is about -1e-16.  The first path,
  * with no more pivots than Siconos takes, leaves z = 0 there, which is no solution in the
  * scale of those rows; a second one, with q balanced as well, solves them. */
-static void plane_friction_problems_are_solved(void **state)
+TEST(plane_friction_problems_are_solved)
 {
     const listed files[] = {
         {"FC2D_SliderCrankLagrangian00000", 2, 6}, {"FrictionContactProblem00394", 6, 11},
@@ -600,24 +600,4 @@ static void plane_friction_problems_are_solved(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_nonnegative_q_needs_no_pivot),
-        cmocka_unit_test(two_by_two),
-        cmocka_unit_test(a_secondary_ray_names_its_variable),
-        cmocka_unit_test(planted_problems_are_solved),
-        cmocka_unit_test(the_residual_is_that_of_z),
-        cmocka_unit_test(kostreva_cycles_only_without_the_lexicographic_rule),
-        cmocka_unit_test(integer_problems_do_not_cycle),
-        cmocka_unit_test(rounding_errors_are_no_pivots),
-        cmocka_unit_test(the_trace_sees_every_pivot),
-        cmocka_unit_test(the_iteration_limit_keeps_the_last_point),
-        cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(odd_input_is_taken),
-        cmocka_unit_test(short_memory_is_reported),
-        cmocka_unit_test(the_collection_is_solved),
-        cmocka_unit_test(plane_friction_problems_are_solved),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

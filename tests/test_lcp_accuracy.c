@@ -93,7 +93,7 @@ static int some_row(const lemke *l, int is_w)
 }
 
 /* Whether the errors are in the rows of w or in those of z. */
-static void small_errors_are_refined_and_large_ones_rebuilt(void **state)
+TEST(small_errors_are_refined_and_large_ones_rebuilt)
 {
     for (int k = 0; k < 8; k++) {
         static bench b;
@@ -136,7 +136,7 @@ static void move_basic(const lemke *l, int row, double to)
 
 /* Where the constant is zero on the path the refined one is zero, too, and not what
  * rounding leaves of it, in whichever row; one that is not small is no zero. */
-static void zeros_stay_zero(void **state)
+TEST(zeros_stay_zero)
 {
     for (int tie = 0; tie < N; tie++) {
         static bench b;
@@ -157,7 +157,7 @@ static void zeros_stay_zero(void **state)
 }
 
 /* For entering variables of all kinds: w, z, and z0 where it is not basic. */
-static void a_wrong_column_does_not_hold(void **state)
+TEST(a_wrong_column_does_not_hold)
 {
     static bench b;
     lemke *l = &b.l;
@@ -186,7 +186,7 @@ static void a_wrong_column_does_not_hold(void **state)
 }
 
 /* The basic point has the errors of the constants; a solution is solved for anew. */
-static void only_a_solution_is_polished(void **state)
+TEST(only_a_solution_is_polished)
 {
     for (int solved = 0; solved < 2; solved++) {
         static bench b;
@@ -206,13 +206,4 @@ static void only_a_solution_is_polished(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(small_errors_are_refined_and_large_ones_rebuilt),
-        cmocka_unit_test(zeros_stay_zero),
-        cmocka_unit_test(a_wrong_column_does_not_hold),
-        cmocka_unit_test(only_a_solution_is_polished),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -44,7 +44,7 @@ static double judge(const lcp_family *f, const double *z, const double *column)
     return (double)worst;
 }
 
-static void every_claim_is_true(void **state)
+TEST(every_claim_is_true)
 {
     static const int orders[] = {3, 8, 25, 65, 130, 320};
     static const double scales[] = {0.0, 8.0, 30.0};
@@ -82,7 +82,7 @@ static void every_claim_is_true(void **state)
 
 /* What the structure says: Newton's method for discretised inequalities and for what it
  * solves at once, Lemke's elsewhere, also where its path with ones is too long. */
-static void the_solver_is_said(void **state)
+TEST(the_solver_is_said)
 {
     static const struct {
         int kind, n;
@@ -106,7 +106,7 @@ static void the_solver_is_said(void **state)
 }
 
 /* Zones from coarser problems: their edges are a few points off, not a hundred. */
-static void coarser_problems_come_first(void **state)
+TEST(coarser_problems_come_first)
 {
     static const int kinds[] = {3, 4, 5}; /* obstacle, bearing, option */
     for (int k = 0; k < 3; k++) {
@@ -147,7 +147,7 @@ static void without_solution(int k, lcp_family *f)
     assert_int_equal(rb_sparse_from_triplets(&f->t, &f->M), RB_OK);
 }
 
-static void no_solution_is_said_by_lemke(void **state)
+TEST(no_solution_is_said_by_lemke)
 {
     static const int orders[] = {1, 20, 400};
     for (int k = 0; k < 3; k++) {
@@ -165,7 +165,7 @@ static void no_solution_is_said_by_lemke(void **state)
     }
 }
 
-static void options_reach_the_methods(void **state)
+TEST(options_reach_the_methods)
 {
     lcp_family f;
     rb_lcp_info info;
@@ -207,7 +207,7 @@ static void options_reach_the_methods(void **state)
 }
 
 /* Every allocation fails once; a long path of which all methods have a turn. */
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static const struct {
         int kind, n;
@@ -232,15 +232,4 @@ static void short_memory_is_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_claim_is_true),
-        cmocka_unit_test(the_solver_is_said),
-        cmocka_unit_test(coarser_problems_come_first),
-        cmocka_unit_test(no_solution_is_said_by_lemke),
-        cmocka_unit_test(options_reach_the_methods),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -58,7 +58,7 @@ static void random_game(int m, int n, int integers)
         }
 }
 
-static void random_games_are_solved(void **state)
+TEST(random_games_are_solved)
 {
     double z[2 * N];
     rb_lcp_info info;
@@ -73,7 +73,7 @@ static void random_games_are_solved(void **state)
 }
 
 /* Payoffs of few values tie everywhere: degenerate games. */
-static void games_of_small_integers_do_not_cycle(void **state)
+TEST(games_of_small_integers_do_not_cycle)
 {
     double z[2 * N];
     rb_lcp_info info;
@@ -95,7 +95,7 @@ static void battle_of_the_sexes(void)
     B[0] = A[1 + LD] = 1.0;
 }
 
-static void all_equilibria_of_a_game(void **state)
+TEST(all_equilibria_of_a_game)
 {
     rb_lcp_solutions all;
     rb_message why;
@@ -119,7 +119,7 @@ static void all_equilibria_of_a_game(void **state)
 
 /* A nondegenerate game has an odd number of equilibria, and every label leads to one of
  * them. */
-static void every_label_leads_to_an_equilibrium(void **state)
+TEST(every_label_leads_to_an_equilibrium)
 {
     for (int k = 0; k < 30; k++) {
         const int m = 2 + k % 3, n = 2 + k % 4;
@@ -146,7 +146,7 @@ static void every_label_leads_to_an_equilibrium(void **state)
 
 /* What each strategy loses against the best reply, written out; what was in the arrays
  * before does not matter. */
-static void regrets_are_those_of_the_definition(void **state)
+TEST(regrets_are_those_of_the_definition)
 {
     const int m = 3, n = 4;
     const rb_lcp_game game = {m, n, A, B, LD};
@@ -203,7 +203,7 @@ static void follow(const rb_lcp_pivot *seen, void *context)
     s->pivots++;
 }
 
-static void the_trace_follows_the_labels(void **state)
+TEST(the_trace_follows_the_labels)
 {
     for (int k = 0; k < 40; k++) {
         const int m = 1 + k % 7, n = 1 + k % 5, label = k % (m + n);
@@ -226,7 +226,7 @@ static void the_trace_follows_the_labels(void **state)
 /* ---- All solutions of a problem ---------------------------------------------------- */
 
 /* M = -1, q = 1: z = 0 and z = 1; with a box [0, 3] z = 3 is another, since w(3) < 0. */
-static void one_variable_by_hand(void **state)
+TEST(one_variable_by_hand)
 {
     const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
     rb_lcp_solutions all;
@@ -247,7 +247,7 @@ static void one_variable_by_hand(void **state)
 /* z2 and z3 between their bounds give z2 = -4e-10, which is rounding beside z3 = 4e6; on
  * its bound, though, w1 = -1e8, where it was 4e144 before.  z1 = 1e8 / 24.75 and z3 are
  * a solution. */
-static void a_bound_may_change_the_sign_of_a_row(void **state)
+TEST(a_bound_may_change_the_sign_of_a_row)
 {
     const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
     const double q[] = {1.0 / 3.0, -1e-8, 1e8};
@@ -262,7 +262,7 @@ static void a_bound_may_change_the_sign_of_a_row(void **state)
 }
 
 /* M = 1: z = -q cut off by its box, whatever ends that has. */
-static void boxes_of_every_kind_are_enumerated(void **state)
+TEST(boxes_of_every_kind_are_enumerated)
 {
     static const struct {
         double low, high, q, z;
@@ -295,7 +295,7 @@ static void boxes_of_every_kind_are_enumerated(void **state)
 
 /* A P-matrix has one solution, which several bases give when it is degenerate; M = 0 with
  * q = 0 leaves z free, which is a basis without inverse. */
-static void solutions_are_listed_once(void **state)
+TEST(solutions_are_listed_once)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
     rb_lcp_solutions all;
@@ -314,7 +314,7 @@ static void solutions_are_listed_once(void **state)
 }
 
 /* Three places of each boxed variable: 3^13 are tried, 3^14 are not. */
-static void too_many_bases_are_refused(void **state)
+TEST(too_many_bases_are_refused)
 {
     enum { BOXED = 14 };
     double M[BOXED * BOXED] = {0.0}, q[BOXED], low[BOXED], high[BOXED];
@@ -334,7 +334,7 @@ static void too_many_bases_are_refused(void **state)
 }
 
 /* Lemke's answers are among them. */
-static void what_lemke_finds_is_listed(void **state)
+TEST(what_lemke_finds_is_listed)
 {
     for (int k = 0; k < 100; k++) {
         const int n = 1 + k % 7;
@@ -363,7 +363,7 @@ static void what_lemke_finds_is_listed(void **state)
 
 /* ---- Bad input --------------------------------------------------------------------- */
 
-static void bad_input_is_named(void **state)
+TEST(bad_input_is_named)
 {
     double z[2 * N];
     rb_lcp_info info;
@@ -410,7 +410,7 @@ static void bad_input_is_named(void **state)
 }
 
 /* z = 1e600 would solve, which is no number. */
-static void points_beyond_the_largest_number_are_no_solutions(void **state)
+TEST(points_beyond_the_largest_number_are_no_solutions)
 {
     const double M[] = {1e-300}, q[] = {-1e300};
     rb_lcp_solutions all;
@@ -430,7 +430,7 @@ static rb_status solve_anew(void *context)
     return s == RB_OK ? t : s;
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     battle_of_the_sexes();
     for (int i = 0;; i++) {
@@ -449,24 +449,4 @@ static void short_memory_is_reported(void **state)
     assert_true(alloc_fail_each(solve_anew, (void *)&two) > 3);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_games_are_solved),
-        cmocka_unit_test(games_of_small_integers_do_not_cycle),
-        cmocka_unit_test(all_equilibria_of_a_game),
-        cmocka_unit_test(every_label_leads_to_an_equilibrium),
-        cmocka_unit_test(regrets_are_those_of_the_definition),
-        cmocka_unit_test(the_trace_follows_the_labels),
-        cmocka_unit_test(one_variable_by_hand),
-        cmocka_unit_test(a_bound_may_change_the_sign_of_a_row),
-        cmocka_unit_test(boxes_of_every_kind_are_enumerated),
-        cmocka_unit_test(solutions_are_listed_once),
-        cmocka_unit_test(too_many_bases_are_refused),
-        cmocka_unit_test(what_lemke_finds_is_listed),
-        cmocka_unit_test(bad_input_is_named),
-        cmocka_unit_test(short_memory_is_reported),
-        cmocka_unit_test(points_beyond_the_largest_number_are_no_solutions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

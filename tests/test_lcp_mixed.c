@@ -88,7 +88,7 @@ static void random_boxes(problem *p, int kinds)
     }
 }
 
-static void without_boxes_it_is_the_lcp(void **state)
+TEST(without_boxes_it_is_the_lcp)
 {
     static problem p;
     double z[N], want[N];
@@ -107,7 +107,7 @@ static void without_boxes_it_is_the_lcp(void **state)
 }
 
 /* Also of negative unknowns, as boxes have. */
-static void the_floor_is_of_magnitudes(void **state)
+TEST(the_floor_is_of_magnitudes)
 {
     const double M[4] = {3.0, -1.0, 2.0, 0.5}, q[2] = {6.0, -8.0}, z[2] = {-2.0, 1.0};
     double room[2];
@@ -119,7 +119,7 @@ static void the_floor_is_of_magnitudes(void **state)
     rb_sparse_free(&sparse);
 }
 
-static void boxes_of_all_kinds_are_solved(void **state)
+TEST(boxes_of_all_kinds_are_solved)
 {
     static problem p;
     double z[N];
@@ -204,7 +204,7 @@ static int is_enumerated(const problem *p, const double *z, int *solutions)
 }
 
 /* A compact box always holds a solution, whatever M is, and the path finds one. */
-static void finite_boxes_are_solved_for_every_matrix(void **state)
+TEST(finite_boxes_are_solved_for_every_matrix)
 {
     static problem p;
     double z[N];
@@ -227,7 +227,7 @@ static void finite_boxes_are_solved_for_every_matrix(void **state)
     assert_true(several > 20);
 }
 
-static void open_boxes_have_the_enumerated_solution(void **state)
+TEST(open_boxes_have_the_enumerated_solution)
 {
     static problem p;
     double z[N];
@@ -244,7 +244,7 @@ static void open_boxes_have_the_enumerated_solution(void **state)
 /* ---- Ties -------------------------------------------------------------------------- */
 
 /* Small integers tie at nearly every pivot; the box keeps every problem solvable. */
-static void integers_full_of_ties_do_not_cycle(void **state)
+TEST(integers_full_of_ties_do_not_cycle)
 {
     static problem p;
     double z[N];
@@ -265,7 +265,7 @@ static void integers_full_of_ties_do_not_cycle(void **state)
 
 /* Kostreva's example, on which the first index cycles until a new LU orders the slots
  * anew. */
-static void the_rule_decides_whether_kostreva_cycles(void **state)
+TEST(the_rule_decides_whether_kostreva_cycles)
 {
     static problem p = {3, {1, 0, 2, 2, 1, 0, 0, 2, 1}, {-1, -1, -1}, {0}, {0}};
     double z[3];
@@ -333,7 +333,7 @@ static void check_point(const rb_lcp_pivot *seen, void *context)
     }
 }
 
-static void every_point_of_the_path_solves_with_a_cover(void **state)
+TEST(every_point_of_the_path_solves_with_a_cover)
 {
     static problem p;
     static path own;
@@ -362,7 +362,7 @@ static void every_point_of_the_path_solves_with_a_cover(void **state)
 /* The halves of a free z have the cover of its row, so that a path ends where the one
  * that all rows cover alike does, and a row that must be covered is named as the caller
  * numbers it. */
-static void a_cover_is_that_of_both_halves_of_a_free_z(void **state)
+TEST(a_cover_is_that_of_both_halves_of_a_free_z)
 {
     static problem p;
     double z[N], want[N], cover[N];
@@ -398,7 +398,7 @@ static void a_cover_is_that_of_both_halves_of_a_free_z(void **state)
 
 /* Under a generic perturbation the path is a simple curve, so no basis comes twice,
  * however many rows tie. */
-static void a_path_through_ties_meets_no_basis_twice(void **state)
+TEST(a_path_through_ties_meets_no_basis_twice)
 {
     static problem p;
     static path own;
@@ -436,7 +436,7 @@ static void check_same_path(const path *a, const path *b, const char *of)
 
 /* z + c in the boxes moved by c, and -z in the boxes turned round, have the same path:
  * integers, so that the same rows tie; a P-matrix, with which t never grows. */
-static void moved_and_mirrored_boxes_have_the_same_path(void **state)
+TEST(moved_and_mirrored_boxes_have_the_same_path)
 {
     static problem p, other;
     static path own, theirs;
@@ -498,7 +498,7 @@ static void moved_and_mirrored_boxes_have_the_same_path(void **state)
 
 /* min 1/2 x'Qx + c'x, A x = b, x >= 0 with free multipliers; Q = 0: a linear program,
  * whose matrix has no principal submatrix to start from. */
-static void programs_with_equations_are_solved(void **state)
+TEST(programs_with_equations_are_solved)
 {
     static problem p;
     double z[N];
@@ -531,7 +531,7 @@ static void programs_with_equations_are_solved(void **state)
 
 /* ---- From a given point ------------------------------------------------------------ */
 
-static void a_solution_is_recognised_and_a_neighbour_is_near(void **state)
+TEST(a_solution_is_recognised_and_a_neighbour_is_near)
 {
     static problem p;
     double z[N], from[N];
@@ -578,7 +578,7 @@ static void plant_at_bounds(int n, double side, problem *p, double *z)
  * brought to its bound is handed out as that bound and not as a number next to it.  From
  * a start a little inside, z(i) is at its bound but for rounding of either sign, and no
  * pivot is needed. */
-static void a_degenerate_solution_is_exactly_at_its_bounds(void **state)
+TEST(a_degenerate_solution_is_exactly_at_its_bounds)
 {
     static problem p;
     double z[N], want[N], from[N];
@@ -625,7 +625,7 @@ static void watch_t(const rb_lcp_pivot *seen, void *context)
 
 /* Without a P-matrix t can grow: from a start that is no sign of a solution nearby, and
  * the path begins anew at the bounds. */
-static void a_start_that_leads_away_is_given_up(void **state)
+TEST(a_start_that_leads_away_is_given_up)
 {
     static problem p;
     double z[N], from[N];
@@ -655,7 +655,7 @@ static void a_start_that_leads_away_is_given_up(void **state)
     assert_true(gone > 10);
 }
 
-static void limits_end_the_path(void **state)
+TEST(limits_end_the_path)
 {
     static problem p;
     double z[N];
@@ -676,7 +676,7 @@ static void limits_end_the_path(void **state)
 }
 
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
-static void a_start_without_basis_begins_at_the_bounds(void **state)
+TEST(a_start_without_basis_begins_at_the_bounds)
 {
     static problem p = {2, {0, 1, -1, 0}, {1, -1}, {0}, {0}};
     const double from[] = {1.0, 0.0};
@@ -711,7 +711,7 @@ static void obstacle(int m, rb_sparse *M, double *q)
     rb_triplets_free(&t);
 }
 
-static void a_large_obstacle_is_solved_as_by_newton(void **state)
+TEST(a_large_obstacle_is_solved_as_by_newton)
 {
     enum { SIDE = 40 };
     static double q[SIDE * SIDE], z[SIDE * SIDE], want[SIDE * SIDE];
@@ -730,7 +730,7 @@ static void a_large_obstacle_is_solved_as_by_newton(void **state)
 
 /* ---- Ends and bad input ------------------------------------------------------------ */
 
-static void a_ray_names_its_variable(void **state)
+TEST(a_ray_names_its_variable)
 {
     static problem p = {1, {-1}, {-1}, {0}, {0}};
     double z[1];
@@ -744,7 +744,7 @@ static void a_ray_names_its_variable(void **state)
     CHECK_REL(z[0], 3.0, 1e-15, "z(1)");
 }
 
-static void bad_input_is_named(void **state)
+TEST(bad_input_is_named)
 {
     static problem p;
     double z[N];
@@ -819,7 +819,7 @@ static rb_status solve_anew(void *context)
     return rb_lcp_mixed(context, NULL, z, NULL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static problem p;
     positive_definite(6, &p);
@@ -844,7 +844,7 @@ static void short_memory_is_reported(void **state)
 
 /* -1.1e-4 z1 - 1e-8 z2 = 23.75 has no z >= 0; the other row is 300 decades larger and
  * once hid that by its own w. */
-static void a_large_row_hides_no_wrong_one(void **state)
+TEST(a_large_row_hides_no_wrong_one)
 {
     int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
     double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
@@ -865,31 +865,4 @@ static void a_large_row_hides_no_wrong_one(void **state)
     rb_sparse_free(&M);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_boxes_it_is_the_lcp),
-        cmocka_unit_test(boxes_of_all_kinds_are_solved),
-        cmocka_unit_test(the_floor_is_of_magnitudes),
-        cmocka_unit_test(finite_boxes_are_solved_for_every_matrix),
-        cmocka_unit_test(open_boxes_have_the_enumerated_solution),
-        cmocka_unit_test(integers_full_of_ties_do_not_cycle),
-        cmocka_unit_test(the_rule_decides_whether_kostreva_cycles),
-        cmocka_unit_test(every_point_of_the_path_solves_with_a_cover),
-        cmocka_unit_test(a_cover_is_that_of_both_halves_of_a_free_z),
-        cmocka_unit_test(a_path_through_ties_meets_no_basis_twice),
-        cmocka_unit_test(moved_and_mirrored_boxes_have_the_same_path),
-        cmocka_unit_test(programs_with_equations_are_solved),
-        cmocka_unit_test(a_solution_is_recognised_and_a_neighbour_is_near),
-        cmocka_unit_test(a_degenerate_solution_is_exactly_at_its_bounds),
-        cmocka_unit_test(a_start_that_leads_away_is_given_up),
-        cmocka_unit_test(limits_end_the_path),
-        cmocka_unit_test(a_start_without_basis_begins_at_the_bounds),
-        cmocka_unit_test(a_large_obstacle_is_solved_as_by_newton),
-        cmocka_unit_test(a_ray_names_its_variable),
-        cmocka_unit_test(bad_input_is_named),
-        cmocka_unit_test(short_memory_is_reported),
-        cmocka_unit_test(a_large_row_hides_no_wrong_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -43,7 +43,7 @@ static void random_problem(int n, double *M, double *q)
     }
 }
 
-static void p_matrices_are_solved_as_by_lemke(void **state)
+TEST(p_matrices_are_solved_as_by_lemke)
 {
     enum { N = 40 };
     double M[N * N], q[N], z[N], want[N];
@@ -72,7 +72,7 @@ static void p_matrices_are_solved_as_by_lemke(void **state)
 
 /* M = [1 0 2; 2 1 0; 0 2 1], a P-matrix, q = -(1, 1, 1): exchanging every negative
  * component changes between two sets for ever. */
-static void cycling_newton_steps_end_by_single_ones(void **state)
+TEST(cycling_newton_steps_end_by_single_ones)
 {
     const double M[] = {1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0};
     const double q[] = {-1.0, -1.0, -1.0}, start[] = {1.0, 0.0, 0.0};
@@ -89,7 +89,7 @@ static void cycling_newton_steps_end_by_single_ones(void **state)
     rb_sparse_free(&a);
 }
 
-static void what_it_cannot_solve_is_said(void **state)
+TEST(what_it_cannot_solve_is_said)
 {
     const double M[] = {0.0, 1.0, 1.0, 0.0}, q[] = {-1.0, 1.0};
     const double bad[] = {NAN, 1.0};
@@ -109,7 +109,7 @@ static void what_it_cannot_solve_is_said(void **state)
 
 /* z_2 = -0.1 would be rounding beside z_1 = 1e16, but not in w_1 = -1 + 1e-16 z_1 + z_2:
  * in the scale of the columns both are near 1. */
-static void columns_of_any_scale_are_solved(void **state)
+TEST(columns_of_any_scale_are_solved)
 {
     const double M[] = {1e-16, 0.0, 1.0, 1.0}, q[] = {-1.0, 0.1}, both[] = {1.0, 1.0};
     rb_lcp_options opt = rb_lcp_defaults();
@@ -126,7 +126,7 @@ static void columns_of_any_scale_are_solved(void **state)
 
 /* z_2 = -0.1 is rounding beside z_1 = 1e16 and becomes zero, which leaves w_3 = z_2 + z_3
  * - 1 = 0.1 where z_3 = 1.1: that is seen, and solved in a scale that balances q too. */
-static void a_large_row_hides_no_small_one(void **state)
+TEST(a_large_row_hides_no_small_one)
 {
     const double M[] = {1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0};
     const double q[] = {-1e16, 0.1, -1.0}, all[] = {1.0, 1.0, 1.0};
@@ -158,7 +158,7 @@ static rb_status solve_anew(void *context)
     return rb_lcp_newton(context, q, NULL, z, NULL);
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     rb_sparse a;
@@ -177,15 +177,4 @@ static void short_memory_is_reported(void **state)
     rb_sparse_free(&a);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(p_matrices_are_solved_as_by_lemke),
-        cmocka_unit_test(cycling_newton_steps_end_by_single_ones),
-        cmocka_unit_test(what_it_cannot_solve_is_said),
-        cmocka_unit_test(columns_of_any_scale_are_solved),
-        cmocka_unit_test(a_large_row_hides_no_small_one),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

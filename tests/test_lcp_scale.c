@@ -111,7 +111,7 @@ static int solve(const problem *p, int k)
     return solved;
 }
 
-static void claims_of_scaled_problems_are_right(void **state)
+TEST(claims_of_scaled_problems_are_right)
 {
     static problem p;
     const int problems = 10000;
@@ -127,7 +127,7 @@ static void claims_of_scaled_problems_are_right(void **state)
 
 /* z = (1, 2, 0) in rows of 1e6, 1e-6, 1; without equilibration (2, 0, 0) was handed out.
  */
-static void rows_in_other_units_change_nothing(void **state)
+TEST(rows_in_other_units_change_nothing)
 {
     const double base[] = {2.0, 1.0, 0.0, 1.0, 3.0, 1.0, 0.0, 1.0, 2.0},
                  q0[] = {-4, -7, 1};
@@ -153,7 +153,7 @@ static void rows_in_other_units_change_nothing(void **state)
 }
 
 /* Powers of two change no digit of the measure, and a wrong small row is seen. */
-static void the_scaled_residual_has_no_units(void **state)
+TEST(the_scaled_residual_has_no_units)
 {
     static problem p;
     double z[LARGEST], scaled_z[LARGEST];
@@ -221,7 +221,7 @@ static void follow(const rb_lcp_pivot *seen, void *context)
     }
 }
 
-static void the_trace_keeps_the_units_of_the_caller(void **state)
+TEST(the_trace_keeps_the_units_of_the_caller)
 {
     static problem p;
     double z[LARGEST];
@@ -259,21 +259,11 @@ static rb_status solve_anew(void *context)
     return s;
 }
 
-static void short_memory_is_reported(void **state)
+TEST(short_memory_is_reported)
 {
     static problem p;
     make(&p, 0, 6, 40.0);
     assert_true(alloc_fail_each(solve_anew, &p) > 20);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_in_other_units_change_nothing),
-        cmocka_unit_test(claims_of_scaled_problems_are_right),
-        cmocka_unit_test(the_scaled_residual_has_no_units),
-        cmocka_unit_test(the_trace_keeps_the_units_of_the_caller),
-        cmocka_unit_test(short_memory_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -92,7 +92,7 @@ static void advance_some(lcp_tableau *t)
 
 /* Blocks begin and end, memory for pivots runs out, columns stand at different pivots,
  * inside blocks and at their ends. */
-static void any_pivots_give_the_tableau_of_the_basis(void **state)
+TEST(any_pivots_give_the_tableau_of_the_basis)
 {
     lcp_tableau t, anew;
     double a[N];
@@ -112,7 +112,7 @@ static void any_pivots_give_the_tableau_of_the_basis(void **state)
     rb_lcp_tableau_free(&anew);
 }
 
-static void a_combination_is_the_sum_of_its_columns(void **state)
+TEST(a_combination_is_the_sum_of_its_columns)
 {
     lcp_tableau t;
     double a[N], scratch[N], sum[N], want[N], weight[N + 1];
@@ -139,7 +139,7 @@ static void a_combination_is_the_sum_of_its_columns(void **state)
 /* Lemke's method asks next for the complement of what leaves, and the rows with the least
  * ratios leave first: their columns are brought up to date with the one that is wanted,
  * as many as go through the blocks together. */
-static void the_next_columns_are_looked_for_by_their_ratios(void **state)
+TEST(the_next_columns_are_looked_for_by_their_ratios)
 {
     lcp_tableau t;
     double a[N], driving[N];
@@ -186,7 +186,7 @@ static void the_next_columns_are_looked_for_by_their_ratios(void **state)
     rb_lcp_tableau_free(&t);
 }
 
-static void without_pivots_nothing_changes(void **state)
+TEST(without_pivots_nothing_changes)
 {
     lcp_tableau t;
     double a[N];
@@ -201,7 +201,7 @@ static void without_pivots_nothing_changes(void **state)
     rb_lcp_tableau_free(&t);
 }
 
-static void short_memory_leaves_the_tableau(void **state)
+TEST(short_memory_leaves_the_tableau)
 {
     lcp_tableau t;
     double a[N];
@@ -224,7 +224,7 @@ static void short_memory_leaves_the_tableau(void **state)
 }
 
 /* A column of zeros: of two equal ones rounding may leave a pivot. */
-static void a_singular_basis_is_told(void **state)
+TEST(a_singular_basis_is_told)
 {
     lcp_tableau t;
     make_tableau(&t);
@@ -239,15 +239,4 @@ static void a_singular_basis_is_told(void **state)
     rb_lcp_tableau_free(&t);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_pivots_give_the_tableau_of_the_basis),
-        cmocka_unit_test(a_combination_is_the_sum_of_its_columns),
-        cmocka_unit_test(the_next_columns_are_looked_for_by_their_ratios),
-        cmocka_unit_test(without_pivots_nothing_changes),
-        cmocka_unit_test(short_memory_leaves_the_tableau),
-        cmocka_unit_test(a_singular_basis_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

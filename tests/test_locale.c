@@ -103,7 +103,7 @@ static void write_all(char *text, size_t size)
     rb_io_table_free(&t);
 }
 
-static void numbers_have_points(void **state)
+TEST(numbers_have_points)
 {
     static char plain[100000], german[100000];
     write_all(plain, sizeof plain);
@@ -121,8 +121,4 @@ static void numbers_have_points(void **state)
     setlocale(LC_ALL, "C");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_points)};
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+RUN_TESTS(enter, leave)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static void every_status_has_its_exit_code(void **state)
+TEST(every_status_has_its_exit_code)
 {
     static const struct {
         rb_status status;
@@ -85,7 +85,7 @@ static cli_exit say_without_reason(void)
     return cli_say(RB_ENOMEM, &none);
 }
 
-static void a_refusal_is_one_line_in_print(void **state)
+TEST(a_refusal_is_one_line_in_print)
 {
     assert_string_equal(printed(fail_with_number, CLI_DATA),
                         "rollbem: case.ini:7: a\\x0ab\\x09\\x1b\n");
@@ -112,7 +112,7 @@ static const cli_command two[] = {{"lcp", run_nothing, "problems"},
                                   {"", run_nothing, "cases"}};
 
 /* What is printed as the command gives the same words again. */
-static void a_command_line_is_quoted_and_split(void **state)
+TEST(a_command_line_is_quoted_and_split)
 {
     static const struct {
         const char *words[5], *line;
@@ -139,7 +139,7 @@ static void a_command_line_is_quoted_and_split(void **state)
     }
 }
 
-static void lines_are_split_as_a_shell_does(void **state)
+TEST(lines_are_split_as_a_shell_does)
 {
     static const struct {
         const char *line;
@@ -165,7 +165,7 @@ static void lines_are_split_as_a_shell_does(void **state)
     }
 }
 
-static void commands_are_found_by_name(void **state)
+TEST(commands_are_found_by_name)
 {
     assert_true(cli_begin(two, 1, (char *[]){NULL}));
     assert_string_equal(cli_command_name(0), "lcp");
@@ -180,7 +180,7 @@ static void commands_are_found_by_name(void **state)
 }
 
 /* Last: it cannot be taken back. */
-static void kept_failures_are_not_printed(void **state)
+TEST(kept_failures_are_not_printed)
 {
     assert_string_equal(cli_kept_failure(), "");
     cli_keep_failures(1);
@@ -190,15 +190,4 @@ static void kept_failures_are_not_printed(void **state)
     assert_int_equal(strlen(cli_kept_failure()), 399);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_status_has_its_exit_code),
-        cmocka_unit_test(a_refusal_is_one_line_in_print),
-        cmocka_unit_test(a_command_line_is_quoted_and_split),
-        cmocka_unit_test(lines_are_split_as_a_shell_does),
-        cmocka_unit_test(commands_are_found_by_name),
-        cmocka_unit_test(kept_failures_are_not_printed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

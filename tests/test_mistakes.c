@@ -65,7 +65,7 @@ static const struct {
     {"--units metric", "mm, si or inch"},
 };
 
-static void forty_mistakes_get_a_line_that_helps(void **state)
+TEST(forty_mistakes_get_a_line_that_helps)
 {
     int wrong = 0;
     write_file("hash.ini", "radius = 460 # comment\n");
@@ -90,7 +90,7 @@ static void forty_mistakes_get_a_line_that_helps(void **state)
 }
 
 /* What every command refuses: the exit code, and one line. */
-static void refusals_have_their_code_and_reason(void **state)
+TEST(refusals_have_their_code_and_reason)
 {
     static const struct {
         int code;
@@ -401,7 +401,7 @@ static void refusals_have_their_code_and_reason(void **state)
 }
 
 /* What is no error, and perhaps not what was meant. */
-static void doubtful_values_are_noted(void **state)
+TEST(doubtful_values_are_noted)
 {
     static const char *const all[][2] = {
         {"", "far beyond linear elasticity"},
@@ -434,7 +434,7 @@ static void doubtful_values_are_noted(void **state)
 }
 
 /* A creepage that the program found is not what somebody typed. */
-static void found_creepage_is_not_doubted(void **state)
+TEST(found_creepage_is_not_doubted)
 {
     assert_int_equal(rollbem("--formulation steady --support hub --mu 1e-3 --free-axle "
                              "--approach 0.04 --contact-elements 40"),
@@ -442,7 +442,7 @@ static void found_creepage_is_not_doubted(void **state)
     assert_null(strstr(err, "meant in per cent"));
 }
 
-static void examples_are_at_hand(void **state)
+TEST(examples_are_at_hand)
 {
     assert_int_equal(rollbem("examples"), 0);
     assert_non_null(strstr(out, "--example rail "));
@@ -462,7 +462,7 @@ static void examples_are_at_hand(void **state)
 }
 
 /* On a terminal: the summary, then a short table; whoever asks for a form gets it. */
-static void terminals_get_a_short_table(void **state)
+TEST(terminals_get_a_short_table)
 {
     if (shell("command -v script") != 0)
         skip();
@@ -484,7 +484,7 @@ static void terminals_get_a_short_table(void **state)
 
 /* Who waits is told after two seconds what for; the line is taken away, and neither
  * --quiet nor a pipe has one.  A processor may be too fast for it. */
-static void waiting_is_told_on_a_terminal(void **state)
+TEST(waiting_is_told_on_a_terminal)
 {
     if (shell("command -v script") != 0)
         skip();
@@ -522,7 +522,7 @@ static int characters(const char *line, size_t n)
 
 /* Every command on a terminal of 80 x 24: no line is wider, and a table with its summary
  * needs little more than the window. */
-static void no_command_is_wider_than_a_terminal(void **state)
+TEST(no_command_is_wider_than_a_terminal)
 {
     static const struct {
         const char *command;
@@ -571,7 +571,7 @@ static void no_command_is_wider_than_a_terminal(void **state)
 }
 
 /* | head: no message. */
-static void closed_pipes_end_in_silence(void **state)
+TEST(closed_pipes_end_in_silence)
 {
     static const char *const commands[] = {"--help",
                                            "--contact-elements 3000 --support "
@@ -585,18 +585,4 @@ static void closed_pipes_end_in_silence(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forty_mistakes_get_a_line_that_helps),
-        cmocka_unit_test(refusals_have_their_code_and_reason),
-        cmocka_unit_test(doubtful_values_are_noted),
-        cmocka_unit_test(found_creepage_is_not_doubted),
-        cmocka_unit_test(examples_are_at_hand),
-        cmocka_unit_test(terminals_get_a_short_table),
-        cmocka_unit_test(waiting_is_told_on_a_terminal),
-        cmocka_unit_test(no_command_is_wider_than_a_terminal),
-        cmocka_unit_test(closed_pipes_end_in_silence),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -1208,7 +1208,7 @@ static covering array_of(int strength)
 /* ---- Tests ------------------------------------------------------------------------- */
 
 /* A new option must become a factor or be named. */
-static void test_every_option_is_a_factor(void **state)
+TEST(test_every_option_is_a_factor)
 {
     int n;
     const rb_option *options = rb_case_describe(&n);
@@ -1241,7 +1241,7 @@ static int row_with(covering *c, int k, int *row)
 }
 
 /* What the net leaves out because the program refuses it, it does refuse, in one line. */
-static void test_every_conflict_is_refused(void **state)
+TEST(test_every_conflict_is_refused)
 {
     char the_case[1500], arguments[2000];
     int row[COVERING_FACTORS];
@@ -1291,7 +1291,7 @@ static void work(int result)
     _exit(!whole);
 }
 
-static void test_every_combination(void **state)
+TEST(test_every_combination)
 {
     findings all = {0};
     int ends[2], status;
@@ -1333,12 +1333,4 @@ static int enter(void **state)
     return entered;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_option_is_a_factor),
-        cmocka_unit_test(test_every_conflict_is_refused),
-        cmocka_unit_test(test_every_combination),
-    };
-    return cmocka_run_group_tests(tests, enter, leave_folder);
-}
+RUN_TESTS(enter, leave_folder)

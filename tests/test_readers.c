@@ -94,7 +94,7 @@ static void skip_without(const char *probe, const char *program_name)
     skip();
 }
 
-static void pandas_opens_all(void **state)
+TEST(pandas_opens_all)
 {
     skip_without("/usr/bin/python3 -c 'import pandas'", "pandas");
     check_lines("/usr/bin/python3 lines", "python", 0);
@@ -110,7 +110,7 @@ static void pandas_opens_all(void **state)
                  "assert set(t.dtypes.astype(str)) <= {'int64', 'float64'}\n");
 }
 
-static void numpy_opens_all(void **state)
+TEST(numpy_opens_all)
 {
     skip_without("/usr/bin/python3 -c 'import numpy'", "numpy");
     check_lines("/usr/bin/python3 lines", "python", 1);
@@ -121,7 +121,7 @@ static void numpy_opens_all(void **state)
                  "    print(f, len(t), len(t.dtype.names))\n");
 }
 
-static void r_opens_all(void **state)
+TEST(r_opens_all)
 {
     skip_without("Rscript --version", "R");
     check_lines("Rscript --vanilla lines", "r", 0);
@@ -133,7 +133,7 @@ static void r_opens_all(void **state)
                  "}\n");
 }
 
-static void octave_opens_all(void **state)
+TEST(octave_opens_all)
 {
     skip_without("octave-cli --version", "Octave");
     check_lines("octave-cli --no-init-file --quiet lines", "octave", 0);
@@ -155,7 +155,7 @@ static void octave_opens_all(void **state)
     assert_int_equal(seen[2], 6);
 }
 
-static void gnuplot_opens_all(void **state)
+TEST(gnuplot_opens_all)
 {
     skip_without("gnuplot --version", "gnuplot");
     check_lines("{ echo 'set terminal unknown'; cat lines; } | gnuplot 2>&1 | tail -1",
@@ -166,7 +166,7 @@ static void gnuplot_opens_all(void **state)
 }
 
 /* One form: names first, as many cells in every row, no NaN but "NaN". */
-static void all_have_one_form(void **state)
+TEST(all_have_one_form)
 {
     assert_int_equal(
         shell("for f in *.tsv; do awk -F '\\t' -v f=$f '/^#/ {next} !n {n = NF} "
@@ -177,12 +177,4 @@ static void all_have_one_form(void **state)
         0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_have_one_form), cmocka_unit_test(pandas_opens_all),
-        cmocka_unit_test(numpy_opens_all),   cmocka_unit_test(r_opens_all),
-        cmocka_unit_test(octave_opens_all),  cmocka_unit_test(gnuplot_opens_all),
-    };
-    return cmocka_run_group_tests(tests, set_up, leave_folder);
-}
+RUN_TESTS(set_up, leave_folder)

@@ -73,7 +73,7 @@ static const rb_report_style full = {RB_REPORT_TSV, 0}, bare = {RB_REPORT_TSV, 1
 
 /* ---- Table ------------------------------------------------------------------------ */
 
-static void table_reads_back_exactly(void **state)
+TEST(table_reads_back_exactly)
 {
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
@@ -98,7 +98,7 @@ static void table_reads_back_exactly(void **state)
     fclose(file);
 }
 
-static void full_header_names_command_and_columns(void **state)
+TEST(full_header_names_command_and_columns)
 {
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
@@ -116,7 +116,7 @@ static void full_header_names_command_and_columns(void **state)
     fclose(file);
 }
 
-static void full_disc_is_told(void **state)
+TEST(full_disc_is_told)
 {
     const rb_rolling_solution s = carter();
     FILE *file = fopen("/dev/full", "w");
@@ -128,7 +128,7 @@ static void full_disc_is_told(void **state)
 
 /* ---- JSON ------------------------------------------------------------------------- */
 
-static void json_holds_the_same_numbers(void **state)
+TEST(json_holds_the_same_numbers)
 {
     const rb_rolling_solution s = carter();
     json_t *root = rb_report_json_start("rollbem 'a b'");
@@ -162,7 +162,7 @@ static void json_holds_the_same_numbers(void **state)
     fclose(file);
 }
 
-static void no_number_is_null(void **state)
+TEST(no_number_is_null)
 {
     const double bad[] = {NAN, INFINITY, -INFINITY, 1.0};
     json_t *list = rb_report_json_numbers(4, bad);
@@ -173,7 +173,7 @@ static void no_number_is_null(void **state)
     assert_int_equal(rb_report_json_write(stdout, NULL), RB_ENOMEM);
 }
 
-static void command_that_is_not_utf8(void **state)
+TEST(command_that_is_not_utf8)
 {
     json_t *root = rb_report_json_start("rollbem \xff");
     assert_string_equal(json_string_value(json_object_get(root, "command")),
@@ -183,7 +183,7 @@ static void command_that_is_not_utf8(void **state)
 
 /* ---- For people ------------------------------------------------------------------- */
 
-static void strip_shows_the_contact(void **state)
+TEST(strip_shows_the_contact)
 {
     rb_rolling_solution s = carter();
     char strip[81];
@@ -197,7 +197,7 @@ static void strip_shows_the_contact(void **state)
     assert_string_equal(strip, ".oooooo.");
 }
 
-static void summary_fits_the_terminal(void **state)
+TEST(summary_fits_the_terminal)
 {
     const rb_rolling_solution s = carter();
     for (int width = 1; width < 300; width += 23) {
@@ -214,7 +214,7 @@ static void summary_fits_the_terminal(void **state)
 }
 
 /* From the first to the last stuck element there may be slip. */
-static void summary_says_how_much_of_the_stick_zone_sticks(void **state)
+TEST(summary_says_how_much_of_the_stick_zone_sticks)
 {
     for (int hole = 0; hole < 2; hole++) {
         rb_rolling_solution s = carter();
@@ -241,7 +241,7 @@ static void show(const char *text, int rows, int columns, int colour, char *show
     fclose(file);
 }
 
-static void a_terminal_gets_five_digits_and_units_below_the_names(void **state)
+TEST(a_terminal_gets_five_digits_and_units_below_the_names)
 {
     char shown[4000];
     show("x_mm\tp_MPa\tspeed_mm/s\tslip\tzone\tnothing\n"
@@ -260,7 +260,7 @@ static void a_terminal_gets_five_digits_and_units_below_the_names(void **state)
 
 /* No line is wider than the window, no more rows than it has, first and last among them;
  * the columns that matter less go first. */
-static void a_terminal_gets_what_fits(void **state)
+TEST(a_terminal_gets_what_fits)
 {
     char text[4000] = "x_mm\tgap\tp\tq\tr\ts\n", shown[4000], *line = shown;
     int lines = 0;
@@ -278,7 +278,7 @@ static void a_terminal_gets_what_fits(void **state)
 }
 
 /* Files and solvers: the middle is left out; a wide single row stands upright. */
-static void a_terminal_gets_words_whole(void **state)
+TEST(a_terminal_gets_words_whole)
 {
     char text[4000] = "solver\tscaled_MPa\n", shown[4000];
     for (int i = 0; i < 30; i++)
@@ -291,7 +291,7 @@ static void a_terminal_gets_words_whole(void **state)
 }
 
 /* Continued below the text of a label; colours have no width. */
-static void lines_are_broken_between_words(void **state)
+TEST(lines_are_broken_between_words)
 {
     FILE *file = tmpfile();
     const char *text =
@@ -304,7 +304,7 @@ static void lines_are_broken_between_words(void **state)
     fclose(file);
 }
 
-static void a_terminal_shows_zones_in_colour(void **state)
+TEST(a_terminal_shows_zones_in_colour)
 {
     char shown[4000];
     const char *table = "x\tzone\tstatus\n0\t0\tsolved\n1\t1\tray\n2\t3\tsolved\n";
@@ -318,7 +318,7 @@ static void a_terminal_shows_zones_in_colour(void **state)
 }
 
 /* JSON, sentences, a table of commas, nothing at all. */
-static void a_terminal_gets_other_text_as_it_is(void **state)
+TEST(a_terminal_gets_other_text_as_it_is)
 {
     static const char *const texts[] = {"{\n \"a\": 1\n}\n", "x,y\n1,2\n", "one line", "",
                                         "\n"};
@@ -331,7 +331,7 @@ static void a_terminal_gets_other_text_as_it_is(void **state)
     assert_string_equal(shown, "  a  b\n");
 }
 
-static void notes_warn_where_due(void **state)
+TEST(notes_warn_where_due)
 {
     rb_rolling_solution s = carter();
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -357,7 +357,7 @@ static void notes_warn_where_due(void **state)
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
-static void pictures_of_three_kinds(void **state)
+TEST(pictures_of_three_kinds)
 {
     static const char *const names[] = {"a.png", "b.svg", "c.pdf"};
     static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF"};
@@ -376,7 +376,7 @@ static void pictures_of_three_kinds(void **state)
     }
 }
 
-static void picture_of_another_kind(void **state)
+TEST(picture_of_another_kind)
 {
     rb_report_picture_kind kind;
     rb_message why = {""};
@@ -385,7 +385,7 @@ static void picture_of_another_kind(void **state)
     assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);
 }
 
-static void gnuplot_complaint_is_handed_on(void **state)
+TEST(gnuplot_complaint_is_handed_on)
 {
     FILE *script = tmpfile(), *out = tmpfile();
     rb_message why = {""};
@@ -397,7 +397,7 @@ static void gnuplot_complaint_is_handed_on(void **state)
     fclose(out);
 }
 
-static void missing_gnuplot_is_named(void **state)
+TEST(missing_gnuplot_is_named)
 {
     char path[4096];
     snprintf(path, sizeof path, "%s", getenv("PATH"));
@@ -413,7 +413,7 @@ static void missing_gnuplot_is_named(void **state)
 }
 
 /* What has no steps, no grid, no contact is no picture, and no file is written. */
-static void pictures_need_something_to_draw(void **state)
+TEST(pictures_need_something_to_draw)
 {
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_rolling_case rc = rb_rolling_case_defaults();
@@ -467,7 +467,7 @@ static void pictures_need_something_to_draw(void **state)
 }
 
 /* A history by hand: one step has a range too, a step without contact a width of zero. */
-static void history_of_few_steps_is_drawn(void **state)
+TEST(history_of_few_steps_is_drawn)
 {
     double column[12][2] = {{0.0}};
     int stick[2] = {3, 0}, slipping[2] = {1, 0};
@@ -512,7 +512,7 @@ static void history_of_few_steps_is_drawn(void **state)
 }
 
 /* What has no number is left out of the lines for people and of the title. */
-static void what_is_not_known_is_left_out(void **state)
+TEST(what_is_not_known_is_left_out)
 {
     static const struct {
         const char *in_summary, *in_title;
@@ -561,7 +561,7 @@ static void what_is_not_known_is_left_out(void **state)
 }
 
 /* What the picture of a solution says of one without contact. */
-static void picture_without_contact_says_so(void **state)
+TEST(picture_without_contact_says_so)
 {
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_rolling_case rc = rb_rolling_case_defaults();
@@ -585,7 +585,7 @@ static void picture_without_contact_says_so(void **state)
 
 /* The first step, the last and those nearest to equal parts of the way; no more than fit.
  */
-static void wear_keeps_some_profiles(void **state)
+TEST(wear_keeps_some_profiles)
 {
     enum { STEPS = 37 };
     double way[STEPS + 1], depth[STEPS + 1];
@@ -627,7 +627,7 @@ static void wear_keeps_some_profiles(void **state)
 
 /* Steps of the shares over tau, a colour for each solver; a column of print has its
  * caption instead of a title. */
-static void profiles_are_drawn(void **state)
+TEST(profiles_are_drawn)
 {
     static const char *const solver[] = {"auto", "lemke"};
     static const double tau[] = {1.0, 2.0, 10.0},
@@ -688,7 +688,7 @@ static rb_status draw_by(const char *lines, double seconds, rb_report_picture_ki
 }
 
 /* Full disks leave a part, or nothing, and exit code 0. */
-static void a_part_of_a_picture_is_none(void **state)
+TEST(a_part_of_a_picture_is_none)
 {
     static const struct {
         rb_report_picture_kind kind;
@@ -714,7 +714,7 @@ static void a_part_of_a_picture_is_none(void **state)
 }
 
 /* Each way in which a program called gnuplot may end without a picture. */
-static void gnuplot_that_fails_is_told(void **state)
+TEST(gnuplot_that_fails_is_told)
 {
     static const struct {
         const char *lines;
@@ -743,7 +743,7 @@ static void gnuplot_that_fails_is_told(void **state)
 }
 
 /* A file that is no program, a caller who does not wait for children, a full disk. */
-static void gnuplot_and_its_surroundings(void **state)
+TEST(gnuplot_and_its_surroundings)
 {
     static const char picture[] = "printf '<?xml <svg> more </svg>'";
     char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], before[4096];
@@ -776,7 +776,7 @@ static void gnuplot_and_its_surroundings(void **state)
     }
 }
 
-static void gnuplot_has_a_time_limit(void **state)
+TEST(gnuplot_has_a_time_limit)
 {
     FILE *out = tmpfile();
     rb_message why = {""};
@@ -788,7 +788,7 @@ static void gnuplot_has_a_time_limit(void **state)
 }
 
 /* A descriptor that a caller has open, and would hand on to every child. */
-static void gnuplot_inherits_no_descriptor(void **state)
+TEST(gnuplot_inherits_no_descriptor)
 {
     FILE *out = tmpfile();
     rb_message why = {""};
@@ -805,7 +805,7 @@ static void gnuplot_inherits_no_descriptor(void **state)
 }
 
 /* A start-up file that would end every picture. */
-static void start_up_files_are_off(void **state)
+TEST(start_up_files_are_off)
 {
     char folder[] = "/tmp/rollbem-home-XXXXXX", name[64], home[4096];
     assert_non_null(mkdtemp(folder));
@@ -841,7 +841,7 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
     return s;
 }
 
-static void columns_are_read(void **state)
+TEST(columns_are_read)
 {
     rb_io_table t;
     rb_message why = {""};
@@ -853,7 +853,7 @@ static void columns_are_read(void **state)
     rb_io_table_free(&t);
 }
 
-static void bad_columns_are_named(void **state)
+TEST(bad_columns_are_named)
 {
     static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n",
                                       "1 2\n3 nan\n", "1 2\n3 4x\n"};
@@ -868,7 +868,7 @@ static void bad_columns_are_named(void **state)
     assert_int_equal(rb_io_table_read_columns("/nonexistent", 2, &t, NULL), RB_ENOENT);
 }
 
-static void columns_without_memory(void **state)
+TEST(columns_without_memory)
 {
     int refused = 1;
     rb_io_table t;
@@ -905,7 +905,7 @@ static const char *literature(void)
     return text;
 }
 
-static void papers_are_those_of_the_theory(void **state)
+TEST(papers_are_those_of_the_theory)
 {
     static const struct {
         rb_rolling_formulation formulation;
@@ -940,45 +940,4 @@ static void papers_are_those_of_the_theory(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_reads_back_exactly),
-        cmocka_unit_test(full_header_names_command_and_columns),
-        cmocka_unit_test(full_disc_is_told),
-        cmocka_unit_test(json_holds_the_same_numbers),
-        cmocka_unit_test(no_number_is_null),
-        cmocka_unit_test(command_that_is_not_utf8),
-        cmocka_unit_test(strip_shows_the_contact),
-        cmocka_unit_test(summary_fits_the_terminal),
-        cmocka_unit_test(summary_says_how_much_of_the_stick_zone_sticks),
-        cmocka_unit_test(notes_warn_where_due),
-        cmocka_unit_test(pictures_of_three_kinds),
-        cmocka_unit_test(picture_of_another_kind),
-        cmocka_unit_test(a_terminal_gets_five_digits_and_units_below_the_names),
-        cmocka_unit_test(a_terminal_gets_what_fits),
-        cmocka_unit_test(a_terminal_gets_words_whole),
-        cmocka_unit_test(lines_are_broken_between_words),
-        cmocka_unit_test(a_terminal_shows_zones_in_colour),
-        cmocka_unit_test(a_terminal_gets_other_text_as_it_is),
-        cmocka_unit_test(profiles_are_drawn),
-        cmocka_unit_test(pictures_need_something_to_draw),
-        cmocka_unit_test(history_of_few_steps_is_drawn),
-        cmocka_unit_test(what_is_not_known_is_left_out),
-        cmocka_unit_test(picture_without_contact_says_so),
-        cmocka_unit_test(wear_keeps_some_profiles),
-        cmocka_unit_test(gnuplot_complaint_is_handed_on),
-        cmocka_unit_test(missing_gnuplot_is_named),
-        cmocka_unit_test(a_part_of_a_picture_is_none),
-        cmocka_unit_test(gnuplot_that_fails_is_told),
-        cmocka_unit_test(gnuplot_and_its_surroundings),
-        cmocka_unit_test(gnuplot_has_a_time_limit),
-        cmocka_unit_test(gnuplot_inherits_no_descriptor),
-        cmocka_unit_test(start_up_files_are_off),
-        cmocka_unit_test(columns_are_read),
-        cmocka_unit_test(bad_columns_are_named),
-        cmocka_unit_test(columns_without_memory),
-        cmocka_unit_test(papers_are_those_of_the_theory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -20,7 +20,7 @@ static char *content(FILE *file)
 /* ---- Axes -------------------------------------------------------------------------- */
 
 /* From each limit on the larger unit. */
-static void axes_have_units_that_fit(void **state)
+TEST(axes_have_units_that_fit)
 {
     static const struct {
         rb_units units;
@@ -50,7 +50,7 @@ static void axes_have_units_that_fit(void **state)
 }
 
 /* Lengths in half-widths where the numbers would be long. */
-static void lengths_are_shown_in_half_widths_or_units(void **state)
+TEST(lengths_are_shown_in_half_widths_or_units)
 {
     static const struct {
         rb_units units;
@@ -67,7 +67,7 @@ static void lengths_are_shown_in_half_widths_or_units(void **state)
     }
 }
 
-static void steps_are_one_two_or_five(void **state)
+TEST(steps_are_one_two_or_five)
 {
     static const double steps[][2] = {
         {1.0, 1.0},  {1.01, 2.0}, {2.0, 2.0},   {2.1, 5.0},  {5.0, 5.0},
@@ -85,7 +85,7 @@ static void steps_are_one_two_or_five(void **state)
 /* ---- Cells ------------------------------------------------------------------------- */
 
 /* A cell that a reader would split or skip stands in quotes. */
-static void cells_are_quoted_where_needed(void **state)
+TEST(cells_are_quoted_where_needed)
 {
     static const struct {
         const char *text, *cell;
@@ -139,7 +139,7 @@ static void quiet(noted *n)
 }
 
 /* Each note on both sides of its condition. */
-static void notes_begin_where_they_should(void **state)
+TEST(notes_begin_where_they_should)
 {
     static const char inaccurate[] = "large for linear elasticity",
                       broken[] = "far beyond linear elasticity",
@@ -368,7 +368,7 @@ static rb_report_study study_of(int nx, int ny, int with_y, double *room)
                              .shown = {"max_pressure", "MPa", value}};
 }
 
-static void studies_that_make_no_picture_are_named(void **state)
+TEST(studies_that_make_no_picture_are_named)
 {
     static double room[3 * MOST];
     static const struct {
@@ -431,7 +431,7 @@ static const char *drawn(const rb_report_study *s, int map)
 
 /* Colours between few values, labels in the middle of the contours; a result that is the
  * same in all cases has one colour and no contours. */
-static void maps_suit_the_number_of_cases(void **state)
+TEST(maps_suit_the_number_of_cases)
 {
     static double room[3 * MOST];
     rb_report_study s = study_of(3, 2, 1, room);
@@ -467,7 +467,7 @@ static void maps_suit_the_number_of_cases(void **state)
 }
 
 /* Points are marked where there are few; a power of ten stands beside the unit. */
-static void curves_suit_the_number_of_cases(void **state)
+TEST(curves_suit_the_number_of_cases)
 {
     static double room[3 * MOST];
     for (int many = 0; many < 2; many++) {
@@ -500,7 +500,7 @@ static void curves_suit_the_number_of_cases(void **state)
 }
 
 /* As many as there are, then again. */
-static void dashes_repeat(void **state)
+TEST(dashes_repeat)
 {
     for (int k = 0; k < 12; k++)
         for (int j = 0; j < k; j++)
@@ -510,7 +510,7 @@ static void dashes_repeat(void **state)
 
 /* ---- Files ------------------------------------------------------------------------- */
 
-static void vtk_files_are_known_by_their_names(void **state)
+TEST(vtk_files_are_known_by_their_names)
 {
     static const char *const none[] = {"a", "a.vtk", ".", "vti", "a.vti.gz"};
     rb_report_vtk_kind kind;
@@ -593,7 +593,7 @@ static rb_status dump(void *context)
 }
 
 /* All files or none, and none of an older dump. */
-static void matrices_are_written_all_or_none(void **state)
+TEST(matrices_are_written_all_or_none)
 {
     char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
@@ -615,20 +615,4 @@ static void matrices_are_written_all_or_none(void **state)
     assert_int_equal(system(command), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axes_have_units_that_fit),
-        cmocka_unit_test(lengths_are_shown_in_half_widths_or_units),
-        cmocka_unit_test(steps_are_one_two_or_five),
-        cmocka_unit_test(cells_are_quoted_where_needed),
-        cmocka_unit_test(notes_begin_where_they_should),
-        cmocka_unit_test(studies_that_make_no_picture_are_named),
-        cmocka_unit_test(maps_suit_the_number_of_cases),
-        cmocka_unit_test(curves_suit_the_number_of_cases),
-        cmocka_unit_test(dashes_repeat),
-        cmocka_unit_test(vtk_files_are_known_by_their_names),
-        cmocka_unit_test(matrices_are_written_all_or_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

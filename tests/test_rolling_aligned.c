@@ -23,7 +23,7 @@ static rb_rolling_case carter(int n)
 
 /* Errors of physics.md P1.2, within a factor of 1.2; the largest of the three at each n.
  */
-static void carters_law_has_second_order(void **state)
+TEST(carters_law_has_second_order)
 {
     static const double ratio[3] = {0.2, 0.5, 0.8};
     static const double error[3][4] = {{7.5e-5, 1.9e-5, 4.7e-6, 1.2e-6},
@@ -44,7 +44,7 @@ static void carters_law_has_second_order(void **state)
 }
 
 /* The first order of the upstream difference on the same elements. */
-static void the_upstream_difference_has_first_order(void **state)
+TEST(the_upstream_difference_has_first_order)
 {
     double error[2];
     for (int j = 0; j < 2; j++) {
@@ -59,7 +59,7 @@ static void the_upstream_difference_has_first_order(void **state)
     CHECK_REL(error[0] / error[1], 2.0, 0.05, "order");
 }
 
-static void a_given_force_finds_its_creepage(void **state)
+TEST(a_given_force_finds_its_creepage)
 {
     static const double error[3] = {1.3e-4, 2.7e-5, 1.1e-5};
     for (int j = 0; j < 3; j++) {
@@ -73,7 +73,7 @@ static void a_given_force_finds_its_creepage(void **state)
 }
 
 /* Slip and traction belong to the same point: no mean of two tractions. */
-static void dissipation_balances_the_creepage(void **state)
+TEST(dissipation_balances_the_creepage)
 {
     static const double error[3] = {1.3e-3, 2.7e-4, 9e-5};
     for (int j = 0; j < 3; j++) {
@@ -92,7 +92,7 @@ static void dissipation_balances_the_creepage(void **state)
     }
 }
 
-static void transforms_reach_seven_digits(void **state)
+TEST(transforms_reach_seven_digits)
 {
     const int n = getenv("ROLLBEM_TEST_ALL") ? 100000 : 20000;
     rb_rolling_case rc = carter(n);
@@ -106,7 +106,7 @@ static void transforms_reach_seven_digits(void **state)
 /* f = 4, V tau = a_g, xi R/(mu a_g) = 0.5, similar bodies: -0.390667 on elements aligned
  * to the exact edges.  Behind the leading edge the pressure changes within L/(1 + f), a
  * fifth of a_g, which the estimate of the edge has to resolve. */
-static void bodies_with_memory_converge_too(void **state)
+TEST(bodies_with_memory_converge_too)
 {
     static const double error[3] = {2e-3, 4e-4, 6e-5};
     for (int j = 0; j < 3; j++) {
@@ -121,7 +121,7 @@ static void bodies_with_memory_converge_too(void **state)
 }
 
 /* Bentall and Johnson, beta = 0.3, mu = beta/2: xi R/(beta a) = -0.715826. */
-static void dissimilar_bodies_roll_freely(void **state)
+TEST(dissimilar_bodies_roll_freely)
 {
     rb_rolling_case rc = carter(100);
     rc.a.poisson = 2.0 / 7.0; /* (1-2nu)/(2(1-nu)) = 0.3 */
@@ -134,7 +134,7 @@ static void dissimilar_bodies_roll_freely(void **state)
 
 /* Aligned and fitted elements of a wheel tend to the same force, both with second order.
  */
-static void wheels_take_aligned_elements_too(void **state)
+TEST(wheels_take_aligned_elements_too)
 {
     double ratio[3];
     for (int k = 0; k < 3; k++) {
@@ -154,7 +154,7 @@ static void wheels_take_aligned_elements_too(void **state)
     CHECK_ABS(ratio[1], ratio[2], 2e-5, "n = 200");
 }
 
-static void what_cannot_be_aligned_is_refused(void **state)
+TEST(what_cannot_be_aligned_is_refused)
 {
     rb_message why = {""};
     rb_rolling_case rc = carter(60);
@@ -173,7 +173,7 @@ static void what_cannot_be_aligned_is_refused(void **state)
 
 /* Where an edge jumps between two meshes, the pressure at it is no square root; the edge
  * that is told still lies before the midpoint of the first open element. */
-static void edge_lies_before_the_first_open_midpoint(void **state)
+TEST(edge_lies_before_the_first_open_midpoint)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -199,7 +199,7 @@ static void edge_lies_before_the_first_open_midpoint(void **state)
 
 /* Nine elements in contact tell the edges that others are aligned to; with fewer they
  * stay equal ones, and that is said. */
-static void nine_elements_tell_the_edges(void **state)
+TEST(nine_elements_tell_the_edges)
 {
     int nine = 0, eight = 0;
     for (int k = 0; k < 12; k++) {
@@ -226,7 +226,7 @@ static void nine_elements_tell_the_edges(void **state)
 
 /* The levels before the last one tell its edges to a part of an element: it is solved
  * once and corrected in a few steps. */
-static void many_elements_are_solved_once(void **state)
+TEST(many_elements_are_solved_once)
 {
     rb_rolling_case rc = carter(30000);
     rc.creep_ratio = 0.4;
@@ -245,21 +245,4 @@ static void many_elements_are_solved_once(void **state)
     rb_rolling_solution_free(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edge_lies_before_the_first_open_midpoint),
-        cmocka_unit_test(carters_law_has_second_order),
-        cmocka_unit_test(the_upstream_difference_has_first_order),
-        cmocka_unit_test(a_given_force_finds_its_creepage),
-        cmocka_unit_test(dissipation_balances_the_creepage),
-        cmocka_unit_test(transforms_reach_seven_digits),
-        cmocka_unit_test(bodies_with_memory_converge_too),
-        cmocka_unit_test(dissimilar_bodies_roll_freely),
-        cmocka_unit_test(wheels_take_aligned_elements_too),
-        cmocka_unit_test(what_cannot_be_aligned_is_refused),
-        cmocka_unit_test(nine_elements_tell_the_edges),
-        cmocka_unit_test(many_elements_are_solved_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

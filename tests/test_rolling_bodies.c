@@ -19,7 +19,7 @@ static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
 
 /* nu = 1/2 on a rigid plane and two similar cylinders of any nu are one problem,
  * Carter's. */
-static void similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane(void **state)
+TEST(similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane)
 {
     for (int k = 1; k <= 9; k += 4) {
         rb_rolling_case rigid = steady_wheel(RB_BEM_HALFPLANE, 0.5);
@@ -41,7 +41,7 @@ static void similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane(void 
 
 /* The same by boundary elements: two equal wheels with a hub are mirror images, so that
  * not even the shape of the wheels couples pressure and slip. */
-static void equal_wheels_lose_their_coupling(void **state)
+TEST(equal_wheels_lose_their_coupling)
 {
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.28);
     rc.b = rc.a;
@@ -55,7 +55,7 @@ static void equal_wheels_lose_their_coupling(void **state)
 }
 
 /* Who is A and who is B: mirrored, the creepage and the friction change their sign. */
-static void exchanging_the_bodies_mirrors_the_result(void **state)
+TEST(exchanging_the_bodies_mirrors_the_result)
 {
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.1);
     rc.b = rc.a;
@@ -100,7 +100,7 @@ static double finite_free_creepage(double ratio, double mu)
     return scaled;
 }
 
-static void finite_cylinders_tend_to_bentall_and_johnson(void **state)
+TEST(finite_cylinders_tend_to_bentall_and_johnson)
 {
     /* xi R/a of the closed forms: a/R = 0.1/25 there */
     const double mu_infinite = -3.67269e-4 / 0.004, mu_zero = -2.0 * 0.143834 * 0.457386;
@@ -121,7 +121,7 @@ static double log_uniform(double a, double b)
     return exp(uniform(log(a), log(b)));
 }
 
-static void force_control_never_fails_on_wheels(void **state)
+TEST(force_control_never_fails_on_wheels)
 {
     srand(5);
     for (int k = 0; k < 12; k++) {
@@ -148,7 +148,7 @@ static void force_control_never_fails_on_wheels(void **state)
 
 /* More than any machine has is refused before a matrix is allocated; a contact without a
  * matrix of the same size is not. */
-static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
+TEST(at_rest_relaxing_bodies_need_steps_in_time)
 {
     static const double time = 0.1, ratio = 1.0;
     rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
@@ -166,7 +166,7 @@ static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
     rb_rolling_mesh_free(&mesh);
 }
 
-static void absurd_sizes_are_refused(void **state)
+TEST(absurd_sizes_are_refused)
 {
     enum { n = 1000000 };
     rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
@@ -186,16 +186,4 @@ static void absurd_sizes_are_refused(void **state)
               "a wheel");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane),
-        cmocka_unit_test(equal_wheels_lose_their_coupling),
-        cmocka_unit_test(exchanging_the_bodies_mirrors_the_result),
-        cmocka_unit_test(finite_cylinders_tend_to_bentall_and_johnson),
-        cmocka_unit_test(force_control_never_fails_on_wheels),
-        cmocka_unit_test(at_rest_relaxing_bodies_need_steps_in_time),
-        cmocka_unit_test(absurd_sizes_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -27,7 +27,7 @@ static double modulus_of(const rb_rolling_case *rc)
 }
 
 /* Under parabolas it is Hertz's contact of 1/R = 1/R_A - 1/R_B, and Carter's. */
-static void parabolas_are_one_of_the_difference_of_curvatures(void **state)
+TEST(parabolas_are_one_of_the_difference_of_curvatures)
 {
     rb_rolling_case rc = in_bore(0.1, RB_GAP_PARABOLA);
     const double R = 1.1 * rc.a.radius / 0.1, a = 0.05;
@@ -44,7 +44,7 @@ static void parabolas_are_one_of_the_difference_of_curvatures(void **state)
 }
 
 /* Under circles the load of half-planes is in closed form at any arc. */
-static void a_conforming_arc_carries_the_load_of_its_closed_form(void **state)
+TEST(a_conforming_arc_carries_the_load_of_its_closed_form)
 {
     static const double wider[] = {0.5, 0.02, 1e-4}, part[] = {0.05, 0.3, 0.6, 0.9};
     for (int w = 0; w < 3; w++)
@@ -62,7 +62,7 @@ static void a_conforming_arc_carries_the_load_of_its_closed_form(void **state)
 
 /* Small arcs are Hertz's, with a first deviation of 3/8 a^2 R (1/R_A^3 - 1/R_B^3) and
  * a next one of 15/64 a^4 R (1/R_A^5 - 1/R_B^5) < 1.2 (a/R_A)^4. */
-static void a_journal_on_a_small_arc_is_hertzs(void **state)
+TEST(a_journal_on_a_small_arc_is_hertzs)
 {
     const double A = 50.0, B = 51.0, E = 1e5, R = A * B / (B - A);
     for (int k = 1; k <= 3; k++) {
@@ -76,7 +76,7 @@ static void a_journal_on_a_small_arc_is_hertzs(void **state)
 }
 
 /* The gap keeps its digits where the radii agree in most of theirs. */
-static void a_tight_bore_keeps_its_gap(void **state)
+TEST(a_tight_bore_keeps_its_gap)
 {
     for (int k = 1; k <= 12; k++) {
         const rb_rolling_case rc = in_bore(pow(10.0, -k), RB_GAP_EXACT);
@@ -91,7 +91,7 @@ static void a_tight_bore_keeps_its_gap(void **state)
 
 /* Dissimilar bodies roll freely by eta a/R of the combined radius, as outside each other
  * (Bentall and Johnson). */
-static void free_rolling_knows_the_combined_radius_alone(void **state)
+TEST(free_rolling_knows_the_combined_radius_alone)
 {
     double creepage[2];
     for (int k = 0; k < 2; k++) {
@@ -112,7 +112,7 @@ static void free_rolling_knows_the_combined_radius_alone(void **state)
     CHECK_REL(creepage[0], creepage[1], 1e-9, "free creepage");
 }
 
-static void what_does_not_fit_is_refused(void **state)
+TEST(what_does_not_fit_is_refused)
 {
     ACCEPTED(PLANE, rc.elastic_b = 1, rc.b.radius = -50.001);
     ACCEPTED(HUB, rc.elastic_b = 1, rc.b.radius = -51.0);
@@ -131,14 +131,4 @@ static void what_does_not_fit_is_refused(void **state)
             rc.zone = 55.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parabolas_are_one_of_the_difference_of_curvatures),
-        cmocka_unit_test(a_conforming_arc_carries_the_load_of_its_closed_form),
-        cmocka_unit_test(a_journal_on_a_small_arc_is_hertzs),
-        cmocka_unit_test(a_tight_bore_keeps_its_gap),
-        cmocka_unit_test(free_rolling_knows_the_combined_radius_alone),
-        cmocka_unit_test(what_does_not_fit_is_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

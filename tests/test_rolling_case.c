@@ -35,7 +35,7 @@ static const bad_value bad_values[] = {
     {"force ratio", FIELD(force_ratio), 1.1},
 };
 
-static void bad_values_are_refused_by_name(void **state)
+TEST(bad_values_are_refused_by_name)
 {
     for (size_t k = 0; k < sizeof bad_values / sizeof *bad_values; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
@@ -47,7 +47,7 @@ static void bad_values_are_refused_by_name(void **state)
     }
 }
 
-static void contradictions_name_both_sides(void **state)
+TEST(contradictions_name_both_sides)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.approach = rc.load = 1.0;
@@ -80,7 +80,7 @@ static void contradictions_name_both_sides(void **state)
 
 /* One of each list determines the contact, and any two of it contradict each other,
  * whatever the third ones are. */
-static void any_two_controls_are_refused(void **state)
+TEST(any_two_controls_are_refused)
 {
     static const struct {
         const char *text;
@@ -134,7 +134,7 @@ static void any_two_controls_are_refused(void **state)
     }
 }
 
-static void a_table_gap_needs_its_table(void **state)
+TEST(a_table_gap_needs_its_table)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.gap = RB_GAP_TABLE;
@@ -143,7 +143,7 @@ static void a_table_gap_needs_its_table(void **state)
 
 /* ---- Every range, from both sides -------------------------------------------------- */
 
-static void ranges_of_the_bodies(void **state)
+TEST(ranges_of_the_bodies)
 {
     ACCEPTED(rc.a.poisson = 0.5);
     REFUSED("Young's modulus", rc.a.young = INFINITY);
@@ -161,7 +161,7 @@ static void ranges_of_the_bodies(void **state)
     REFUSED("datum of body B", rc.elastic_b = 1; rc.b.datum = INFINITY);
 }
 
-static void ranges_of_layers_and_covers(void **state)
+TEST(ranges_of_layers_and_covers)
 {
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 0.0; rc.a.base_poisson = 9.0);
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = 0.5);
@@ -189,7 +189,7 @@ static void ranges_of_layers_and_covers(void **state)
             rc.a.core_poisson = 0.51);
 }
 
-static void ranges_of_relaxation(void **state)
+TEST(ranges_of_relaxation)
 {
     const rb_rolling_memory one = {1, {2.0}, {0.5}}, late = {1, {0.0}, {0.5}},
                             less = {1, {1.0}, {-0.1}}, endless = {1, {1.0}, {INFINITY}},
@@ -232,7 +232,7 @@ static void ranges_of_relaxation(void **state)
     ACCEPTED(PLANE; rc.b.memory = one; STEADY); /* B is rigid */
 }
 
-static void ranges_of_heat(void **state)
+TEST(ranges_of_heat)
 {
     ACCEPTED(WARM);
     ACCEPTED(WARM; TRANSIENT);
@@ -271,7 +271,7 @@ static void ranges_of_heat(void **state)
                            : &rc.heat_b.temperature) += 1.0);
 }
 
-static void ranges_of_the_interface(void **state)
+TEST(ranges_of_the_interface)
 {
     ACCEPTED(rc.yield_stress = 1.0; rc.hardening = -1.0);
     REFUSED("expected a normal compliance", rc.interlayer_normal = -1.0);
@@ -291,7 +291,7 @@ static void ranges_of_the_interface(void **state)
 }
 
 /* What friction can carry: mu P = 3. */
-static void ranges_of_the_loading(void **state)
+TEST(ranges_of_the_loading)
 {
     ACCEPTED(rc.load = 10.0; rc.force = 3.0);
     ACCEPTED(rc.load = 10.0; rc.force = -3.0);
@@ -325,7 +325,7 @@ static void ranges_of_the_loading(void **state)
     REFUSED("approach: expected > 0", rc.approach = INFINITY);
 }
 
-static void ranges_of_tables(void **state)
+TEST(ranges_of_tables)
 {
     const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
                  gone[3] = {-1.0, NAN, 1.0}, dent[3] = {0.0, 0.1, 0.0},
@@ -356,7 +356,7 @@ static int knows_newton(const char *name)
     return strcmp(name, "newton") == 0;
 }
 
-static void ranges_of_the_mesh(void **state)
+TEST(ranges_of_the_mesh)
 {
     ACCEPTED(rc.contact_elements = 3; rc.increments = 1000000);
     ACCEPTED(rc.contact_elements = 1 << 24; rc.outer_elements = 1 << 20);
@@ -438,7 +438,7 @@ static rb_rolling_case similar_half_planes(void)
             fail_msg("%s of %s: not %d", #function, #__VA_ARGS__, wanted);               \
     } while (0)
 
-static void carters_law_is_for_similar_half_planes(void **state)
+TEST(carters_law_is_for_similar_half_planes)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.0, 0.0};
     HOLDS(rb_rolling_carter_holds(&rc), 1, rc.creep = 0.001);
@@ -467,7 +467,7 @@ static void carters_law_is_for_similar_half_planes(void **state)
     HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 1.0 - 1.05 * e);
 }
 
-static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
+TEST(transforms_are_for_many_equal_elements_on_half_planes)
 {
     const rb_rolling_mesh large = {.n = RB_ROLLING_LARGE}, small = {.n = large.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
@@ -494,7 +494,7 @@ static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
           rc.elastic_b = 0);
 }
 
-static void the_list_of_bodies_has_an_end(void **state)
+TEST(the_list_of_bodies_has_an_end)
 {
     int n = 0;
     for (; rb_rolling_body_kind_get(n); n++)
@@ -506,7 +506,7 @@ static void the_list_of_bodies_has_an_end(void **state)
 
 /* ---- Derived quantities ------------------------------------------------------------ */
 
-static void hertz_closes_the_circle(void **state)
+TEST(hertz_closes_the_circle)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.elastic_b = 1;
@@ -521,7 +521,7 @@ static void hertz_closes_the_circle(void **state)
               "beta on a rigid plane, nu = 0.1");
 }
 
-static void the_half_width_of_an_approach_inverts_the_compression(void **state)
+TEST(the_half_width_of_an_approach_inverts_the_compression)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     const double a = 0.01 * rc.a.radius;
@@ -529,26 +529,4 @@ static void the_half_width_of_an_approach_inverts_the_compression(void **state)
     CHECK_REL(rb_rolling_derive(&rc).half_width, a, 1e-14, "delta = %g", rc.approach);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_values_are_refused_by_name),
-        cmocka_unit_test(contradictions_name_both_sides),
-        cmocka_unit_test(any_two_controls_are_refused),
-        cmocka_unit_test(a_table_gap_needs_its_table),
-        cmocka_unit_test(ranges_of_the_bodies),
-        cmocka_unit_test(ranges_of_layers_and_covers),
-        cmocka_unit_test(ranges_of_relaxation),
-        cmocka_unit_test(ranges_of_heat),
-        cmocka_unit_test(ranges_of_the_interface),
-        cmocka_unit_test(ranges_of_the_loading),
-        cmocka_unit_test(ranges_of_tables),
-        cmocka_unit_test(ranges_of_the_mesh),
-        cmocka_unit_test(carters_law_is_for_similar_half_planes),
-        cmocka_unit_test(transforms_are_for_many_equal_elements_on_half_planes),
-        cmocka_unit_test(the_list_of_bodies_has_an_end),
-        cmocka_unit_test(hertz_closes_the_circle),
-        cmocka_unit_test(the_half_width_of_an_approach_inverts_the_compression),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

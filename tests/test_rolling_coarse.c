@@ -32,7 +32,7 @@ static rb_rolling_case plane(void)
 
 /* Three fine elements in each coarse one: its middle has its values, the others lie on
  * the line to its neighbour; beyond the outermost midpoints they stay. */
-static void tractions_are_linear_between_midpoints(void **state)
+TEST(tractions_are_linear_between_midpoints)
 {
     line coarse, fine;
     const rb_rolling_case rc = plane();
@@ -74,7 +74,7 @@ static void make_contact(line *coarse, line *fine, int first, int last,
 
 /* Zones are those of the coarse element within its edges, which lie between midpoints:
  * there an open element takes the zone of its loaded neighbour. */
-static void zones_end_at_the_coarse_edges(void **state)
+TEST(zones_end_at_the_coarse_edges)
 {
     line coarse, fine;
     const rb_rolling_case rc = plane();
@@ -96,7 +96,7 @@ static void zones_end_at_the_coarse_edges(void **state)
 
 /* Elements of a fine line that is wider than the coarse one are open, and have the
  * tractions of its last element on their side. */
-static void nothing_is_known_beyond_the_coarse_line(void **state)
+TEST(nothing_is_known_beyond_the_coarse_line)
 {
     const rb_rolling_case rc = plane();
     line *coarse = calloc(1, sizeof *coarse);
@@ -129,7 +129,7 @@ static void nothing_is_known_beyond_the_coarse_line(void **state)
     free(coarse);
 }
 
-static void open_elements_inside_the_edges_join_their_neighbour(void **state)
+TEST(open_elements_inside_the_edges_join_their_neighbour)
 {
     line coarse, fine;
     const rb_rolling_case rc = plane();
@@ -151,7 +151,7 @@ static void open_elements_inside_the_edges_join_their_neighbour(void **state)
     assert_int_equal(fine.zone[10], RB_ZONE_SLIP_POSITIVE);
 }
 
-static void a_quarter_of_the_elements_or_40_start(void **state)
+TEST(a_quarter_of_the_elements_or_40_start)
 {
     assert_int_equal(rb_rolling_coarse_elements(0), 40);
     assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS - 1), 40);
@@ -160,14 +160,4 @@ static void a_quarter_of_the_elements_or_40_start(void **state)
     assert_int_equal(rb_rolling_coarse_elements(40000), 10000);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tractions_are_linear_between_midpoints),
-        cmocka_unit_test(zones_end_at_the_coarse_edges),
-        cmocka_unit_test(nothing_is_known_beyond_the_coarse_line),
-        cmocka_unit_test(open_elements_inside_the_edges_join_their_neighbour),
-        cmocka_unit_test(a_quarter_of_the_elements_or_40_start),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

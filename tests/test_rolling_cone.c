@@ -19,7 +19,7 @@ static rb_rolling_case dissimilar_rolling(void)
     return rc;
 }
 
-static void cone_solvers_agree_with_lemke(void **state)
+TEST(cone_solvers_agree_with_lemke)
 {
     static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
     rb_rolling_case rc = dissimilar_rolling();
@@ -49,7 +49,7 @@ static void cone_solvers_agree_with_lemke(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void a_case_may_name_a_cone_solver(void **state)
+TEST(a_case_may_name_a_cone_solver)
 {
     rb_rolling_case rc = dissimilar_rolling();
     rb_rolling_solution lemke, cone;
@@ -93,7 +93,7 @@ static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, do
     return RB_OK;
 }
 
-static void separated_elements_carry_nothing(void **state)
+TEST(separated_elements_carry_nothing)
 {
     static const rb_contact_cone_solvers rough = {knows_any, solve_roughly};
     rb_rolling_case rc = dissimilar_rolling();
@@ -120,12 +120,4 @@ static void separated_elements_carry_nothing(void **state)
     rb_rolling_model_free(&model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cone_solvers_agree_with_lemke),
-        cmocka_unit_test(a_case_may_name_a_cone_solver),
-        cmocka_unit_test(separated_elements_carry_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -43,7 +43,7 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
     return rc;
 }
 
-static void lemke_and_newton_agree_on_500_cases(void **state)
+TEST(lemke_and_newton_agree_on_500_cases)
 {
     srand(11);
     for (int k = 0; k < 500; k++) {
@@ -69,7 +69,7 @@ static void lemke_and_newton_agree_on_500_cases(void **state)
     }
 }
 
-static void force_control_never_fails_on_the_halfplane(void **state)
+TEST(force_control_never_fails_on_the_halfplane)
 {
     srand(12);
     for (int k = 0; k < 400; k++) {
@@ -89,7 +89,7 @@ static void force_control_never_fails_on_the_halfplane(void **state)
     }
 }
 
-static void full_sliding_gives_the_least_creepage(void **state)
+TEST(full_sliding_gives_the_least_creepage)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
         rb_rolling_case rc = rb_rolling_case_defaults();
@@ -119,7 +119,7 @@ static void full_sliding_gives_the_least_creepage(void **state)
 /* On tilted elements all that slides has another ratio than 1: a little more than 1 on a
  * small contact, so that something sticks; less on a large one, where there is no answer
  * and none is given out as one. */
-static void full_sliding_of_tilted_elements_is_checked(void **state)
+TEST(full_sliding_of_tilted_elements_is_checked)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -139,7 +139,7 @@ static void full_sliding_of_tilted_elements_is_checked(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void approach_control_finds_the_force_too_large(void **state)
+TEST(approach_control_finds_the_force_too_large)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -165,7 +165,7 @@ static void approach_control_finds_the_force_too_large(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void the_creepage_ratio_is_met_under_approach_control(void **state)
+TEST(the_creepage_ratio_is_met_under_approach_control)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -180,7 +180,7 @@ static void the_creepage_ratio_is_met_under_approach_control(void **state)
 
 /* A solve that misses its tolerance leaves its own tractions, with the force that was
  * asked for, whatever else was solved to learn whether friction can carry that force. */
-static void a_failed_force_leaves_its_iterate(void **state)
+TEST(a_failed_force_leaves_its_iterate)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -198,7 +198,7 @@ static void a_failed_force_leaves_its_iterate(void **state)
 
 /* Wide contacts answer a creepage with load: plain substitution was 2.5e-9 off after 40
  * rounds and called that solved. */
-static void the_creepage_ratio_is_met_where_the_load_depends_on_it(void **state)
+TEST(the_creepage_ratio_is_met_where_the_load_depends_on_it)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -216,7 +216,7 @@ static void the_creepage_ratio_is_met_where_the_load_depends_on_it(void **state)
 
 /* With the tolerance between the residual of the case and that of its free rolling, the
  * case is solved and says only that the free creepage is unknown. */
-static void a_failed_free_creepage_leaves_the_case_solved(void **state)
+TEST(a_failed_free_creepage_leaves_the_case_solved)
 {
     int unknown = 0;
     for (int n = 20; n < 32; n++) {
@@ -243,18 +243,4 @@ static void a_failed_free_creepage_leaves_the_case_solved(void **state)
     assert_true(unknown > 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lemke_and_newton_agree_on_500_cases),
-        cmocka_unit_test(force_control_never_fails_on_the_halfplane),
-        cmocka_unit_test(full_sliding_gives_the_least_creepage),
-        cmocka_unit_test(full_sliding_of_tilted_elements_is_checked),
-        cmocka_unit_test(approach_control_finds_the_force_too_large),
-        cmocka_unit_test(the_creepage_ratio_is_met_under_approach_control),
-        cmocka_unit_test(a_failed_force_leaves_its_iterate),
-        cmocka_unit_test(the_creepage_ratio_is_met_where_the_load_depends_on_it),
-        cmocka_unit_test(a_failed_free_creepage_leaves_the_case_solved),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

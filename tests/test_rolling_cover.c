@@ -82,7 +82,7 @@ static double difference(const double *A, const double *B, int block, int shape)
 
 /* Cover and core of one material are the wheel without a seam, but for a rigid motion,
  * which the boundary elements know to first order. */
-static void one_material_has_no_seam(void **state)
+TEST(one_material_has_no_seam)
 {
     const rb_bem_material same = {.shear = 3.0, .poisson = 0.3};
     for (int fine = 1; fine <= 2; fine++) {
@@ -97,7 +97,7 @@ static void one_material_has_no_seam(void **state)
     }
 }
 
-static void a_stiff_core_is_a_rigid_one(void **state)
+TEST(a_stiff_core_is_a_rigid_one)
 {
     const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
     double *B = flexibility(5.0, rigid, 5.0, 1.0), before = 0.0;
@@ -129,7 +129,7 @@ static int elements_of(rb_bem_cylinder cylinder, double half)
 
 /* The elements of a rim grow where its stress has died down: with all of them as small as
  * under the contact these would be 4000, and no more accurate. */
-static void a_thin_rim_has_few_elements(void **state)
+TEST(a_thin_rim_has_few_elements)
 {
     const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
     rb_bem_cylinder rim = {.radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.99};
@@ -155,7 +155,7 @@ static void a_thin_rim_has_few_elements(void **state)
 
 /* Neighbours differ by at most a fifth, on the cover and where it is bonded, twice as
  * fine by half of it. */
-static void neighbours_are_nearly_as_long(void **state)
+TEST(neighbours_are_nearly_as_long)
 {
     double ends[N + 2], longest[2] = {0.0, 0.0};
     int count[2];
@@ -188,7 +188,7 @@ static void neighbours_are_nearly_as_long(void **state)
 }
 
 /* The core's modulus says nothing of a wheel without a cover. */
-static void a_core_needs_its_cover(void **state)
+TEST(a_core_needs_its_cover)
 {
     double approach[2];
     for (int core = 0; core < 2; core++) {
@@ -208,7 +208,7 @@ static void a_core_needs_its_cover(void **state)
     CHECK_REL(approach[1], approach[0], 1e-14, "approach");
 }
 
-static void what_does_not_fit_is_refused(void **state)
+TEST(what_does_not_fit_is_refused)
 {
     const double ends[] = {-1.0, 0.0, 1.0, 2.0};
     rb_bem_cylinder c = {
@@ -280,7 +280,7 @@ static void solved(const rb_rolling_case *rc, rb_rolling_solution *s)
 }
 
 /* Deviations fall like d/R: halving it halves them; p0 and the width agree better. */
-static void a_thin_cover_is_the_layer(void **state)
+TEST(a_thin_cover_is_the_layer)
 {
     static const struct {
         double nu, core;
@@ -313,7 +313,7 @@ static void a_thin_cover_is_the_layer(void **state)
 
 /* The creep curve of the roll of examples/roll: sixty points in at most 3 s of the
  * processor; of three tries the best counts, where others work beside. */
-static void sixty_points_take_three_seconds(void **state)
+TEST(sixty_points_take_three_seconds)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     double best = INFINITY;
@@ -352,7 +352,7 @@ static void sixty_points_take_three_seconds(void **state)
 
 /* The covered roll below is the covered roll above with everything mirrored; the elements
  * of A's polygon weigh the tractions, which differ by (a/R)^2. */
-static void either_body_may_be_covered(void **state)
+TEST(either_body_may_be_covered)
 {
     rb_rolling_case rc = roll(10.0, 0.4, 1000.0);
     rb_rolling_solution s[2];
@@ -378,7 +378,7 @@ static void either_body_may_be_covered(void **state)
 
 /* What holds the cover carries the load, and below it lies the stress of a wheel without
  * a seam where both are of one material. */
-static void the_bond_carries_the_load(void **state)
+TEST(the_bond_carries_the_load)
 {
     static const double xy[] = {0.0, 1.0, 0.4, 2.0, -1.0, 0.5, 0.2, 4.0, 1.5, 3.0};
     enum { POINTS = 5 };
@@ -410,7 +410,7 @@ static void the_bond_carries_the_load(void **state)
     }
 }
 
-static void bad_covers_are_refused(void **state)
+TEST(bad_covers_are_refused)
 {
     static const char *const word[5] = {"add --support hub", "less than the radius",
                                         "compressible", "core", "hub of radius"};
@@ -433,7 +433,7 @@ static void bad_covers_are_refused(void **state)
 
 /* A core of next to no stiffness holds no cover: no state is told, and the model serves
  * the next case. */
-static void a_cover_that_nothing_holds_is_singular(void **state)
+TEST(a_cover_that_nothing_holds_is_singular)
 {
     rb_rolling_case rc = roll(5.0, 0.3, 1e-90);
     rb_rolling_model model = {0};
@@ -467,7 +467,7 @@ static void a_cover_that_nothing_holds_is_singular(void **state)
 }
 
 /* A cover of nu = 1/2 carries by waves as short as it is thick. */
-static void elements_longer_than_the_cover_are_refused(void **state)
+TEST(elements_longer_than_the_cover_are_refused)
 {
     rb_rolling_case rc = roll(0.2, 0.5, 0.0);
     rb_rolling_solution s;
@@ -480,22 +480,4 @@ static void elements_longer_than_the_cover_are_refused(void **state)
     rb_rolling_solution_free(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_material_has_no_seam),
-        cmocka_unit_test(a_stiff_core_is_a_rigid_one),
-        cmocka_unit_test(a_thin_rim_has_few_elements),
-        cmocka_unit_test(neighbours_are_nearly_as_long),
-        cmocka_unit_test(a_core_needs_its_cover),
-        cmocka_unit_test(what_does_not_fit_is_refused),
-        cmocka_unit_test(a_thin_cover_is_the_layer),
-        cmocka_unit_test(sixty_points_take_three_seconds),
-        cmocka_unit_test(either_body_may_be_covered),
-        cmocka_unit_test(the_bond_carries_the_load),
-        cmocka_unit_test(bad_covers_are_refused),
-        cmocka_unit_test(a_cover_that_nothing_holds_is_singular),
-        cmocka_unit_test(elements_longer_than_the_cover_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

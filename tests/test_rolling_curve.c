@@ -64,7 +64,7 @@ static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case 
     rb_rolling_solution_free(&s);
 }
 
-static void every_point_is_its_case(void **state)
+TEST(every_point_is_its_case)
 {
     for (int over = 0; over < 2; over++) {
         rb_rolling_case rc = carter(40);
@@ -95,7 +95,7 @@ static void every_point_is_its_case(void **state)
     }
 }
 
-static void a_single_point_is_the_first(void **state)
+TEST(a_single_point_is_the_first)
 {
     rb_rolling_case rc = carter(20);
     rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 0.9, 1);
@@ -105,7 +105,7 @@ static void a_single_point_is_the_first(void **state)
 }
 
 /* Equal steps of its logarithm, each with bodies of its own. */
-static void speeds_have_their_own_bodies(void **state)
+TEST(speeds_have_their_own_bodies)
 {
     rb_rolling_case rc = relaxing();
     rb_rolling_curve c = run(&rc, RB_OVER_SPEED, 100.0, 10000.0, 3);
@@ -125,7 +125,7 @@ static void speeds_have_their_own_bodies(void **state)
 }
 
 /* Between midpoints of four elements nothing touches. */
-static void a_curve_without_contact_says_so(void **state)
+TEST(a_curve_without_contact_says_so)
 {
     rb_rolling_case rc = relaxing();
     rb_message why = {""};
@@ -146,7 +146,7 @@ static void a_curve_without_contact_says_so(void **state)
 
 /* Unlike bodies move the contact: fitted and aligned meshes follow it, and every point is
  * still its case. */
-static void meshes_follow_the_contact(void **state)
+TEST(meshes_follow_the_contact)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(40);
@@ -168,7 +168,7 @@ static void meshes_follow_the_contact(void **state)
 }
 
 /* A friction law that falls: there and back, each point from the one before it. */
-static void falling_friction_goes_there_and_back(void **state)
+TEST(falling_friction_goes_there_and_back)
 {
     rb_rolling_case rc = carter(24);
     rc.friction.law = RB_FRICTION_exponential;
@@ -194,7 +194,7 @@ static void falling_friction_goes_there_and_back(void **state)
 
 /* A mild law has one solution, so that each point is its case; a heated one has its
  * temperature too. */
-static void warm_curves_have_the_temperatures_of_their_cases(void **state)
+TEST(warm_curves_have_the_temperatures_of_their_cases)
 {
     rb_rolling_case rc = carter(24);
     rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
@@ -223,7 +223,7 @@ static void refused(rb_rolling_case rc, rb_rolling_range range, const char *word
     rb_rolling_curve_free(&c);
 }
 
-static void ranges_that_make_no_sense_are_refused(void **state)
+TEST(ranges_that_make_no_sense_are_refused)
 {
     rb_rolling_case smooth = carter(20);
     smooth.mu = 0.0;
@@ -249,7 +249,7 @@ static void ranges_that_make_no_sense_are_refused(void **state)
 
 /* A mesh is fitted again, which takes many iterations, where the point's solution on the
  * mesh of the first one has an edge that is a hundredth of the half-width away. */
-static void a_hundredth_of_the_half_width_is_followed(void **state)
+TEST(a_hundredth_of_the_half_width_is_followed)
 {
     int stay = 0, follow = 0;
     for (int k = 0; k < 6; k++) {
@@ -284,18 +284,4 @@ static void a_hundredth_of_the_half_width_is_followed(void **state)
     assert_true(stay > 0 && follow > 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_point_is_its_case),
-        cmocka_unit_test(a_single_point_is_the_first),
-        cmocka_unit_test(speeds_have_their_own_bodies),
-        cmocka_unit_test(a_curve_without_contact_says_so),
-        cmocka_unit_test(meshes_follow_the_contact),
-        cmocka_unit_test(a_hundredth_of_the_half_width_is_followed),
-        cmocka_unit_test(falling_friction_goes_there_and_back),
-        cmocka_unit_test(warm_curves_have_the_temperatures_of_their_cases),
-        cmocka_unit_test(ranges_that_make_no_sense_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -282,7 +282,7 @@ static void compare(const pair *b, int k)
     rb_rolling_solution_free(&s);
 }
 
-static void steady_rolling_of_dissimilar_bodies(void **state)
+TEST(steady_rolling_of_dissimilar_bodies)
 {
     static const pair pairs[] = {
         {900.0, 0.1, 1e9, 0.3, 0.3, -0.5},    {900.0, 0.1, 1e9, 0.3, 0.3, 0.5},
@@ -306,7 +306,7 @@ static double creepage_at(const rb_rolling_history *h, double distance)
     return NAN;
 }
 
-static void dissimilar_bodies_roll_from_rest(void **state)
+TEST(dissimilar_bodies_roll_from_rest)
 {
     static const pair pairs[] = {{900.0, 0.1, 1e9, 0.3, 0.3, -0.5},
                                  {2100., 0.28, 700.0, 0.0, 0.3, 0.6}};
@@ -338,10 +338,4 @@ static void dissimilar_bodies_roll_from_rest(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steady_rolling_of_dissimilar_bodies),
-        cmocka_unit_test(dissimilar_bodies_roll_from_rest)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

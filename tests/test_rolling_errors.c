@@ -20,7 +20,7 @@ static rb_rolling_case carter(int elements)
     return rc;
 }
 
-static void bars_are_three_or_five_times_the_spread(void **state)
+TEST(bars_are_three_or_five_times_the_spread)
 {
     static const double runs[][3] = {
         {1.0, 1.2, 1.1},
@@ -41,7 +41,7 @@ static void bars_are_three_or_five_times_the_spread(void **state)
     assert_true(isnan(rb_rolling_contact_error(runs[0], NAN)));
 }
 
-static void coarser_runs_have_half_and_seven_tenths(void **state)
+TEST(coarser_runs_have_half_and_seven_tenths)
 {
     static const int elements[] = {20, 28, 40}, steps[] = {4, 5, 7};
     static const double boundary[] = {3.0, 3.0, 1.5};
@@ -69,7 +69,7 @@ static void coarser_runs_have_half_and_seven_tenths(void **state)
     assert_int_equal(rb_rolling_error_run(&rc, 0).steps, 0);
 }
 
-static void too_few_elements_cannot_be_halved(void **state)
+TEST(too_few_elements_cannot_be_halved)
 {
     rb_rolling_case rc = carter(12);
     rb_message why = {""};
@@ -89,7 +89,7 @@ static void too_few_elements_cannot_be_halved(void **state)
     CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_OK);
 }
 
-static void the_power_of_an_edge_is_that_of_a_root(void **state)
+TEST(the_power_of_an_edge_is_that_of_a_root)
 {
     rb_rolling_case rc = carter(40);
     CHECK_REL(rb_rolling_edge_power(&rc, 500.0, -0.01, 2.0, 0.25),
@@ -155,7 +155,7 @@ static void check_bars(const rb_rolling_case *rc)
     rb_rolling_solution_free(&own);
 }
 
-static void every_scalar_has_its_bar(void **state)
+TEST(every_scalar_has_its_bar)
 {
     rb_rolling_case rc = carter(40);
     check_bars(&rc);
@@ -167,7 +167,7 @@ static void every_scalar_has_its_bar(void **state)
 
 /* ---- Histories --------------------------------------------------------------------- */
 
-static void a_history_has_bars_of_its_steps(void **state)
+TEST(a_history_has_bars_of_its_steps)
 {
     const double distance[] = {0.0, 0.0, 0.6}, load[] = {300.0, 500.0, 500.0},
                  force[] = {0.0, -50.0, -60.0};
@@ -224,7 +224,7 @@ static void a_history_has_bars_of_its_steps(void **state)
 
 /* ---- To an accuracy ---------------------------------------------------------------- */
 
-static void an_accuracy_is_reached_by_more_elements(void **state)
+TEST(an_accuracy_is_reached_by_more_elements)
 {
     static const double accuracy[] = {0.9, 0.05, 0.01};
     int before = 0;
@@ -250,7 +250,7 @@ static void an_accuracy_is_reached_by_more_elements(void **state)
 
 /* Unlike bodies under little friction: their creepage of free rolling (Bentall and
  * Johnson) is hundreds of mu a/R, and its error is judged by itself. */
-static void little_friction_asks_for_no_more_elements(void **state)
+TEST(little_friction_asks_for_no_more_elements)
 {
     rb_rolling_case rc = carter(40);
     rb_rolling_solution s;
@@ -273,7 +273,7 @@ static void little_friction_asks_for_no_more_elements(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void what_is_no_accuracy_is_refused(void **state)
+TEST(what_is_no_accuracy_is_refused)
 {
     static const double accuracy[] = {0.0, 1.0, -0.1, NAN};
     for (int k = 0; k < 4; k++) {
@@ -290,7 +290,7 @@ static void what_is_no_accuracy_is_refused(void **state)
 }
 
 /* Each that makes coarser runs refuses a case that cannot be halved. */
-static void nothing_is_halved_below_its_least(void **state)
+TEST(nothing_is_halved_below_its_least)
 {
     rb_rolling_case rc = carter(4);
     rb_rolling_solution s = {0};
@@ -314,7 +314,7 @@ static void nothing_is_halved_below_its_least(void **state)
 }
 
 /* The limit is told with what was reached; equal elements hear of fitted ones. */
-static void an_accuracy_that_no_mesh_has_is_refused_at_once(void **state)
+TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(12);
@@ -334,7 +334,7 @@ static void an_accuracy_that_no_mesh_has_is_refused_at_once(void **state)
 }
 
 /* Memory that is refused to a later round leaves the best solution so far. */
-static void a_later_round_that_fails_leaves_the_one_before(void **state)
+TEST(a_later_round_that_fails_leaves_the_one_before)
 {
     int none = 0, some = 0;
     for (int count = 50; count < 3000; count = count * 5 / 4) {
@@ -362,7 +362,7 @@ static void a_later_round_that_fails_leaves_the_one_before(void **state)
 
 /* Under a given force the creepage is what has to be accurate, in units of full sliding.
  */
-static void a_given_force_has_an_accurate_creepage(void **state)
+TEST(a_given_force_has_an_accurate_creepage)
 {
     static const double accuracy[] = {0.1, 0.05, 0.02};
     for (int k = 0; k < 6; k++) {
@@ -384,7 +384,7 @@ static void a_given_force_has_an_accurate_creepage(void **state)
 }
 
 /* Twice the elements make twice the steps: what is told is the solution of that case. */
-static void accuracy_takes_more_steps_too(void **state)
+TEST(accuracy_takes_more_steps_too)
 {
     rb_rolling_case rc = carter(12);
     rb_rolling_solution s;
@@ -404,23 +404,4 @@ static void accuracy_takes_more_steps_too(void **state)
     rb_rolling_solution_free(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bars_are_three_or_five_times_the_spread),
-        cmocka_unit_test(coarser_runs_have_half_and_seven_tenths),
-        cmocka_unit_test(too_few_elements_cannot_be_halved),
-        cmocka_unit_test(the_power_of_an_edge_is_that_of_a_root),
-        cmocka_unit_test(every_scalar_has_its_bar),
-        cmocka_unit_test(a_history_has_bars_of_its_steps),
-        cmocka_unit_test(an_accuracy_is_reached_by_more_elements),
-        cmocka_unit_test(little_friction_asks_for_no_more_elements),
-        cmocka_unit_test(what_is_no_accuracy_is_refused),
-        cmocka_unit_test(nothing_is_halved_below_its_least),
-        cmocka_unit_test(an_accuracy_that_no_mesh_has_is_refused_at_once),
-        cmocka_unit_test(a_later_round_that_fails_leaves_the_one_before),
-        cmocka_unit_test(accuracy_takes_more_steps_too),
-        cmocka_unit_test(a_given_force_has_an_accurate_creepage),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

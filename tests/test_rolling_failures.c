@@ -108,7 +108,7 @@ static void refuse(const char *what, rb_status (*work)(void *), rb_rolling_case 
 
 /* ---- Cases ------------------------------------------------------------------------- */
 
-static void laws_and_heat(void **state)
+TEST(laws_and_heat)
 {
     rb_rolling_case rc = plane(6);
     rc.friction.law = RB_FRICTION_exponential;
@@ -135,7 +135,7 @@ static void laws_and_heat(void **state)
     refuse("warm steps", solve, &rc);
 }
 
-static void stress_wear_and_curves(void **state)
+TEST(stress_wear_and_curves)
 {
     rb_rolling_case rc = plane(6);
     refuse("shakedown", find_shakedown, &rc);
@@ -148,7 +148,7 @@ static void stress_wear_and_curves(void **state)
     refuse("fretting", wear, &rc);
 }
 
-static void steps_that_yield(void **state)
+TEST(steps_that_yield)
 {
     rb_rolling_case rc = plane(6);
     rc.formulation = RB_TRANSIENT;
@@ -160,7 +160,7 @@ static void steps_that_yield(void **state)
 }
 
 /* Two lobes, on a wheel: places that no element sees. */
-static void patches_of_wheels(void **state)
+TEST(patches_of_wheels)
 {
     enum { ROWS = 41 };
     double x[ROWS], gap[ROWS];
@@ -185,20 +185,10 @@ static void patches_of_wheels(void **state)
     rb_rolling_profile_free(profile);
 }
 
-static void products_of_large_contacts(void **state)
+TEST(products_of_large_contacts)
 {
     rb_rolling_case rc = plane(RB_ROLLING_LARGE);
     refuse("products", pose_large, &rc);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(laws_and_heat),
-        cmocka_unit_test(stress_wear_and_curves),
-        cmocka_unit_test(steps_that_yield),
-        cmocka_unit_test(patches_of_wheels),
-        cmocka_unit_test(products_of_large_contacts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

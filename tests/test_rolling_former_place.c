@@ -60,7 +60,7 @@ static double largest(const pressed *d)
 
 /* A step of k elements finds what stands k midpoints upstream; half elements lie between,
  * where the displacement is smooth. */
-static void whole_elements_ahead_are_their_midpoints(void **state)
+TEST(whole_elements_ahead_are_their_midpoints)
 {
     for (int k = 0; k < 4; k++) { /* with body B, with an interface */
         rb_rolling_case rc = plane(k % 2, N);
@@ -84,7 +84,7 @@ static void whole_elements_ahead_are_their_midpoints(void **state)
 
 /* A longer mesh has midpoints where the shorter one has none; half a step lies on the
  * line between its neighbours as far as the bodies differ from half-planes. */
-static void places_beyond_the_mesh_are_those_of_a_longer_one(void **state)
+TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
 {
     const rb_rolling_case rc = plane(1, N), longer = plane(1, N + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
@@ -113,7 +113,7 @@ static void places_beyond_the_mesh_are_those_of_a_longer_one(void **state)
 }
 
 /* A wheel differs from its half-plane by what is smooth along the surface. */
-static void a_wheel_is_nearly_on_the_line_of_its_midpoints(void **state)
+TEST(a_wheel_is_nearly_on_the_line_of_its_midpoints)
 {
     rb_rolling_case rc = plane(0, N);
     rc.a.support = RB_BEM_HUB;
@@ -148,7 +148,7 @@ static void a_wheel_is_nearly_on_the_line_of_its_midpoints(void **state)
 
 /* Without a matrix, by distance alone; the interface acts under each point, linear
  * between midpoints. */
-static void large_contacts_look_ahead_alike(void **state)
+TEST(large_contacts_look_ahead_alike)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(1, LARGE);
@@ -187,7 +187,7 @@ static void large_contacts_look_ahead_alike(void **state)
     }
 }
 
-static void memory_for_what_is_ahead_may_be_refused(void **state)
+TEST(memory_for_what_is_ahead_may_be_refused)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(0, k ? LARGE : N);
@@ -205,7 +205,7 @@ static void memory_for_what_is_ahead_may_be_refused(void **state)
 
 /* Half-way through a half-plane without a matrix: one element ahead is the next midpoint.
  */
-static void large_contacts_know_what_is_ahead(void **state)
+TEST(large_contacts_know_what_is_ahead)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.support = RB_BEM_HALFPLANE;
@@ -243,7 +243,7 @@ static void large_contacts_know_what_is_ahead(void **state)
 }
 
 /* What a step of 1.3 elements brings, with a matrix and by transforms. */
-static void an_interface_moves_with_the_steps(void **state)
+TEST(an_interface_moves_with_the_steps)
 {
     double *w[2];
     const int n = 1501;
@@ -279,16 +279,4 @@ static void an_interface_moves_with_the_steps(void **state)
     free(p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_elements_ahead_are_their_midpoints),
-        cmocka_unit_test(places_beyond_the_mesh_are_those_of_a_longer_one),
-        cmocka_unit_test(a_wheel_is_nearly_on_the_line_of_its_midpoints),
-        cmocka_unit_test(large_contacts_look_ahead_alike),
-        cmocka_unit_test(large_contacts_know_what_is_ahead),
-        cmocka_unit_test(an_interface_moves_with_the_steps),
-        cmocka_unit_test(memory_for_what_is_ahead_may_be_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -60,7 +60,7 @@ static double S(const posed *d, int i, int j)
 
 /* ---- The operator ------------------------------------------------------------------ */
 
-static void steady_slip_is_the_difference_upstream(void **state)
+TEST(steady_slip_is_the_difference_upstream)
 {
     const rb_rolling_case steady = plane(RB_STEADY), rest = plane(RB_STATIC);
     posed rolls = pose(&steady, NULL), stands = pose(&rest, NULL);
@@ -82,7 +82,7 @@ static void steady_slip_is_the_difference_upstream(void **state)
 
 /* ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4); what the interface has under its own element
  * takes t = 1. */
-static void the_second_order_operator_has_four_points(void **state)
+TEST(the_second_order_operator_has_four_points)
 {
     const double t = 0.0740956,
                  a[4] = {(1 - t) / 4, (3 + 3 * t) / 4, -(5 + 3 * t) / 4, (1 + t) / 4};
@@ -120,7 +120,7 @@ static void the_second_order_operator_has_four_points(void **state)
 
 /* What a wheel has over the half-plane of its material is continued on a line, over the
  * two points outside of which the second-order operator asks. */
-static void displacement_outside_continues_the_wheel(void **state)
+TEST(displacement_outside_continues_the_wheel)
 {
     const double t = 0.0740956, first = (1 - t) / 4, last = (1 + t) / 4,
                  middle[2] = {(3 + 3 * t) / 4, -(5 + 3 * t) / 4};
@@ -161,7 +161,7 @@ static void answer_to(posed *d, int of, double *answer)
 
 /* Half-planes answer to distances alone, with products as with matrices: the answer to a
  * traction moves with it, from the first element to the last one. */
-static void products_move_with_the_tractions(void **state)
+TEST(products_move_with_the_tractions)
 {
     enum { n = RB_ROLLING_LARGE };
     static double here[2 * n], there[2 * n];
@@ -187,7 +187,7 @@ static void products_move_with_the_tractions(void **state)
 
 /* ---- What moves the surfaces ------------------------------------------------------- */
 
-static void a_step_begins_with_its_past(void **state)
+TEST(a_step_begins_with_its_past)
 {
     double before[N], u[N];
     for (int i = 0; i < N; i++) {
@@ -217,7 +217,7 @@ static void a_step_begins_with_its_past(void **state)
 
 /* u_i = recall_0 u_i+1 + recall_1 u_i+2 + own |plastic_i|: steadily by the order of the
  * slip, in a step of its own. */
-static void what_yields_follows_the_material(void **state)
+TEST(what_yields_follows_the_material)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
@@ -235,7 +235,7 @@ static void what_yields_follows_the_material(void **state)
 }
 
 /* An element softens by less than its slip sets free: the limit is 1/(own S_ii). */
-static void softening_has_a_limit(void **state)
+TEST(softening_has_a_limit)
 {
     rb_rolling_case rc = plane(RB_STEADY);
     rc.yield_stress = 50.0;
@@ -266,7 +266,7 @@ static void softening_has_a_limit(void **state)
 /* ---- Forces ------------------------------------------------------------------------ */
 
 /* Along the surface of the wheel normals turn by x/R. */
-static void normals_of_the_surface_turn_with_it(void **state)
+TEST(normals_of_the_surface_turn_with_it)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(RB_STATIC);
@@ -291,7 +291,7 @@ static void normals_of_the_surface_turn_with_it(void **state)
 
 /* ---- Controls ---------------------------------------------------------------------- */
 
-static void each_control_gives_its_unknown(void **state)
+TEST(each_control_gives_its_unknown)
 {
     rb_rolling_case rc = plane(RB_STEADY);
     posed d = pose(&rc, NULL);
@@ -363,7 +363,7 @@ static void each_control_gives_its_unknown(void **state)
 
 /* ---- Scales ------------------------------------------------------------------------ */
 
-static void scales_make_the_diagonals_one(void **state)
+TEST(scales_make_the_diagonals_one)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(RB_STEADY);
@@ -386,7 +386,7 @@ static void scales_make_the_diagonals_one(void **state)
     }
 }
 
-static void ratios_come_from_load_and_friction(void **state)
+TEST(ratios_come_from_load_and_friction)
 {
     rb_rolling_case rc = plane(RB_STEADY);
     rb_rolling_model model;
@@ -408,7 +408,7 @@ static void ratios_come_from_load_and_friction(void **state)
 }
 
 /* Q of Coulomb's full sliding is -mu P beyond that creepage, whatever couples. */
-static void everything_slides_at_the_sliding_creepage(void **state)
+TEST(everything_slides_at_the_sliding_creepage)
 {
     static const double mu[] = {0.05, 0.3, 1.0};
     for (int k = 0; k < 3; k++) {
@@ -425,21 +425,4 @@ static void everything_slides_at_the_sliding_creepage(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steady_slip_is_the_difference_upstream),
-        cmocka_unit_test(the_second_order_operator_has_four_points),
-        cmocka_unit_test(displacement_outside_continues_the_wheel),
-        cmocka_unit_test(products_move_with_the_tractions),
-        cmocka_unit_test(a_step_begins_with_its_past),
-        cmocka_unit_test(what_yields_follows_the_material),
-        cmocka_unit_test(softening_has_a_limit),
-        cmocka_unit_test(normals_of_the_surface_turn_with_it),
-        cmocka_unit_test(each_control_gives_its_unknown),
-        cmocka_unit_test(scales_make_the_diagonals_one),
-        cmocka_unit_test(ratios_come_from_load_and_friction),
-        cmocka_unit_test(everything_slides_at_the_sliding_creepage),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -57,7 +57,7 @@ static void check_residual(const rb_rolling_model *model)
 }
 
 /* Lemke on both forms, Newton, a cone solver; every formulation and mesh. */
-static void each_element_has_its_bound(void **state)
+TEST(each_element_has_its_bound)
 {
     rb_rolling_model first = {0};
     for (int k = 0; k < 8; k++) {
@@ -105,7 +105,7 @@ static void each_element_has_its_bound(void **state)
 }
 
 /* Matrices and transforms, transient steps, a curve: the same law everywhere. */
-static void large_contacts_and_steps_too(void **state)
+TEST(large_contacts_and_steps_too)
 {
     rb_rolling_case rc = steady();
     rc.contact_elements = 1501;
@@ -134,7 +134,7 @@ static void large_contacts_and_steps_too(void **state)
 }
 
 /* One value everywhere gives the bytes of one coefficient. */
-static void an_even_table_is_one_coefficient(void **state)
+TEST(an_even_table_is_one_coefficient)
 {
     static const double even[] = {0.4, 0.4};
     rb_rolling_case rc = steady();
@@ -153,7 +153,7 @@ static void an_even_table_is_one_coefficient(void **state)
 /* ---- A yielding interface ---------------------------------------------------------- */
 
 /* Its own displacement, and nothing else, is what F r has more. */
-static void an_interface_yields_by_itself(void **state)
+TEST(an_interface_yields_by_itself)
 {
     for (int large = 0; large < 2; large++) {
         rb_rolling_case rc = steady();
@@ -186,7 +186,7 @@ static void an_interface_yields_by_itself(void **state)
 
 /* Steady rolling over an interface much softer than the bodies: bristles, whose friction
  * grows by xi / c per length from the leading edge on until it meets the bound. */
-static void a_soft_interface_is_a_brush(void **state)
+TEST(a_soft_interface_is_a_brush)
 {
     const double c = 1e-2;
     for (int large = 0; large < 2; large++) {
@@ -215,7 +215,7 @@ static void a_soft_interface_is_a_brush(void **state)
     }
 }
 
-static void bad_tables_are_refused(void **state)
+TEST(bad_tables_are_refused)
 {
     static const double back[] = {0.0, 0.0}, negative[] = {0.4, -0.1};
     const struct {
@@ -239,13 +239,4 @@ static void bad_tables_are_refused(void **state)
     assert_non_null(strstr(why.text, "tangential compliance >= 0"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_element_has_its_bound),
-                                       cmocka_unit_test(large_contacts_and_steps_too),
-                                       cmocka_unit_test(an_even_table_is_one_coefficient),
-                                       cmocka_unit_test(an_interface_yields_by_itself),
-                                       cmocka_unit_test(a_soft_interface_is_a_brush),
-                                       cmocka_unit_test(bad_tables_are_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -42,7 +42,7 @@ static void check_honest(const rb_rolling_case *rc, const rb_rolling_solution *s
     CHECK_MAX(s->load_error, 1e-10, "load error");
 }
 
-static void hertz_at_any_alignment(void **state)
+TEST(hertz_at_any_alignment)
 {
     for (int k = 0; k <= 4; k++) {
         rb_rolling_case rc = incompressible_wheel();
@@ -66,7 +66,7 @@ static void hertz_at_any_alignment(void **state)
 }
 
 /* The compression of a half-cylinder, which the default datum reproduces (B6). */
-static void hertz_by_approach(void **state)
+TEST(hertz_by_approach)
 {
     rb_rolling_case rc = incompressible_wheel();
     const double a = rc.half_width, R = rc.a.radius;
@@ -91,7 +91,7 @@ static rb_rolling_solution rolling_at(rb_rolling_case rc, double ratio)
     return solved(&rc);
 }
 
-static void carter_on_200_equal_elements(void **state)
+TEST(carter_on_200_equal_elements)
 {
     for (int k = 1; k <= 9; k++) {
         rb_rolling_case rc = incompressible_wheel();
@@ -109,7 +109,7 @@ static void carter_on_200_equal_elements(void **state)
     }
 }
 
-static void carter_halves_its_error_with_the_mesh(void **state)
+TEST(carter_halves_its_error_with_the_mesh)
 {
     for (int k = 2; k <= 8; k += 3) {
         double error[2];
@@ -126,7 +126,7 @@ static void carter_halves_its_error_with_the_mesh(void **state)
     }
 }
 
-static void beyond_full_sliding_everything_slides(void **state)
+TEST(beyond_full_sliding_everything_slides)
 {
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s = rolling_at(rc, -1.2);
@@ -135,7 +135,7 @@ static void beyond_full_sliding_everything_slides(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void carter_on_a_fitted_mesh(void **state)
+TEST(carter_on_a_fitted_mesh)
 {
     const int n[] = {50, 100, 200};
     const double bound[] = {3e-4, 1.5e-4, 3e-5};
@@ -153,7 +153,7 @@ static void carter_on_a_fitted_mesh(void **state)
         }
 }
 
-static void carter_under_force_control(void **state)
+TEST(carter_under_force_control)
 {
     for (int k = 1; k <= 10; k++) {
         const double ratio = k == 10 ? 0.99 : 0.1 * k;
@@ -168,7 +168,7 @@ static void carter_under_force_control(void **state)
     }
 }
 
-static void both_forms_agree(void **state)
+TEST(both_forms_agree)
 {
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = incompressible_wheel();
@@ -192,7 +192,7 @@ static void both_forms_agree(void **state)
 }
 
 /* On the half-plane nothing but the upstream difference knows left from right. */
-static void the_signs_of_creepage_mirror_for_similar_bodies(void **state)
+TEST(the_signs_of_creepage_mirror_for_similar_bodies)
 {
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution plus = rolling_at(rc, 0.4), minus = rolling_at(rc, -0.4);
@@ -224,7 +224,7 @@ static rb_rolling_case aluminium_on_steel(double mu)
     return rc;
 }
 
-static void bentall_johnson_free_rolling(void **state)
+TEST(bentall_johnson_free_rolling)
 {
     rb_rolling_case rc = aluminium_on_steel(10.0);
     rb_rolling_solution s = solved(&rc);
@@ -242,7 +242,7 @@ static void bentall_johnson_free_rolling(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void cattaneo_mindlin(void **state)
+TEST(cattaneo_mindlin)
 {
     for (int k = 1; k <= 9; k += 2) {
         rb_rolling_case rc = incompressible_wheel();
@@ -265,7 +265,7 @@ static void cattaneo_mindlin(void **state)
     }
 }
 
-static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
+TEST(a_zone_that_fills_says_how_wide_it_should_be)
 {
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s;
@@ -281,7 +281,7 @@ static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void a_gap_that_never_closes_is_no_contact(void **state)
+TEST(a_gap_that_never_closes_is_no_contact)
 {
     const double x[] = {-100.0, 0.0, 100.0}, gap[] = {1.1, 1.0, 1.1};
     rb_rolling_case rc = incompressible_wheel();
@@ -299,7 +299,7 @@ static void a_gap_that_never_closes_is_no_contact(void **state)
 }
 
 /* A profile of the parabola itself gives the parabola's answer. */
-static void a_table_gap_is_the_gap_it_tabulates(void **state)
+TEST(a_table_gap_is_the_gap_it_tabulates)
 {
     enum { POINTS = 41 };
     double x[POINTS], gap[POINTS];
@@ -321,7 +321,7 @@ static void a_table_gap_is_the_gap_it_tabulates(void **state)
     rb_rolling_solution_free(&want);
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = incompressible_wheel();
     rc.contact_elements = 12;
@@ -342,24 +342,4 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hertz_at_any_alignment),
-        cmocka_unit_test(hertz_by_approach),
-        cmocka_unit_test(carter_on_200_equal_elements),
-        cmocka_unit_test(carter_halves_its_error_with_the_mesh),
-        cmocka_unit_test(beyond_full_sliding_everything_slides),
-        cmocka_unit_test(carter_on_a_fitted_mesh),
-        cmocka_unit_test(carter_under_force_control),
-        cmocka_unit_test(both_forms_agree),
-        cmocka_unit_test(the_signs_of_creepage_mirror_for_similar_bodies),
-        cmocka_unit_test(bentall_johnson_free_rolling),
-        cmocka_unit_test(cattaneo_mindlin),
-        cmocka_unit_test(a_zone_that_fills_says_how_wide_it_should_be),
-        cmocka_unit_test(a_gap_that_never_closes_is_no_contact),
-        cmocka_unit_test(a_table_gap_is_the_gap_it_tabulates),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -41,7 +41,7 @@ static double quadrature(const source *s, double from, double to)
     return sum;
 }
 
-static void strip_meets_quadrature(void **state)
+TEST(strip_meets_quadrature)
 {
     static const double ends[][2] = {{-0.5, 0.5}, {0.5, 1.5},  {-1.5, -0.5}, {7.5, 8.5},
                                      {-9, -8},    {0.0, 0.01}, {-3.0, 5.0}};
@@ -96,7 +96,7 @@ static double closed_maximum(const rb_rolling_case *rc, const rb_rolling_solutio
 }
 
 /* The elements alone, under the heat of Hertz's pressure at their midpoints. */
-static void element_sum_meets_the_closed_form(void **state)
+TEST(element_sum_meets_the_closed_form)
 {
     static const int n[] = {50, 100, 200};
     static const double bound[] = {2.7e-4, 8e-5, 3.5e-5};
@@ -120,7 +120,7 @@ static void element_sum_meets_the_closed_form(void **state)
     }
 }
 
-static void elliptic_source_meets_its_closed_form(void **state)
+TEST(elliptic_source_meets_its_closed_form)
 {
     static const int n[] = {50, 100, 200, 400};
     static const double bound[] = {5e-4, 1.8e-4, 6.3e-5, 2.2e-5};
@@ -138,7 +138,7 @@ static void elliptic_source_meets_its_closed_form(void **state)
 
 /* Heat that spreads along the surface counts by 6 % at Pe = 1 and less than 1e-3 from 10
  * on. */
-static void high_peclet_number_is_a_limit(void **state)
+TEST(high_peclet_number_is_a_limit)
 {
     static const double peclet[] = {100.0, 10.0, 1.0}, bound[] = {3e-5, 1e-3, 0.08};
 
@@ -152,7 +152,7 @@ static void high_peclet_number_is_a_limit(void **state)
 }
 
 /* All meshes give the same, to their order. */
-static void meshes_agree(void **state)
+TEST(meshes_agree)
 {
     static const rb_rolling_mesh_kind mesh[] = {RB_MESH_UNIFORM, RB_MESH_FITTED};
 
@@ -174,7 +174,7 @@ static void meshes_agree(void **state)
 
 /* ---- Two bodies -------------------------------------------------------------------- */
 
-static void surfaces_in_contact_are_equally_warm(void **state)
+TEST(surfaces_in_contact_are_equally_warm)
 {
     rb_rolling_case rc = sliding(2000.0, 100);
     rc.heat_b = (rb_rolling_heat){200.0, 2.4, 0.0};
@@ -195,7 +195,7 @@ static void surfaces_in_contact_are_equally_warm(void **state)
 }
 
 /* Without friction: T_m in contact, and behind it each body cools to its own. */
-static void conduction_between_bodies(void **state)
+TEST(conduction_between_bodies)
 {
     rb_rolling_case rc = sliding(1e4, 200);
     rc.mu = 0.0;
@@ -224,7 +224,7 @@ static void conduction_between_bodies(void **state)
 
 /* ---- Steps ------------------------------------------------------------------------- */
 
-static void steps_tend_to_the_steady_state(void **state)
+TEST(steps_tend_to_the_steady_state)
 {
     static const int steps[] = {0, 300};
     rb_rolling_case rc = sliding(1e4, 120);
@@ -251,7 +251,7 @@ static void steps_tend_to_the_steady_state(void **state)
     rb_rolling_solution_free(&steady);
 }
 
-static void curve_has_the_temperature_of_its_cases(void **state)
+TEST(curve_has_the_temperature_of_its_cases)
 {
     rb_rolling_case rc = sliding(500.0, 60);
     rb_rolling_curve curve;
@@ -267,7 +267,7 @@ static void curve_has_the_temperature_of_its_cases(void **state)
 
 /* ---- Without, and refused ---------------------------------------------------------- */
 
-static void other_cases_have_no_temperature(void **state)
+TEST(other_cases_have_no_temperature)
 {
     rb_rolling_case rc = sliding(500.0, 60);
     rc.heat_a.conductivity = 0.0;
@@ -278,7 +278,7 @@ static void other_cases_have_no_temperature(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void meaningless_cases_are_refused(void **state)
+TEST(meaningless_cases_are_refused)
 {
     const rb_rolling_case good = sliding(500.0, 60);
     rb_rolling_case bad[7];
@@ -307,7 +307,7 @@ static void meaningless_cases_are_refused(void **state)
 
 /* Step by step heat goes along the depth only: a slow case is refused, not approximated.
  */
-static void slow_steps_are_refused(void **state)
+TEST(slow_steps_are_refused)
 {
     rb_rolling_case rc = sliding(5.0, 60);
     rb_rolling_solution s;
@@ -323,7 +323,7 @@ static void slow_steps_are_refused(void **state)
 
 /* ---- Parts ------------------------------------------------------------------------- */
 
-static void the_warmest_place_is_a_vertex_in_contact(void **state)
+TEST(the_warmest_place_is_a_vertex_in_contact)
 {
     enum { N = 6 };
     const double x[N] = {0.0, 1.0, 2.0, 3.5, 4.0, 5.0};
@@ -366,7 +366,7 @@ static void the_warmest_place_is_a_vertex_in_contact(void **state)
     assert_true(isnan(value) && isnan(at));
 }
 
-static void peclets_number_compares_speed_and_diffusion(void **state)
+TEST(peclets_number_compares_speed_and_diffusion)
 {
     const rb_rolling_heat steel = {.conductivity = 40.0, .heat_capacity = 4.0},
                           none = {0};
@@ -376,7 +376,7 @@ static void peclets_number_compares_speed_and_diffusion(void **state)
 
 /* (T3) Each step's heat H warms what has passed it since: 2 H sqrt(c/(pi V))/(b_A + b_B)
  * (sqrt(k+1) - sqrt(k)) after k steps, linear between midpoints, from elements alone. */
-static void steps_warm_what_passes_them(void **state)
+TEST(steps_warm_what_passes_them)
 {
     enum { N = 8, STEPS = 9 };
     static const double lengths[] = {1.0, 2.0, 0.5, 0.7};
@@ -419,7 +419,7 @@ static void steps_warm_what_passes_them(void **state)
 }
 
 /* Where nothing rolls no heat is kept; along the depth only where heat is slow. */
-static void a_track_is_refused_where_heat_runs_along(void **state)
+TEST(a_track_is_refused_where_heat_runs_along)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
@@ -436,7 +436,7 @@ static void a_track_is_refused_where_heat_runs_along(void **state)
 }
 
 /* Equal temperatures beside the warmest element have no vertex. */
-static void an_even_temperature_has_its_first_place(void **state)
+TEST(an_even_temperature_has_its_first_place)
 {
     const double x[] = {-1.0, 0.0, 1.0, 2.0}, t[] = {5.0, 7.0, 7.0, 7.0};
     const int zone[] = {RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK};
@@ -465,7 +465,7 @@ static rb_rolling_case warm_sliding(rb_rolling_formulation formulation)
 
 /* B takes as much heat as A where it is the same in all three; otherwise the surfaces are
  * equally warm where they touch. */
-static void unlike_bodies_share_by_temperature(void **state)
+TEST(unlike_bodies_share_by_temperature)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = warm_sliding(RB_STEADY);
@@ -498,7 +498,7 @@ static void unlike_bodies_share_by_temperature(void **state)
 
 /* One contact of equal elements has a matrix of distances, which is solved without being
  * made; the same elements taken as fitted ones have it made. */
-static void shares_of_equal_elements_are_those_of_any(void **state)
+TEST(shares_of_equal_elements_are_those_of_any)
 {
     rb_rolling_case rc = warm_sliding(RB_STEADY);
     rc.contact_elements = 60;
@@ -529,7 +529,7 @@ static void shares_of_equal_elements_are_those_of_any(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void tracks_longer_than_memory_are_refused(void **state)
+TEST(tracks_longer_than_memory_are_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
@@ -542,7 +542,7 @@ static void tracks_longer_than_memory_are_refused(void **state)
 }
 
 /* A case of steps that is solved without them has no heat behind it. */
-static void without_steps_no_heat_is_known(void **state)
+TEST(without_steps_no_heat_is_known)
 {
     rb_rolling_case rc = warm_sliding(RB_TRANSIENT);
     rb_rolling_solution s;
@@ -554,29 +554,6 @@ static void without_steps_no_heat_is_known(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strip_meets_quadrature),
-        cmocka_unit_test(element_sum_meets_the_closed_form),
-        cmocka_unit_test(elliptic_source_meets_its_closed_form),
-        cmocka_unit_test(high_peclet_number_is_a_limit),
-        cmocka_unit_test(meshes_agree),
-        cmocka_unit_test(surfaces_in_contact_are_equally_warm),
-        cmocka_unit_test(conduction_between_bodies),
-        cmocka_unit_test(steps_tend_to_the_steady_state),
-        cmocka_unit_test(curve_has_the_temperature_of_its_cases),
-        cmocka_unit_test(other_cases_have_no_temperature),
-        cmocka_unit_test(meaningless_cases_are_refused),
-        cmocka_unit_test(slow_steps_are_refused),
-        cmocka_unit_test(the_warmest_place_is_a_vertex_in_contact),
-        cmocka_unit_test(peclets_number_compares_speed_and_diffusion),
-        cmocka_unit_test(steps_warm_what_passes_them),
-        cmocka_unit_test(a_track_is_refused_where_heat_runs_along),
-        cmocka_unit_test(an_even_temperature_has_its_first_place),
-        cmocka_unit_test(unlike_bodies_share_by_temperature),
-        cmocka_unit_test(shares_of_equal_elements_are_those_of_any),
-        cmocka_unit_test(tracks_longer_than_memory_are_refused),
-        cmocka_unit_test(without_steps_no_heat_is_known),
-    };
     gsl_set_error_handler_off();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_all_tests(NULL, NULL);
 }

@@ -42,7 +42,7 @@ static const double contact_says[][2] = {
     {0.04, 1.214}, {0.1, 1.243}, {0.2, 1.298}, {0.4, 1.432}, {0.6, 1.619},
     {0.8, 2.027},  {1.0, 2.818}, {1.4, 2.393}, {2.0, 2.371}, {3.0, 2.389}};
 
-static void from_cattaneo_to_carter(void **state)
+TEST(from_cattaneo_to_carter)
 {
     rb_rolling_case rc = steel_wheel(200);
     rb_rolling_model model;
@@ -68,7 +68,7 @@ static void from_cattaneo_to_carter(void **state)
 
 /* Steps of other lengths than the element: the displacement is evaluated where the
  * particle was. */
-static void other_steps_tell_the_same_story(void **state)
+TEST(other_steps_tell_the_same_story)
 {
     rb_rolling_case rc = steel_wheel(100);
     rb_rolling_model model[2];
@@ -98,7 +98,7 @@ static rb_rolling_case wheel_on_rail(rb_bem_support support, int across)
 }
 
 /* Whole elements ahead are rows of F, which does not know of half-planes. */
-static void whole_elements_ahead_are_known(void **state)
+TEST(whole_elements_ahead_are_known)
 {
     for (int hub = 0; hub < 2; hub++) {
         const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
@@ -123,7 +123,7 @@ static void whole_elements_ahead_are_known(void **state)
 
 /* A quarter ahead of a midpoint lies a midpoint of elements half as long, two of which
  * carry what one did. */
-static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
+TEST(a_quarter_ahead_is_a_midpoint_of_halves)
 {
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
     rb_rolling_model coarse, fine;
@@ -149,7 +149,7 @@ static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
     rb_rolling_model_free(&fine);
 }
 
-static void other_steps_on_a_wheel(void **state)
+TEST(other_steps_on_a_wheel)
 {
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 60);
     rb_rolling_model model;
@@ -171,7 +171,7 @@ static void other_steps_on_a_wheel(void **state)
 
 /* c = h: the limit is the steady state with the upstream difference, not merely near it.
  */
-static void the_limit_is_the_steady_state(void **state)
+TEST(the_limit_is_the_steady_state)
 {
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = steel_wheel(40);
@@ -197,7 +197,7 @@ static void the_limit_is_the_steady_state(void **state)
 
 /* Without friction nothing changes from the first step that rolls on, behind the one at
  * rest. */
-static void without_friction_all_of_it_is_steady(void **state)
+TEST(without_friction_all_of_it_is_steady)
 {
     rb_rolling_case rc = steel_wheel(10);
     rb_rolling_model model;
@@ -213,7 +213,7 @@ static void without_friction_all_of_it_is_steady(void **state)
 
 /* Mindlin-Deresiewicz: loaded to Q1 and back to Q2, the friction is the sum of Cattaneo's
  * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
-static void unloading_follows_mindlin_and_deresiewicz(void **state)
+TEST(unloading_follows_mindlin_and_deresiewicz)
 {
     const double force[] = {0.0, 0.3, 0.6, 0.4, 0.2, 0.0, -0.1};
     rb_rolling_case rc = steel_wheel(200);
@@ -241,7 +241,7 @@ static void unloading_follows_mindlin_and_deresiewicz(void **state)
 }
 
 /* The shift that a given force causes, given back as a shift, causes that force. */
-static void shift_and_force_are_two_sides_of_one_history(void **state)
+TEST(shift_and_force_are_two_sides_of_one_history)
 {
     const double force[] = {0.2, 0.5, 0.3}, load[] = {150.0, 178.0, 160.0};
     rb_rolling_case rc = steel_wheel(60);
@@ -265,7 +265,7 @@ static void shift_and_force_are_two_sides_of_one_history(void **state)
 }
 
 /* A load that grows on the way: at every step the given one. */
-static void loads_vary_along_the_way(void **state)
+TEST(loads_vary_along_the_way)
 {
     const double distance[] = {0.0, 1.0, 2.0}, load[] = {100.0, 178.0, 120.0},
                  creep[] = {1e-4, 2e-4, 1e-4};
@@ -295,7 +295,7 @@ typedef struct {
     rb_rolling_formulation formulation;
 } bad_program;
 
-static void bad_programs_name_the_row(void **state)
+TEST(bad_programs_name_the_row)
 {
     static const double back[] = {0.0, 1.0, 0.5}, twice[] = {0.0, 1.0, 1.0},
                         hole[] = {1.0, NAN, 1.0}, negative[] = {1.0, 1.0, -1.0},
@@ -333,7 +333,7 @@ static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history 
     return step == 4;
 }
 
-static void an_interrupted_run_keeps_its_steps(void **state)
+TEST(an_interrupted_run_keeps_its_steps)
 {
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
@@ -387,7 +387,7 @@ static void count_history(double creep, double force_ratio, double zone, tally *
 
 /* Steps and elements err against each other and partly cancel, in the spread less than in
  * the error: the bars are about eleven times too wide in the median. */
-static void error_bars_hold_finer_runs(void **state)
+TEST(error_bars_hold_finer_runs)
 {
     /* five spreads, as 200 random cases need; 15 was that of three */
     tally of_force = {.wide = 25.0}, of_creepage = {.wide = 25.0};
@@ -400,7 +400,7 @@ static void error_bars_hold_finer_runs(void **state)
 }
 
 /* Static increments: no steps, the same rows on all meshes. */
-static void error_bars_hold_mindlin(void **state)
+TEST(error_bars_hold_mindlin)
 {
     const double force[] = {0.3, 0.6, 0.9, 0.4, -0.2};
     const rb_rolling_program program = {.n = 5, .force_ratio = force};
@@ -433,7 +433,7 @@ static int stop_in_companion(const rb_rolling_model *model,
     return !model && step == 1;
 }
 
-static void companions_can_be_interrupted(void **state)
+TEST(companions_can_be_interrupted)
 {
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
@@ -450,7 +450,7 @@ static void companions_can_be_interrupted(void **state)
     release(&model, &h);
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = steel_wheel(12);
     int refused = 1;
@@ -481,7 +481,7 @@ static void check_refused(rb_status s, const rb_message *why, const char *words)
         fail_msg("'%s' does not say '%s'", why->text, words);
 }
 
-static void ways_that_lead_nowhere_are_refused(void **state)
+TEST(ways_that_lead_nowhere_are_refused)
 {
     static const double distance[] = {0.0, -1.0, NAN, 1e8};
     for (int k = 0; k < 4; k++) {
@@ -522,7 +522,7 @@ static void run_recorded(const rb_rolling_case *rc, rb_rolling_states *states,
         fail_msg("%s", why.text);
 }
 
-static void states_are_followed_to_the_same_history(void **state)
+TEST(states_are_followed_to_the_same_history)
 {
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_states states = {0};
@@ -579,7 +579,7 @@ static void states_are_followed_to_the_same_history(void **state)
 
 /* A ratio refers to the load, which a given approach finds: with the states' own loads
  * they follow it, and a creepage that is another one is seen. */
-static void states_of_a_ratio_are_followed(void **state)
+TEST(states_of_a_ratio_are_followed)
 {
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_states states = {0};
@@ -639,7 +639,7 @@ static int check_yielded(const rb_rolling_model *model, const rb_rolling_history
     return 0;
 }
 
-static void what_has_yielded_rides_along(void **state)
+TEST(what_has_yielded_rides_along)
 {
     double most = 0.0;
     rb_rolling_case rc = steel_wheel(20);
@@ -661,7 +661,7 @@ static void what_has_yielded_rides_along(void **state)
 }
 
 /* With the coefficient of its row a force may be too large: at rest as on the way. */
-static void a_row_s_friction_bounds_its_force(void **state)
+TEST(a_row_s_friction_bounds_its_force)
 {
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
@@ -678,7 +678,7 @@ static void a_row_s_friction_bounds_its_force(void **state)
 
 /* Friction and force are linear between the rows of a time, what friction holds is not.
  */
-static void friction_between_rows_bounds_the_force(void **state)
+TEST(friction_between_rows_bounds_the_force)
 {
     rb_rolling_case rc = steel_wheel(12);
     rb_rolling_model model;
@@ -698,31 +698,4 @@ static void friction_between_rows_bounds_the_force(void **state)
     release(&model, &h);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(from_cattaneo_to_carter),
-        cmocka_unit_test(other_steps_tell_the_same_story),
-        cmocka_unit_test(whole_elements_ahead_are_known),
-        cmocka_unit_test(a_quarter_ahead_is_a_midpoint_of_halves),
-        cmocka_unit_test(other_steps_on_a_wheel),
-        cmocka_unit_test(the_limit_is_the_steady_state),
-        cmocka_unit_test(without_friction_all_of_it_is_steady),
-        cmocka_unit_test(unloading_follows_mindlin_and_deresiewicz),
-        cmocka_unit_test(shift_and_force_are_two_sides_of_one_history),
-        cmocka_unit_test(loads_vary_along_the_way),
-        cmocka_unit_test(bad_programs_name_the_row),
-        cmocka_unit_test(an_interrupted_run_keeps_its_steps),
-        cmocka_unit_test(error_bars_hold_finer_runs),
-        cmocka_unit_test(error_bars_hold_mindlin),
-        cmocka_unit_test(companions_can_be_interrupted),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-        cmocka_unit_test(ways_that_lead_nowhere_are_refused),
-        cmocka_unit_test(states_are_followed_to_the_same_history),
-        cmocka_unit_test(states_of_a_ratio_are_followed),
-        cmocka_unit_test(what_has_yielded_rides_along),
-        cmocka_unit_test(a_row_s_friction_bounds_its_force),
-        cmocka_unit_test(friction_between_rows_bounds_the_force),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

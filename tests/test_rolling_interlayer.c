@@ -26,7 +26,7 @@ static rb_rolling_case brushes(int n, double s)
 }
 
 /* |Q|/(mu P) = 1 - (1 - s)^3, s = xi R L_N/(mu L_T a). */
-static void brushes_meet_their_law(void **state)
+TEST(brushes_meet_their_law)
 {
     static const double s[] = {0.2, 0.5, 0.8};
     static const int n[] = {50, 100, 200};
@@ -72,7 +72,7 @@ static rb_rolling_case layered(double lam, int n, double ratio)
     return rc;
 }
 
-static void layer_lowers_the_slope(void **state)
+TEST(layer_lowers_the_slope)
 {
     static const double lam[] = {0.01, 0.1, 0.3, 1.0, 3.0, 10.0};
     static const double slope[] = {0.9875, 0.9116, 0.7937, 0.5538, 0.2970, 0.11289};
@@ -85,7 +85,7 @@ static void layer_lowers_the_slope(void **state)
     }
 }
 
-static void layer_moves_the_whole_curve(void **state)
+TEST(layer_moves_the_whole_curve)
 {
     static const double s[] = {0.5, 1.0, 2.0}, ratio[] = {0.4890, 0.7849, 0.9713};
 
@@ -98,7 +98,7 @@ static void layer_moves_the_whole_curve(void **state)
 }
 
 /* Fitted and equal elements, a transient that has become steady, both solvers. */
-static void formulations_agree(void **state)
+TEST(formulations_agree)
 {
     rb_rolling_case rc = layered(1.0, 100, 0.5);
     rc.interlayer_normal = 0.5 * rc.interlayer_tangential;
@@ -130,7 +130,7 @@ static void formulations_agree(void **state)
 
 /* The load is carried by half-planes and layer in series: a soft layer widens the
  * contact. */
-static void normal_compliance_widens_the_contact(void **state)
+TEST(normal_compliance_widens_the_contact)
 {
     rb_rolling_case rc = layered(0.0, 100, 0.5);
     double before = 0.0;
@@ -143,7 +143,7 @@ static void normal_compliance_widens_the_contact(void **state)
     }
 }
 
-static void negative_compliance_is_refused(void **state)
+TEST(negative_compliance_is_refused)
 {
     rb_rolling_case rc = layered(1.0, 60, 0.5);
     rb_message why = {""};
@@ -152,15 +152,4 @@ static void negative_compliance_is_refused(void **state)
     assert_non_null(strstr(why.text, "interlayer"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(brushes_meet_their_law),
-        cmocka_unit_test(layer_lowers_the_slope),
-        cmocka_unit_test(layer_moves_the_whole_curve),
-        cmocka_unit_test(formulations_agree),
-        cmocka_unit_test(normal_compliance_widens_the_contact),
-        cmocka_unit_test(negative_compliance_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

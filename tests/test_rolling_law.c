@@ -12,7 +12,7 @@ static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 }
 
 /* A term without a fall has no scale: 0/0 would be no number. */
-static void each_law_is_its_formula(void **state)
+TEST(each_law_is_its_formula)
 {
     static const double velocities[] = {0.0, 0.5, 3.0, 6.0, 7.0, 10.0, 14.0, 1e9};
     for (size_t k = 0; k < sizeof velocities / sizeof *velocities; k++) {
@@ -42,7 +42,7 @@ static void each_law_is_its_formula(void **state)
     }
 }
 
-static void a_table_is_linear_between_its_rows(void **state)
+TEST(a_table_is_linear_between_its_rows)
 {
     const double x[] = {-1.0, 0.0, 3.0}, y[] = {0.7, 0.7, 0.1};
     const rb_rolling_table t = {3, x, y}, one = {1, x + 1, y + 2};
@@ -67,7 +67,7 @@ static void a_table_is_linear_between_its_rows(void **state)
 }
 
 /* Whichever row has it; mu beside a table counts for nothing. */
-static void the_largest_of_a_table_is_that_of_any_row(void **state)
+TEST(the_largest_of_a_table_is_that_of_any_row)
 {
     const double x[] = {-1.0, 0.0, 3.0};
     for (int at = 0; at < 3; at++) {
@@ -79,7 +79,7 @@ static void the_largest_of_a_table_is_that_of_any_row(void **state)
     }
 }
 
-static void heat_adds_its_part(void **state)
+TEST(heat_adds_its_part)
 {
     rb_rolling_case rc = law(RB_FRICTION_constant, 0.0, 0.0);
     rc.friction.heat = -0.2;
@@ -96,7 +96,7 @@ static void heat_adds_its_part(void **state)
     CHECK_REL(rb_rolling_largest_mu(&rc), 0.5, 1e-15, "heat adds");
 }
 
-static void the_largest_coefficient_is_at_rest_or_fast(void **state)
+TEST(the_largest_coefficient_is_at_rest_or_fast)
 {
     static const struct {
         double m1, m2, largest;
@@ -115,7 +115,7 @@ static void the_largest_coefficient_is_at_rest_or_fast(void **state)
 }
 
 /* The steepest fall of each term by differences; two terms by no less than their sum. */
-static void the_steepest_fall_is_that_of_the_formula(void **state)
+TEST(the_steepest_fall_is_that_of_the_formula)
 {
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
@@ -143,7 +143,7 @@ static void the_steepest_fall_is_that_of_the_formula(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void tables_of_no_friction_are_refused(void **state)
+TEST(tables_of_no_friction_are_refused)
 {
     const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
                  gone[3] = {-1.0, NAN, 1.0}, mu[3] = {0.0, 0.2, 0.3},
@@ -166,7 +166,7 @@ static void tables_of_no_friction_are_refused(void **state)
     rc.friction.fall[1] = 0.1;                                                           \
     rc.friction.slip_scale[1] = 1.0
 
-static void ranges_of_friction_laws(void **state)
+TEST(ranges_of_friction_laws)
 {
     ACCEPTED(FALLS);
     ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
@@ -199,17 +199,4 @@ static void ranges_of_friction_laws(void **state)
             rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_law_is_its_formula),
-        cmocka_unit_test(a_table_is_linear_between_its_rows),
-        cmocka_unit_test(the_largest_of_a_table_is_that_of_any_row),
-        cmocka_unit_test(heat_adds_its_part),
-        cmocka_unit_test(the_largest_coefficient_is_at_rest_or_fast),
-        cmocka_unit_test(the_steepest_fall_is_that_of_the_formula),
-        cmocka_unit_test(tables_of_no_friction_are_refused),
-        cmocka_unit_test(ranges_of_friction_laws),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

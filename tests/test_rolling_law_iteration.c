@@ -34,7 +34,7 @@ static double mu_of(const rb_rolling_case *rc, double v)
 
 /* ---- The coefficients of a state --------------------------------------------------- */
 
-static void each_element_has_the_coefficient_of_its_slip(void **state)
+TEST(each_element_has_the_coefficient_of_its_slip)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.7;
@@ -60,7 +60,7 @@ static void each_element_has_the_coefficient_of_its_slip(void **state)
 
 /* The residual that is told is that with the coefficients of the state, which a loose
  * tolerance shows. */
-static void the_residual_is_that_of_the_law(void **state)
+TEST(the_residual_is_that_of_the_law)
 {
     double largest = 0.0;
     for (int k = 0; k < 6; k++) {
@@ -80,7 +80,7 @@ static void the_residual_is_that_of_the_law(void **state)
 
 /* A made-up state: open elements are at rest; with a memory d each forgets the one
  * upstream of it over the way max(v, s0) e_T/V that it slides. */
-static void coefficients_forget_from_the_leading_edge_on(void **state)
+TEST(coefficients_forget_from_the_leading_edge_on)
 {
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
@@ -121,7 +121,7 @@ static void coefficients_forget_from_the_leading_edge_on(void **state)
 }
 
 /* Warm surfaces lose heat_range's part of `heat`. */
-static void warm_elements_have_another_coefficient(void **state)
+TEST(warm_elements_have_another_coefficient)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.0, 1.0);
     rc.creep_ratio = 2.0;
@@ -142,7 +142,7 @@ static void warm_elements_have_another_coefficient(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void starts_slide_up_to_their_place(void **state)
+TEST(starts_slide_up_to_their_place)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
@@ -161,7 +161,7 @@ static void starts_slide_up_to_their_place(void **state)
 }
 
 /* The given coefficients that an iteration starts from count where bodies roll. */
-static void bounds_start_where_they_are_told(void **state)
+TEST(bounds_start_where_they_are_told)
 {
     const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
     const rb_rolling_table start = {2, x, y};
@@ -187,7 +187,7 @@ static void bounds_start_where_they_are_told(void **state)
 
 /* (F3) V max(-dmu/dv) times, steadily the largest p_i S_ii/e_T, in a step the largest
  * eigenvalue of S diag(p)/e_T, here by many more rounds. */
-static void kappa_is_slope_times_answer(void **state)
+TEST(kappa_is_slope_times_answer)
 {
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
@@ -236,7 +236,7 @@ static double force_at(rb_rolling_case rc, double creepage)
 
 /* Either direction, as a force or as a ratio, in steady rolling and in steps; from a few
  * dozen contact problems. */
-static void forces_are_met_in_few_solves(void **state)
+TEST(forces_are_met_in_few_solves)
 {
     static const double ratios[] = {-0.7, 0.35, 0.0, 0.05};
     for (int k = 0; k < 8; k++) {
@@ -260,7 +260,7 @@ static void forces_are_met_in_few_solves(void **state)
 }
 
 /* To a tenth of the tolerance, which a loose one shows. */
-static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
+TEST(forces_are_met_to_a_tenth_of_the_tolerance)
 {
     double worst = 0.0;
     for (int k = 0; k < 25; k++) {
@@ -279,7 +279,7 @@ static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
 
 /* The rising branch ends where Q is largest: a force beyond it is refused with that
  * maximum and its creepage. */
-static void the_largest_force_is_that_of_a_scan(void **state)
+TEST(the_largest_force_is_that_of_a_scan)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
     rb_rolling_solution s;
@@ -309,7 +309,7 @@ static void the_largest_force_is_that_of_a_scan(void **state)
 }
 
 /* The axle is driven by nothing: Q R = -M. */
-static void a_free_axle_has_no_moment(void **state)
+TEST(a_free_axle_has_no_moment)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
     rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
@@ -324,7 +324,7 @@ static void a_free_axle_has_no_moment(void **state)
 
 /* The iteration turns back and forth, or leaves every solution: shorter steps and
  * Newton's method find one that satisfies the law. */
-static void steep_laws_are_solved_in_few_steps(void **state)
+TEST(steep_laws_are_solved_in_few_steps)
 {
     static const double scale[] = {4.0, 1.0, 0.4, 0.2};
     for (int k = 0; k < 4; k++)
@@ -343,7 +343,7 @@ static void steep_laws_are_solved_in_few_steps(void **state)
 
 /* Unlike bodies, kappa from 2.5 to 7.5: Newton's method, whose directions end as soon as
  * they have reduced the residual to a thousandth. */
-static void newtons_method_needs_few_contact_problems(void **state)
+TEST(newtons_method_needs_few_contact_problems)
 {
     for (int k = 1; k <= 3; k += 2) {
         rb_rolling_case rc = falling(RB_STEADY, 0.12, 4.8 / k);
@@ -370,7 +370,7 @@ static void newtons_method_needs_few_contact_problems(void **state)
 
 /* ---- All solutions ----------------------------------------------------------------- */
 
-static void all_solutions_of_one_are_one(void **state)
+TEST(all_solutions_of_one_are_one)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
@@ -400,7 +400,7 @@ static void all_solutions_of_one_are_one(void **state)
 }
 
 /* Starts that lead to no state within the tolerance are counted, and the others stay. */
-static void starts_that_fail_are_counted(void **state)
+TEST(starts_that_fail_are_counted)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
@@ -419,7 +419,7 @@ static void starts_that_fail_are_counted(void **state)
 }
 
 /* Each differs from the others, the largest force first, and is proven. */
-static void several_solutions_are_told_apart(void **state)
+TEST(several_solutions_are_told_apart)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 0.2);
     rb_rolling_solutions all;
@@ -446,7 +446,7 @@ static void several_solutions_are_told_apart(void **state)
 /* Friction that grows with the speed to twice its value at rest: the last of it would
  * take any speed, and a force of that much is refused with what a very large one brings.
  */
-static void forces_that_only_great_speed_reaches_are_refused(void **state)
+TEST(forces_that_only_great_speed_reaches_are_refused)
 {
     rb_rolling_case rc = falling(RB_STEADY, -0.1, 40.0);
     rb_rolling_solution s;
@@ -476,7 +476,7 @@ static rb_rolling_model steep_model(void)
 }
 
 /* With as many contact problems as it is given, and no more. */
-static void newtons_method_ends_with_its_problems(void **state)
+TEST(newtons_method_ends_with_its_problems)
 {
     static const int most[] = {0, 1, 3};
     for (int k = 0; k < 3; k++) {
@@ -512,7 +512,7 @@ static rb_status set_friction(void *context)
 }
 
 /* Anywhere on the way to the largest force, which is refused in the end. */
-static void the_way_to_a_force_may_have_no_memory(void **state)
+TEST(the_way_to_a_force_may_have_no_memory)
 {
     int refused = 0;
     for (int count = 40; count < 8000; count = count * 6 / 5) {
@@ -531,7 +531,7 @@ static void the_way_to_a_force_may_have_no_memory(void **state)
     assert_true(refused > 10);
 }
 
-static void newtons_method_may_have_no_memory(void **state)
+TEST(newtons_method_may_have_no_memory)
 {
     held_model from = {.model = steep_model()};
     rb_rolling_model *const model = &from.model;
@@ -546,7 +546,7 @@ static void newtons_method_may_have_no_memory(void **state)
     rb_rolling_model_free(model);
 }
 
-static void kappa_of_no_pressure_is_nothing(void **state)
+TEST(kappa_of_no_pressure_is_nothing)
 {
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 20.0);
     rb_rolling_model model;
@@ -562,7 +562,7 @@ static void kappa_of_no_pressure_is_nothing(void **state)
 }
 
 /* Where there is one solution, it does not depend on the start. */
-static void transients_may_start_elsewhere(void **state)
+TEST(transients_may_start_elsewhere)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.3};
     const rb_rolling_table start = {2, x, y};
@@ -577,7 +577,7 @@ static void transients_may_start_elsewhere(void **state)
 }
 
 /* Where there are several, it does: little friction to begin with stays less. */
-static void a_transient_finds_the_solution_of_its_start(void **state)
+TEST(a_transient_finds_the_solution_of_its_start)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.2};
     const rb_rolling_table start = {2, x, y};
@@ -594,32 +594,4 @@ static void a_transient_finds_the_solution_of_its_start(void **state)
     rb_rolling_solution_free(&t);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_element_has_the_coefficient_of_its_slip),
-        cmocka_unit_test(the_residual_is_that_of_the_law),
-        cmocka_unit_test(coefficients_forget_from_the_leading_edge_on),
-        cmocka_unit_test(warm_elements_have_another_coefficient),
-        cmocka_unit_test(starts_slide_up_to_their_place),
-        cmocka_unit_test(bounds_start_where_they_are_told),
-        cmocka_unit_test(kappa_is_slope_times_answer),
-        cmocka_unit_test(forces_are_met_in_few_solves),
-        cmocka_unit_test(forces_are_met_to_a_tenth_of_the_tolerance),
-        cmocka_unit_test(the_largest_force_is_that_of_a_scan),
-        cmocka_unit_test(a_free_axle_has_no_moment),
-        cmocka_unit_test(steep_laws_are_solved_in_few_steps),
-        cmocka_unit_test(newtons_method_needs_few_contact_problems),
-        cmocka_unit_test(all_solutions_of_one_are_one),
-        cmocka_unit_test(starts_that_fail_are_counted),
-        cmocka_unit_test(several_solutions_are_told_apart),
-        cmocka_unit_test(forces_that_only_great_speed_reaches_are_refused),
-        cmocka_unit_test(newtons_method_ends_with_its_problems),
-        cmocka_unit_test(the_way_to_a_force_may_have_no_memory),
-        cmocka_unit_test(newtons_method_may_have_no_memory),
-        cmocka_unit_test(kappa_of_no_pressure_is_nothing),
-        cmocka_unit_test(transients_may_start_elsewhere),
-        cmocka_unit_test(a_transient_finds_the_solution_of_its_start),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

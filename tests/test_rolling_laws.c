@@ -92,7 +92,7 @@ static void check_state(const rb_rolling_model *model, const double *before,
 }
 
 /* Every law, with and without memory, on every mesh, by matrices and by transforms. */
-static void coefficients_follow_from_the_slip(void **state)
+TEST(coefficients_follow_from_the_slip)
 {
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
@@ -123,7 +123,7 @@ static void coefficients_follow_from_the_slip(void **state)
 }
 
 /* A law is a scale of its own: all terms at no slip. */
-static void ratios_refer_to_the_largest_coefficient(void **state)
+TEST(ratios_refer_to_the_largest_coefficient)
 {
     rb_rolling_case rc = rail(100.0);
     rb_rolling_solution s;
@@ -140,7 +140,7 @@ static void ratios_refer_to_the_largest_coefficient(void **state)
 /* ---- Figures of theory.md 4.11 ----------------------------------------------------- */
 
 /* CONTACT: 0.5941, 45 in adhesion, 36 in slip. */
-static void the_rail_case_is_met(void **state)
+TEST(the_rail_case_is_met)
 {
     static const double memory[] = {0.0, 0.0005, 0.001, 0.003, 0.01},
                         want[] = {0.59433, 0.59814, 0.60199, 0.61158, 0.61996};
@@ -162,7 +162,7 @@ static void the_rail_case_is_met(void **state)
 }
 
 /* From coefficients at rest and from those of fast sliding. */
-static void steep_laws_have_two_solutions(void **state)
+TEST(steep_laws_have_two_solutions)
 {
     static const double kinetic = 0.18, place = 0.0;
     static const rb_rolling_table sliding = {1, &place, &kinetic};
@@ -190,7 +190,7 @@ static void steep_laws_have_two_solutions(void **state)
 
 /* Rising and falling creepage: each point is a solution; they agree where friction falls
  * gently, and are two branches where it does not. */
-static void curves_have_two_branches(void **state)
+TEST(curves_have_two_branches)
 {
     enum { POINTS = 16 };
     static const double scale[] = {100.0, 50.0, 20.0, 10.0, 5.0, 2.0};
@@ -229,7 +229,7 @@ static void curves_have_two_branches(void **state)
  * residuals would be 1e-13, they are 1e-4 apart, and half-way between them Coulomb's law
  * is violated.  One element at the end of the stick zone sticks in one of them and slips
  * in the other: the difference falls with the elements (theory.md F3). */
-static void one_element_more_may_stick(void **state)
+TEST(one_element_more_may_stick)
 {
     static const double creep[] = {0.0009, 0.0012}, apart[] = {1.3044e-4, 3.7478e-5};
     /* 186 elements show the same once more */
@@ -262,7 +262,7 @@ static void one_element_more_may_stick(void **state)
 
 /* Laws so steep that the iteration leaves every solution: Newton's method holds one, on
  * bodies whose pressure and friction are coupled. */
-static void steep_laws_are_solved(void **state)
+TEST(steep_laws_are_solved)
 {
     static const rb_rolling_friction_law laws[] = {
         RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
@@ -287,7 +287,7 @@ static void steep_laws_are_solved(void **state)
 
 /* Short steps have kappa far above 1, and none of their solutions attracts the iteration:
  * step 19 here ended after 2000 rounds. */
-static void short_steps_are_solved(void **state)
+TEST(short_steps_are_solved)
 {
     rb_rolling_case rc = rail(500.0);
     rb_rolling_model model;
@@ -317,7 +317,7 @@ static void short_steps_are_solved(void **state)
 
 /* The contact of dissimilar bodies moves with the creepage: meshes are fitted again, and
  * the branch goes on from the coefficients before. */
-static void branches_outlive_their_mesh(void **state)
+TEST(branches_outlive_their_mesh)
 {
     rb_rolling_case rc = rail(2.0);
     rb_rolling_curve c;
@@ -341,7 +341,7 @@ static void branches_outlive_their_mesh(void **state)
 }
 
 /* All solutions of the rail case; each is one by the formula. */
-static void all_solutions_are_found(void **state)
+TEST(all_solutions_are_found)
 {
     static const struct {
         double scale;
@@ -388,7 +388,7 @@ static void all_solutions_are_found(void **state)
 
 /* ---- A given force ----------------------------------------------------------------- */
 
-static void a_force_is_met_on_the_rising_branch(void **state)
+TEST(a_force_is_met_on_the_rising_branch)
 {
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = rail(100.0);
@@ -451,7 +451,7 @@ static rb_rolling_case wheel_on_layer(void)
 }
 
 /* The same by a force ratio under a load that is not known beforehand. */
-static void a_force_is_met_between_states_of_one_creepage(void **state)
+TEST(a_force_is_met_between_states_of_one_creepage)
 {
     for (int k = 0; k < 4; k++) {
         double Q = 0.0, kappa;
@@ -486,7 +486,7 @@ static void a_force_is_met_between_states_of_one_creepage(void **state)
     }
 }
 
-static void the_largest_force_is_told(void **state)
+TEST(the_largest_force_is_told)
 {
     rb_rolling_case rc = rail(100.0);
     rb_message why = {""};
@@ -514,7 +514,7 @@ static void the_largest_force_is_told(void **state)
 
 /* Unlike bodies roll freely at a creepage of their own: at creepage 0 this wheel is on
  * the falling branch of the other direction, where the search for a force begins. */
-static void a_force_is_met_from_beyond_free_rolling(void **state)
+TEST(a_force_is_met_from_beyond_free_rolling)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.poisson = 0.0;
@@ -567,7 +567,7 @@ static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, 
 }
 
 /* Every step by the formula; with memory it becomes steady rolling. */
-static void steps_remember_their_friction(void **state)
+TEST(steps_remember_their_friction)
 {
     for (int memory = 0; memory < 2; memory++) {
         rb_rolling_case rc = rail(100.0);
@@ -625,7 +625,7 @@ static rb_rolling_history run_of(const rb_rolling_case *rc,
 }
 
 /* The same numbers, to the last bit, as the case's own mu. */
-static void a_column_of_one_mu_is_that_mu(void **state)
+TEST(a_column_of_one_mu_is_that_mu)
 {
     static const double load[] = {800.0, 2500.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.004, 0.008, -0.002},
@@ -717,7 +717,7 @@ static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, i
 }
 
 /* Friction falls and rises again, at rest under a shift that stays and rolling. */
-static void steps_have_the_friction_of_their_way(void **state)
+TEST(steps_have_the_friction_of_their_way)
 {
     static const double load[] = {3000.0, 3000.0, 3000.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.005, 0.005, 0.005, -0.004},
@@ -756,7 +756,7 @@ static void steps_have_the_friction_of_their_way(void **state)
 
 /* Rolled on far enough, a contact whose friction has changed is that of the new mu; so it
  * is with friction that falls with the slip, whose kinetic limit the column is. */
-static void friction_that_has_changed_becomes_steady(void **state)
+TEST(friction_that_has_changed_becomes_steady)
 {
     static const double mu[] = {0.3, 0.3, 0.15, 0.15},
                         distance[] = {0.0, 1.0, 1.01, 12.0};
@@ -788,7 +788,7 @@ static void friction_that_has_changed_becomes_steady(void **state)
     }
 }
 
-static void bad_ways_are_refused(void **state)
+TEST(bad_ways_are_refused)
 {
     static const double mu[] = {0.3, -0.1}, distance[] = {0.0, 1.0}, place = 0.0;
     rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
@@ -824,7 +824,7 @@ static void bad_ways_are_refused(void **state)
 
 /* One step of an element's length at 0.1 % creepage from the steady state of 0.09999 %
  * (case 2 and 3 of veldep_fric.inp): from below CONTACT has 0.5977, 77 stick, 4 slip. */
-static void a_step_has_two_starts(void **state)
+TEST(a_step_has_two_starts)
 {
     static const double kinetic = 0.18, place = 0.0;
     static const rb_rolling_table sliding = {1, &place, &kinetic};
@@ -891,7 +891,7 @@ static rb_rolling_case warm(double creep_ratio)
 }
 
 /* Coefficients by the printed temperatures, and the residual with them. */
-static void warm_surfaces_have_another_friction(void **state)
+TEST(warm_surfaces_have_another_friction)
 {
     static const double ratio[] = {0.5, 2.0, 8.0};
     for (int k = 0; k < 6; k++) {
@@ -916,7 +916,7 @@ static void warm_surfaces_have_another_friction(void **state)
 }
 
 /* Far along the way the steps are as warm as steady rolling. */
-static void steps_become_warm(void **state)
+TEST(steps_become_warm)
 {
     rb_rolling_case rc = warm(2.0);
     rb_rolling_solution s;
@@ -939,7 +939,7 @@ static void steps_become_warm(void **state)
 
 /* Pressed and loaded at rest nothing is warm: the force is the given one, and not that of
  * the largest coefficient. */
-static void heat_changes_no_force_at_rest(void **state)
+TEST(heat_changes_no_force_at_rest)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = warm(NAN);
@@ -967,7 +967,7 @@ static void refused(const rb_rolling_case *rc, const char *says)
         fail_msg("'%s' does not say '%s'", why.text, says);
 }
 
-static void bad_laws_are_refused(void **state)
+TEST(bad_laws_are_refused)
 {
     rb_rolling_case rc = rail(100.0);
     rc.friction.fall[0] = -0.2;
@@ -991,32 +991,4 @@ static void bad_laws_are_refused(void **state)
     refused(&rc, "needs temperatures");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coefficients_follow_from_the_slip),
-        cmocka_unit_test(ratios_refer_to_the_largest_coefficient),
-        cmocka_unit_test(the_rail_case_is_met),
-        cmocka_unit_test(steep_laws_have_two_solutions),
-        cmocka_unit_test(curves_have_two_branches),
-        cmocka_unit_test(one_element_more_may_stick),
-        cmocka_unit_test(steep_laws_are_solved),
-        cmocka_unit_test(short_steps_are_solved),
-        cmocka_unit_test(branches_outlive_their_mesh),
-        cmocka_unit_test(all_solutions_are_found),
-        cmocka_unit_test(a_force_is_met_on_the_rising_branch),
-        cmocka_unit_test(a_force_is_met_between_states_of_one_creepage),
-        cmocka_unit_test(the_largest_force_is_told),
-        cmocka_unit_test(a_force_is_met_from_beyond_free_rolling),
-        cmocka_unit_test(steps_remember_their_friction),
-        cmocka_unit_test(a_column_of_one_mu_is_that_mu),
-        cmocka_unit_test(steps_have_the_friction_of_their_way),
-        cmocka_unit_test(friction_that_has_changed_becomes_steady),
-        cmocka_unit_test(bad_ways_are_refused),
-        cmocka_unit_test(a_step_has_two_starts),
-        cmocka_unit_test(warm_surfaces_have_another_friction),
-        cmocka_unit_test(steps_become_warm),
-        cmocka_unit_test(heat_changes_no_force_at_rest),
-        cmocka_unit_test(bad_laws_are_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -102,7 +102,7 @@ static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
     rb_contact_lcp_free(&lcp);
 }
 
-static void every_row_is_its_equation(void **state)
+TEST(every_row_is_its_equation)
 {
     srand(8);
     for (int control = 0; control < 4; control++) {
@@ -115,7 +115,7 @@ static void every_row_is_its_equation(void **state)
 }
 
 /* The order of attempts is for hard cases: the first one solves these. */
-static void lemke_needs_its_first_attempt_only(void **state)
+TEST(lemke_needs_its_first_attempt_only)
 {
     for (int control = 0; control < 4; control++) {
         rb_rolling_model model = dissimilar_model(control & 1, control & 2);
@@ -131,7 +131,7 @@ static void keep_attempt(const rb_lcp_pivot *pivot, void *context)
 }
 
 /* The trace says which form of the problem a pivot belongs to. */
-static void pivots_tell_their_attempt(void **state)
+TEST(pivots_tell_their_attempt)
 {
     for (int kwak = 0; kwak < 2; kwak++) {
         rb_rolling_model model = dissimilar_model(0, 0), again;
@@ -148,12 +148,4 @@ static void pivots_tell_their_attempt(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_is_its_equation),
-        cmocka_unit_test(lemke_needs_its_first_attempt_only),
-        cmocka_unit_test(pivots_tell_their_attempt),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

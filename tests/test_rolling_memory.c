@@ -62,7 +62,7 @@ static const double rows[8][6] = {
     {10, 1, 3.2840158, -2.4506076, 0.4428963, 0.7617544},
 };
 
-static void hunters_solution_is_met(void **state)
+TEST(hunters_solution_is_met)
 {
     for (int k = 0; k < 8; k++) {
         const double *row = rows[k];
@@ -85,7 +85,7 @@ static void hunters_solution_is_met(void **state)
  * both meshes that meet the edges; the rows have seven digits.  There is an order only
  * where the elements resolve V tau/(1 + f) behind the leading edge: the short memories
  * begin with more of them. */
-static void the_moment_is_of_second_order(void **state)
+TEST(the_moment_is_of_second_order)
 {
     static const int coarse[8] = {100, 50, 50, 50, 100, 50, 50, 50};
     for (int k = 0; k < 16; k++) {
@@ -118,7 +118,7 @@ static void choose_solver(int k, rb_rolling_case *rc)
 }
 
 /* Nothing drives the axle: Q = -M/R, whichever solver. */
-static void a_free_axle_is_turned_by_friction(void **state)
+TEST(a_free_axle_is_turned_by_friction)
 {
     double xi[5];
     for (int k = 0; k < 5; k++) {
@@ -145,7 +145,7 @@ static void a_free_axle_is_turned_by_friction(void **state)
 
 /* Rollers of unequal radii: equilibrium about each axle by itself, whichever is larger.
  * What both drives give is the resistance of both curvatures. */
-static void only_the_axle_of_a_is_free(void **state)
+TEST(only_the_axle_of_a_is_free)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_solution s;
@@ -178,7 +178,7 @@ static void only_the_axle_of_a_is_free(void **state)
 
 /* Over the speed M/(P R) rises from nothing, has one maximum and falls; each point is the
  * case at that speed. */
-static void resistance_has_a_maximum_over_the_speed(void **state)
+TEST(resistance_has_a_maximum_over_the_speed)
 {
     enum { POINTS = 9 };
     rb_rolling_curve c;
@@ -209,7 +209,7 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
 }
 
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
-static void speed_has_its_limits(void **state)
+TEST(speed_has_its_limits)
 {
     const double f = 3.0;
     for (int fast = 0; fast < 2; fast++) {
@@ -254,7 +254,7 @@ static rb_rolling_case two_cylinders(double tau)
     return rc;
 }
 
-static void contacts_figures_are_met(void **state)
+TEST(contacts_figures_are_met)
 {
     static const contact_row want[4] = {
         {0.009, 1.36501e-2, 78.737, 2.36732, 913.55, 62, 37},
@@ -316,7 +316,7 @@ static rb_rolling_case layered(double thickness, double nu, int n)
 }
 
 /* P (1 - c1 a^2/d^2) = pi E* a^2/(4R) to (a/d)^4 */
-static void thick_layers_have_their_series(void **state)
+TEST(thick_layers_have_their_series)
 {
     static const double nu[2] = {0.3, 0.5}, c1[2] = {0.715969, 1.023603};
     for (int k = 0; k < 2; k++)
@@ -335,7 +335,7 @@ static void thick_layers_have_their_series(void **state)
 }
 
 /* delta = a^2/(2R), P = 2 a^3 M/(3 R d) */
-static void thin_layers_are_mattresses(void **state)
+TEST(thin_layers_are_mattresses)
 {
     static const double want[3] = {0.99701, 0.99910, 0.99973};
     for (int k = 0; k < 3; k++) {
@@ -356,7 +356,7 @@ static void thin_layers_are_mattresses(void **state)
 /* nu = 1/2: delta = a^2/(6R), P = 2 G a^5/(15 R d^3), which thin layers reach slowly: no
  * further from it than 1.5 times the deviations of physics P5, and less far the thinner
  * they are. */
-static void thin_incompressible_layers_have_their_limit(void **state)
+TEST(thin_incompressible_layers_have_their_limit)
 {
     static const double deviation[4] = {0.409, 0.115, 0.031, 0.006};
     double before = INFINITY;
@@ -379,7 +379,7 @@ static void thin_incompressible_layers_have_their_limit(void **state)
 /* Elements longer than an incompressible layer is thick are refused with the number that
  * would do, which does: load to 3 % of four times as many.  A compressible layer takes
  * any. */
-static void layers_must_be_resolved(void **state)
+TEST(layers_must_be_resolved)
 {
     for (int steps = 0; steps < 3; steps++) {
         rb_rolling_case rc = layered(0.05, 0.5, 24);
@@ -419,7 +419,7 @@ static void layers_must_be_resolved(void **state)
 }
 
 /* Where elements are so long that no solver gets anywhere, that is the reason given. */
-static void hopeless_layers_are_refused(void **state)
+TEST(hopeless_layers_are_refused)
 {
     rb_rolling_case rc = layered(3e-4, 0.5, 20);
     rb_rolling_solution s;
@@ -439,7 +439,7 @@ static void hopeless_layers_are_refused(void **state)
 }
 
 /* Free rolling of a covered roll, docs/physics: xi R/c at nu = 0.5, c/d = 1. */
-static void incompressible_covers_stretch_in_the_nip(void **state)
+TEST(incompressible_covers_stretch_in_the_nip)
 {
     static const double mu[2] = {0.1, 0.3}, want[2] = {0.16692, 0.16488};
     for (int k = 0; k < 2; k++) {
@@ -457,7 +457,7 @@ static void incompressible_covers_stretch_in_the_nip(void **state)
 }
 
 /* A layer on a half-plane of its own material is that half-plane. */
-static void a_layer_of_the_same_material_is_none(void **state)
+TEST(a_layer_of_the_same_material_is_none)
 {
     rb_rolling_solution s[2];
     rb_rolling_case rc = layered(0.0, 0.3, 60);
@@ -480,7 +480,7 @@ static void a_layer_of_the_same_material_is_none(void **state)
 
 /* Lemke in both forms and Newton on the same equal elements; the transforms against
  * fitted ones. */
-static void all_solvers_agree(void **state)
+TEST(all_solvers_agree)
 {
     for (int kind = 0; kind < 2; kind++) {
         double Q[5], M[5];
@@ -506,7 +506,7 @@ static void all_solvers_agree(void **state)
 }
 
 /* What friction cannot turn, and what does not go with it. */
-static void bad_axles_are_refused(void **state)
+TEST(bad_axles_are_refused)
 {
     static const char *const word[4] = {"more than friction carries",
                                         "steady rolling only", "expected mu > 0",
@@ -530,7 +530,7 @@ static void bad_axles_are_refused(void **state)
     }
 }
 
-static void bad_bodies_are_refused(void **state)
+TEST(bad_bodies_are_refused)
 {
     const struct {
         double time, ratio, speed, layer;
@@ -559,26 +559,4 @@ static void bad_bodies_are_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hunters_solution_is_met),
-        cmocka_unit_test(the_moment_is_of_second_order),
-        cmocka_unit_test(a_free_axle_is_turned_by_friction),
-        cmocka_unit_test(only_the_axle_of_a_is_free),
-        cmocka_unit_test(resistance_has_a_maximum_over_the_speed),
-        cmocka_unit_test(speed_has_its_limits),
-        cmocka_unit_test(contacts_figures_are_met),
-        cmocka_unit_test(thick_layers_have_their_series),
-        cmocka_unit_test(thin_layers_are_mattresses),
-        cmocka_unit_test(thin_incompressible_layers_have_their_limit),
-        cmocka_unit_test(layers_must_be_resolved),
-        cmocka_unit_test(hopeless_layers_are_refused),
-        cmocka_unit_test(incompressible_covers_stretch_in_the_nip),
-        cmocka_unit_test(a_layer_of_the_same_material_is_none),
-        cmocka_unit_test(all_solvers_agree),
-        cmocka_unit_test(bad_axles_are_refused),
-        cmocka_unit_test(bad_bodies_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

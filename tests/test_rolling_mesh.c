@@ -27,7 +27,7 @@ static void check_refused(rb_status s, const rb_message *why, const char *words)
 
 /* ---- Equal elements ---------------------------------------------------------------- */
 
-static void equal_elements_are_equal_along_the_surface(void **state)
+TEST(equal_elements_are_equal_along_the_surface)
 {
     rb_rolling_mesh mesh;
     rb_rolling_case rc = plane(7);
@@ -48,7 +48,7 @@ static void equal_elements_are_equal_along_the_surface(void **state)
     rb_rolling_mesh_free(&mesh);
 }
 
-static void meshes_stay_on_the_lower_half(void **state)
+TEST(meshes_stay_on_the_lower_half)
 {
     rb_rolling_mesh mesh;
     rb_message why;
@@ -68,7 +68,7 @@ static void meshes_stay_on_the_lower_half(void **state)
 
 /* ---- The gap ----------------------------------------------------------------------- */
 
-static void the_gap_is_that_of_both_bodies(void **state)
+TEST(the_gap_is_that_of_both_bodies)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     const double x = 3.0, a = 50.0 - sqrt(2500.0 - 9.0), b = 20.0 - sqrt(400.0 - 9.0);
@@ -83,7 +83,7 @@ static void the_gap_is_that_of_both_bodies(void **state)
     assert_false(rb_rolling_is_convex(&rc));
 }
 
-static void what_is_worn_is_linear_between_its_points(void **state)
+TEST(what_is_worn_is_linear_between_its_points)
 {
     const double x[] = {-1.0, 0.0, 3.0}, y[] = {0.1, 0.4, 0.1};
     static const double at[][2] = {{-1.1, 0.0}, {-1.0, 0.1}, {-0.5, 0.25}, {0.0, 0.4},
@@ -105,7 +105,7 @@ static void what_is_worn_is_linear_between_its_points(void **state)
 
 /* The cubic through (-1, 0), (0, y), (1, 0) with natural ends: y (1 - 1.5 s^2 + 0.5 s^3),
  * s = |x|. */
-static void an_irregularity_rides_with_the_material(void **state)
+TEST(an_irregularity_rides_with_the_material)
 {
     const double x[] = {-1.0, 0.0, 1.0}, y[] = {0.0, 0.2, 0.0};
     const double places[] = {-4.0, -3.6, -3.0, -2.8, -2.0, -1.9};
@@ -122,7 +122,7 @@ static void an_irregularity_rides_with_the_material(void **state)
     }
 }
 
-static void elements_stand_within_bodies_and_table(void **state)
+TEST(elements_stand_within_bodies_and_table)
 {
     const double x[] = {-3.0, -1.0, 0.0, 2.0}, y[] = {1.0, 0.1, 0.0, 1.0};
     double from, to;
@@ -150,7 +150,7 @@ static void elements_stand_within_bodies_and_table(void **state)
 
 /* -cos(theta) between the edges; beyond them elements begin as long as the last inside
  * and grow by a half each. */
-static void fitted_elements_meet_both_edges(void **state)
+TEST(fitted_elements_meet_both_edges)
 {
     const rb_rolling_case rc = plane(20);
     rb_rolling_mesh mesh;
@@ -173,7 +173,7 @@ static void fitted_elements_meet_both_edges(void **state)
 
 /* As many elements as reach the room that is asked for, at most 64, and none beyond the
  * lower half of the wheel. */
-static void fitted_elements_reach_as_far_as_asked(void **state)
+TEST(fitted_elements_reach_as_far_as_asked)
 {
     const rb_rolling_case rc = plane(60);
     const double step = 2.0 * gsl_pow_2(sin(0.5 * M_PI / 60.0)); /* of a patch of 2 */
@@ -206,7 +206,7 @@ static void fitted_elements_reach_as_far_as_asked(void **state)
 }
 
 /* A single element of more than half of what is left of the wheel has but half of it. */
-static void the_element_before_the_mesh_stays_on_the_wheel(void **state)
+TEST(the_element_before_the_mesh_stays_on_the_wheel)
 {
     const rb_rolling_case rc = plane(4);
     rb_rolling_mesh mesh;
@@ -235,7 +235,7 @@ static int has_end(const rb_rolling_mesh *mesh, double x)
     return 0;
 }
 
-static void patches_share_the_elements_by_their_width(void **state)
+TEST(patches_share_the_elements_by_their_width)
 {
     static const struct {
         int elements;
@@ -262,7 +262,7 @@ static void patches_share_the_elements_by_their_width(void **state)
 
 /* From either edge by a half longer each until they meet, all stretched alike: between
  * equal patches symmetric. */
-static void elements_between_patches_meet(void **state)
+TEST(elements_between_patches_meet)
 {
     static const double edges[] = {0.001, 0.01, 0.1, 1.0, 10.0}; /* distances from 0 */
     const rb_rolling_case rc = plane(60);
@@ -294,7 +294,7 @@ static void elements_between_patches_meet(void **state)
     }
 }
 
-static void patches_far_apart_have_64_elements_between_them(void **state)
+TEST(patches_far_apart_have_64_elements_between_them)
 {
     const rb_rolling_case rc = plane(60);
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
@@ -310,7 +310,7 @@ static void patches_far_apart_have_64_elements_between_them(void **state)
 }
 
 /* A narrow and a wide patch: the smaller elements grow alone until they are as long. */
-static void unequal_elements_grow_until_they_are_alike(void **state)
+TEST(unequal_elements_grow_until_they_are_alike)
 {
     const rb_rolling_case rc = plane(60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
@@ -329,7 +329,7 @@ static void unequal_elements_grow_until_they_are_alike(void **state)
 
 /* ---- The mesh of a result ---------------------------------------------------------- */
 
-static void a_result_has_the_elements_of_its_mesh(void **state)
+TEST(a_result_has_the_elements_of_its_mesh)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = plane(20);
@@ -363,7 +363,7 @@ static void a_result_has_the_elements_of_its_mesh(void **state)
 }
 
 /* Whatever the case asks for, a result has its own elements. */
-static void a_result_may_have_other_elements_than_its_case(void **state)
+TEST(a_result_may_have_other_elements_than_its_case)
 {
     const double x[] = {-1.0, 0.0, 1.0}, h[] = {1.0, 1.0, 1.0};
     for (int equal = 0; equal < 2; equal++) {
@@ -378,7 +378,7 @@ static void a_result_may_have_other_elements_than_its_case(void **state)
     }
 }
 
-static void elements_out_of_order_are_refused(void **state)
+TEST(elements_out_of_order_are_refused)
 {
     const double x[] = {0.0, 2.0, 1.0}, h[] = {1.0, 1.0, 1.0}, far[] = {0.0, 1.0, 60.0};
     const rb_rolling_case rc = plane(20);
@@ -395,25 +395,4 @@ static void elements_out_of_order_are_refused(void **state)
     assert_null(mesh.ends);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_elements_are_equal_along_the_surface),
-        cmocka_unit_test(meshes_stay_on_the_lower_half),
-        cmocka_unit_test(the_gap_is_that_of_both_bodies),
-        cmocka_unit_test(what_is_worn_is_linear_between_its_points),
-        cmocka_unit_test(an_irregularity_rides_with_the_material),
-        cmocka_unit_test(elements_stand_within_bodies_and_table),
-        cmocka_unit_test(fitted_elements_meet_both_edges),
-        cmocka_unit_test(fitted_elements_reach_as_far_as_asked),
-        cmocka_unit_test(the_element_before_the_mesh_stays_on_the_wheel),
-        cmocka_unit_test(patches_share_the_elements_by_their_width),
-        cmocka_unit_test(elements_between_patches_meet),
-        cmocka_unit_test(patches_far_apart_have_64_elements_between_them),
-        cmocka_unit_test(unequal_elements_grow_until_they_are_alike),
-        cmocka_unit_test(a_result_has_the_elements_of_its_mesh),
-        cmocka_unit_test(a_result_may_have_other_elements_than_its_case),
-        cmocka_unit_test(elements_out_of_order_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

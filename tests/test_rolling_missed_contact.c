@@ -61,7 +61,7 @@ static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, d
 
 /* Elements under one bump: the others overlap, each in a stretch of its own around its
  * place, from as far from the mesh as they are. */
-static void every_bump_that_overlaps_is_found(void **state)
+TEST(every_bump_that_overlaps_is_found)
 {
     static const double x[] = {-5.0, -2.5, 0.0, 3.0, 6.0}, height[5] = {0.0};
     table *t = bumps(5, x, height);
@@ -88,7 +88,7 @@ static void every_bump_that_overlaps_is_found(void **state)
 
 /* The surface sinks by what the pressed half-plane gives way there: a bump that is just
  * too low does not overlap, one a little higher does. */
-static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
+TEST(a_bump_overlaps_where_the_surface_has_not_sunk)
 {
     const double x[] = {0.0, 4.0}, flat[] = {0.0, 1e-4};
     table *t = bumps(2, x, flat);
@@ -117,7 +117,7 @@ static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
 }
 
 /* Likewise the rim of a wheel, by what elements that reach the bump tell of it. */
-static void a_wheel_sinks_as_its_elements_tell(void **state)
+TEST(a_wheel_sinks_as_its_elements_tell)
 {
     enum { WIDE = 112, M = WIDE + 1 };
     const double x[] = {0.0, 6.0};
@@ -146,7 +146,7 @@ static void a_wheel_sinks_as_its_elements_tell(void **state)
     }
 }
 
-static void more_overlaps_than_there_is_room_end_in_one(void **state)
+TEST(more_overlaps_than_there_is_room_end_in_one)
 {
     double x[MOST], height[MOST] = {0.0};
     for (int k = 0; k < MOST; k++)
@@ -164,7 +164,7 @@ static void more_overlaps_than_there_is_room_end_in_one(void **state)
 /* ---- Fitted ------------------------------------------------------------------------ */
 
 /* Each patch carries Hertz's pressure of its load on elements of its own. */
-static void elements_are_fitted_to_every_patch(void **state)
+TEST(elements_are_fitted_to_every_patch)
 {
     static const double x[] = {-6.0, 0.0, 6.0}, height[] = {0.0, 1e-4, 5e-4};
     table *t = bumps(3, x, height);
@@ -186,7 +186,7 @@ static void elements_are_fitted_to_every_patch(void **state)
 }
 
 /* More patches than elements are fitted to: equal ones instead, and it is said. */
-static void too_many_patches_have_equal_elements(void **state)
+TEST(too_many_patches_have_equal_elements)
 {
     double x[17], height[17] = {0.0};
     for (int k = 0; k < 17; k++)
@@ -204,7 +204,7 @@ static void too_many_patches_have_equal_elements(void **state)
 }
 
 /* Aligned elements have two edges: of one patch. */
-static void several_patches_cannot_be_aligned(void **state)
+TEST(several_patches_cannot_be_aligned)
 {
     static const double x[] = {-2.0, 2.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
@@ -218,7 +218,7 @@ static void several_patches_cannot_be_aligned(void **state)
 }
 
 /* Patches that nearly touch are fitted as one; with equal elements they are the same. */
-static void patches_side_by_side_are_fitted_as_one(void **state)
+TEST(patches_side_by_side_are_fitted_as_one)
 {
     static const double x[] = {-0.35, 0.35}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
@@ -245,7 +245,7 @@ static void patches_side_by_side_are_fitted_as_one(void **state)
 
 /* A groove of a hundredth of the contact does not divide the fitted elements: they reach
  * from one of Hertz's edges to the other. */
-static void a_narrow_groove_is_fitted_over(void **state)
+TEST(a_narrow_groove_is_fitted_over)
 {
     enum { ROWS = 1601 };
     static double x[ROWS], gap[ROWS];
@@ -276,7 +276,7 @@ static void a_narrow_groove_is_fitted_over(void **state)
 
 /* A table and its mirror image, shifted the other way, have mirrored contacts, whatever
  * elements are taken and wherever the patches are. */
-static void mirrored_tables_have_mirrored_contacts(void **state)
+TEST(mirrored_tables_have_mirrored_contacts)
 {
     static const struct {
         int n;
@@ -337,7 +337,7 @@ static void mirrored_tables_have_mirrored_contacts(void **state)
 /* ---- Zones ------------------------------------------------------------------------- */
 
 /* A zone that is too narrow is refused with the width that would do. */
-static void a_narrow_zone_is_told_its_width(void **state)
+TEST(a_narrow_zone_is_told_its_width)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -360,7 +360,7 @@ static void a_narrow_zone_is_told_its_width(void **state)
 }
 
 /* The width that would do is that of the side that reaches further. */
-static void a_zone_is_as_wide_as_its_longer_side(void **state)
+TEST(a_zone_is_as_wide_as_its_longer_side)
 {
     static const double height[] = {0.0, 1e-4};
     for (int side = -1; side < 2; side += 2) {
@@ -387,7 +387,7 @@ static void a_zone_is_as_wide_as_its_longer_side(void **state)
 }
 
 /* Far from each other and narrow: equal elements would be too many. */
-static void patches_too_far_apart_need_fitted_elements(void **state)
+TEST(patches_too_far_apart_need_fitted_elements)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
@@ -405,7 +405,7 @@ static void patches_too_far_apart_need_fitted_elements(void **state)
 
 /* Without a table there is nothing beyond the radius: a soft interface spreads the
  * contact so far. */
-static void a_contact_as_wide_as_the_wheel_is_refused(void **state)
+TEST(a_contact_as_wide_as_the_wheel_is_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -421,7 +421,7 @@ static void a_contact_as_wide_as_the_wheel_is_refused(void **state)
 }
 
 /* A given zone and the widest one fail alike: so much more than the given one is said. */
-static void a_zone_without_an_end_is_told_a_third_more(void **state)
+TEST(a_zone_without_an_end_is_told_a_third_more)
 {
     static const double x[] = {0.0}, height[] = {0.0};
     table *t = bumps(1, x, height);
@@ -436,7 +436,7 @@ static void a_zone_without_an_end_is_told_a_third_more(void **state)
 }
 
 /* What is irregular beyond the wheel is never met. */
-static void places_beyond_the_wheel_are_not_looked_at(void **state)
+TEST(places_beyond_the_wheel_are_not_looked_at)
 {
     enum { ROWS = 61 };
     double x[ROWS], y[ROWS] = {0.0};
@@ -463,7 +463,7 @@ static void places_beyond_the_wheel_are_not_looked_at(void **state)
 }
 
 /* On half-planes products do for so many elements. */
-static void half_planes_have_elements_for_patches_far_apart(void **state)
+TEST(half_planes_have_elements_for_patches_far_apart)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
@@ -480,7 +480,7 @@ static void half_planes_have_elements_for_patches_far_apart(void **state)
 
 /* The surface of a wheel sinks by what its boundary elements say: known from elements
  * that reach there, with a bump that is too high to touch. */
-static void a_wheel_sinks_as_on_elements_that_reach_there(void **state)
+TEST(a_wheel_sinks_as_on_elements_that_reach_there)
 {
     static const double places[] = {2.17, 3.0, 3.4, 4.2};
     for (int place = 0; place < 4; place++) {
@@ -514,27 +514,4 @@ static void a_wheel_sinks_as_on_elements_that_reach_there(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_bump_that_overlaps_is_found),
-        cmocka_unit_test(a_bump_overlaps_where_the_surface_has_not_sunk),
-        cmocka_unit_test(a_wheel_sinks_as_its_elements_tell),
-        cmocka_unit_test(more_overlaps_than_there_is_room_end_in_one),
-        cmocka_unit_test(elements_are_fitted_to_every_patch),
-        cmocka_unit_test(too_many_patches_have_equal_elements),
-        cmocka_unit_test(several_patches_cannot_be_aligned),
-        cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
-        cmocka_unit_test(a_narrow_groove_is_fitted_over),
-        cmocka_unit_test(mirrored_tables_have_mirrored_contacts),
-        cmocka_unit_test(a_narrow_zone_is_told_its_width),
-        cmocka_unit_test(a_zone_is_as_wide_as_its_longer_side),
-        cmocka_unit_test(patches_too_far_apart_need_fitted_elements),
-        cmocka_unit_test(a_contact_as_wide_as_the_wheel_is_refused),
-        cmocka_unit_test(a_zone_without_an_end_is_told_a_third_more),
-        cmocka_unit_test(places_beyond_the_wheel_are_not_looked_at),
-        cmocka_unit_test(half_planes_have_elements_for_patches_far_apart),
-        cmocka_unit_test(a_wheel_sinks_as_on_elements_that_reach_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

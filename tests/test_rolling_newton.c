@@ -102,7 +102,7 @@ static void check_half(const rb_rolling_model *model)
     rb_contact_problem_free(&half);
 }
 
-static void pairs_answer_as_their_elements_do(void **state)
+TEST(pairs_answer_as_their_elements_do)
 {
     srand(3);
     for (int k = 0; k < 4; k++) {
@@ -145,7 +145,7 @@ static void check_beside_lemke(rb_rolling_model *model)
 
 /* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls.
  */
-static void cold_starts_end_where_lemke_does(void **state)
+TEST(cold_starts_end_where_lemke_does)
 {
     static const int elements[] = {101, 102, 150, 151, 400, 500, 600};
 
@@ -166,7 +166,7 @@ static void cold_starts_end_where_lemke_does(void **state)
 
 /* On a rigid plane under mu beta = 0.86 the steps go round in circles, and without the
  * path that leads out of them Newton alone solves none of these. */
-static void circles_are_left_on_a_path(void **state)
+TEST(circles_are_left_on_a_path)
 {
     static const struct {
         int elements;
@@ -192,7 +192,7 @@ static void circles_are_left_on_a_path(void **state)
 /* Where nothing sticks under a given creepage no element is held, which only a given
  * force needs: Newton ends by itself, without the fall back to Lemke, and all of the
  * contact slides the way the creepage says. */
-static void full_sliding_needs_no_other_solver(void **state)
+TEST(full_sliding_needs_no_other_solver)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
@@ -212,7 +212,7 @@ static void full_sliding_needs_no_other_solver(void **state)
 }
 
 /* The levels below share one number of steps, the finest one adds a few. */
-static void steps_grow_by_levels(void **state)
+TEST(steps_grow_by_levels)
 {
     for (int similar = 0; similar < 2; similar++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
@@ -280,7 +280,7 @@ static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns,
     return changes;
 }
 
-static void a_kept_lu_serves_other_zones(void **state)
+TEST(a_kept_lu_serves_other_zones)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model model = solved_model(&rc);
@@ -300,7 +300,7 @@ static void a_kept_lu_serves_other_zones(void **state)
 }
 
 /* From no contact to all in stick: nothing that is kept may be used. */
-static void a_kept_lu_gives_way_to_a_new_one(void **state)
+TEST(a_kept_lu_gives_way_to_a_new_one)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model model = solved_model(&rc);
@@ -339,7 +339,7 @@ static void solve_with(rb_rolling_model *model, const double *bound, int anew,
 
 /* As laws change it from round to round: the LU of other coefficients of friction, up to
  * a hundredth away, leads to what one of these gives. */
-static void a_kept_lu_serves_friction_that_changes(void **state)
+TEST(a_kept_lu_serves_friction_that_changes)
 {
     static const double change[] = {1e-9, 1e-4, 0.05, 0.09, 2.0};
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
@@ -392,7 +392,7 @@ static double compliance(rb_contact_problem problem, rb_contact_state *s)
  * (pi E*).  Where that makes the compliance vanish, a given approach has no solution and
  * the tractions' block no inverse; under a given load the tractions are what they were
  * with any other datum. */
-static void a_given_load_does_not_feel_the_datum(void **state)
+TEST(a_given_load_does_not_feel_the_datum)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model usual = solved_model(&rc), critical;
@@ -423,7 +423,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
 
 /* ---- Memory ------------------------------------------------------------------------ */
 
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 120);
     rb_rolling_model model = solved_model(&rc);
@@ -441,19 +441,4 @@ static void failing_allocations(void **state)
     rb_rolling_model_free(&model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_answer_as_their_elements_do),
-        cmocka_unit_test(cold_starts_end_where_lemke_does),
-        cmocka_unit_test(circles_are_left_on_a_path),
-        cmocka_unit_test(full_sliding_needs_no_other_solver),
-        cmocka_unit_test(steps_grow_by_levels),
-        cmocka_unit_test(a_kept_lu_serves_other_zones),
-        cmocka_unit_test(a_kept_lu_gives_way_to_a_new_one),
-        cmocka_unit_test(a_kept_lu_serves_friction_that_changes),
-        cmocka_unit_test(a_given_load_does_not_feel_the_datum),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

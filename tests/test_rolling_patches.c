@@ -55,7 +55,7 @@ static void check_edges(const made_up *m, double from, double to, double tol,
 
 /* ---- Edges ------------------------------------------------------------------------- */
 
-static void a_root_ends_where_it_ends(void **state)
+TEST(a_root_ends_where_it_ends)
 {
     made_up m;
     make(&m);
@@ -73,7 +73,7 @@ static void a_root_ends_where_it_ends(void **state)
 }
 
 /* (E1) beta of the bodies, q = -+mu p: 1/2 + side atan(beta q/p)/pi. */
-static void slip_of_unlike_bodies_makes_edges_steep_or_flat(void **state)
+TEST(slip_of_unlike_bodies_makes_edges_steep_or_flat)
 {
     static const double friction[] = {0.4, -0.4, 2.0, -2.0};
     for (int k = 0; k < 4; k++) {
@@ -96,7 +96,7 @@ static void slip_of_unlike_bodies_makes_edges_steep_or_flat(void **state)
 }
 
 /* The outermost element does not count; a slip zone of one element neither. */
-static void what_the_outermost_element_has_does_not_count(void **state)
+TEST(what_the_outermost_element_has_does_not_count)
 {
     made_up m;
     make(&m);
@@ -110,7 +110,7 @@ static void what_the_outermost_element_has_does_not_count(void **state)
 }
 
 /* An edge lies between the midpoints of the last loaded and of the first open element. */
-static void an_edge_stays_between_its_elements(void **state)
+TEST(an_edge_stays_between_its_elements)
 {
     made_up m;
     make(&m);
@@ -138,7 +138,7 @@ static void an_edge_stays_between_its_elements(void **state)
     assert_int_equal(run.bounded, 1); /* misses the elements by more than one */
 }
 
-static void few_elements_end_at_their_ends(void **state)
+TEST(few_elements_end_at_their_ends)
 {
     for (int n = 4; n <= 5; n++) {
         made_up m;
@@ -162,7 +162,7 @@ static void few_elements_end_at_their_ends(void **state)
     assert_int_equal(run.bounded, 1);
 }
 
-static void the_outer_edges_are_those_of_all_patches(void **state)
+TEST(the_outer_edges_are_those_of_all_patches)
 {
     made_up m;
     make(&m);
@@ -172,7 +172,7 @@ static void the_outer_edges_are_those_of_all_patches(void **state)
 }
 
 /* Up to the end of the mesh, behind which there is no element. */
-static void a_patch_may_reach_the_ends_of_the_mesh(void **state)
+TEST(a_patch_may_reach_the_ends_of_the_mesh)
 {
     made_up m;
     make(&m);
@@ -188,7 +188,7 @@ static void a_patch_may_reach_the_ends_of_the_mesh(void **state)
 
 /* The parabola through p^2 of Hertz is exact but for the bias that its discretisation
  * has; a third body that is soft makes p itself smooth. */
-static void aligned_edges_are_roots_of_a_parabola(void **state)
+TEST(aligned_edges_are_roots_of_a_parabola)
 {
     for (int soft = 0; soft < 2; soft++)
         for (int k = 0; k < 3; k++) {
@@ -211,7 +211,7 @@ static void aligned_edges_are_roots_of_a_parabola(void **state)
 
 /* The root lies two to three elements beyond the third one: there the edge is, wherever
  * the pressure points; between the midpoints of the outermost and the open element. */
-static void aligned_edges_stay_beside_their_element(void **state)
+TEST(aligned_edges_stay_beside_their_element)
 {
     static const struct {
         double p[3]; /* of the third, fourth and fifth element from the edge */
@@ -238,7 +238,7 @@ static void aligned_edges_stay_beside_their_element(void **state)
     }
 }
 
-static void few_aligned_elements_follow_the_power_law(void **state)
+TEST(few_aligned_elements_follow_the_power_law)
 {
     for (int n = 8; n <= 9; n++) {
         made_up m;
@@ -257,7 +257,7 @@ static void few_aligned_elements_follow_the_power_law(void **state)
 /* ---- Peaks ------------------------------------------------------------------------- */
 
 /* The parabola of p^2 is exact for Hertz's ellipse, wherever its peak lies. */
-static void the_peak_is_hertzs(void **state)
+TEST(the_peak_is_hertzs)
 {
     rb_rolling_model model = {0};
     made_up m;
@@ -294,7 +294,7 @@ static void the_peak_is_hertzs(void **state)
     CHECK_ABS(rb_rolling_peak_pressure(&model), 5.0, 0.0, "a plateau");
 }
 
-static void a_vertex_is_that_of_the_parabola(void **state)
+TEST(a_vertex_is_that_of_the_parabola)
 {
     /* f(x) = 3 x - 2 x^2: highest at 0.75, 1.125 */
     static const double places[][2] = {{-1.0, 1.0}, {-0.5, 2.0}, {0.3, 0.9}};
@@ -312,21 +312,4 @@ static void a_vertex_is_that_of_the_parabola(void **state)
     assert_int_equal(rb_rolling_vertex(d, valley, &rise, &at), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_root_ends_where_it_ends),
-        cmocka_unit_test(slip_of_unlike_bodies_makes_edges_steep_or_flat),
-        cmocka_unit_test(what_the_outermost_element_has_does_not_count),
-        cmocka_unit_test(an_edge_stays_between_its_elements),
-        cmocka_unit_test(few_elements_end_at_their_ends),
-        cmocka_unit_test(the_outer_edges_are_those_of_all_patches),
-        cmocka_unit_test(a_patch_may_reach_the_ends_of_the_mesh),
-        cmocka_unit_test(aligned_edges_are_roots_of_a_parabola),
-        cmocka_unit_test(aligned_edges_stay_beside_their_element),
-        cmocka_unit_test(few_aligned_elements_follow_the_power_law),
-        cmocka_unit_test(the_peak_is_hertzs),
-        cmocka_unit_test(a_vertex_is_that_of_the_parabola),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

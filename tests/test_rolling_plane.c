@@ -57,7 +57,7 @@ static void check_equivalent(const rb_rolling_case *rc, const char *name)
     rb_rolling_solution_free(&other);
 }
 
-static void every_body_has_the_constants_of_plane_stress(void **state)
+TEST(every_body_has_the_constants_of_plane_stress)
 {
     rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
     check_equivalent(&rc, "half-plane");
@@ -83,7 +83,7 @@ static void every_body_has_the_constants_of_plane_stress(void **state)
 
 /* 1/E* = 1/E_A + 1/E_B, whatever Poisson's ratios are, and twice the Dundurs' constant of
  * plane stress is E* [(1 - nu_A)/E_A - (1 - nu_B)/E_B]. */
-static void a_thin_disc_is_as_stiff_as_its_young_modulus(void **state)
+TEST(a_thin_disc_is_as_stiff_as_its_young_modulus)
 {
     const rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
     const rb_rolling_derived d = rb_rolling_derive(&rc);
@@ -95,7 +95,7 @@ static void a_thin_disc_is_as_stiff_as_its_young_modulus(void **state)
 
 /* sxx, syy, sxy follow from the tractions alone, whatever the plane problem is; the third
  * one is nu (sxx + syy) or 0. */
-static void nothing_presses_a_thin_disc_from_its_side(void **state)
+TEST(nothing_presses_a_thin_disc_from_its_side)
 {
     for (int plane = 0; plane < 2; plane++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
@@ -121,7 +121,7 @@ static void nothing_presses_a_thin_disc_from_its_side(void **state)
 /* No residual stress changes the pressure at the surface, and none acts across a disc:
  * p0/k = 2.  Where friction decides at the surface the disc bears less than plane strain.
  */
-static void a_thin_disc_shakes_down_below_two_k(void **state)
+TEST(a_thin_disc_shakes_down_below_two_k)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
@@ -149,7 +149,7 @@ static void a_thin_disc_shakes_down_below_two_k(void **state)
 }
 
 /* A thin disc of nu = 1/2 can be compressed in its plane, a long body cannot. */
-static void what_is_compressible_depends_on_the_plane(void **state)
+TEST(what_is_compressible_depends_on_the_plane)
 {
     ACCEPTED(rc.plane = RB_PLANE_STRESS, HUB, rc.a.cover = 5.0, rc.a.core_young = 1e5,
              rc.a.poisson = 0.5);
@@ -163,13 +163,4 @@ static void what_is_compressible_depends_on_the_plane(void **state)
             PLANE, rc.a.layer = 1.0, rc.a.base_young = 1e5, rc.a.base_poisson = -0.6);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_body_has_the_constants_of_plane_stress),
-        cmocka_unit_test(a_thin_disc_is_as_stiff_as_its_young_modulus),
-        cmocka_unit_test(nothing_presses_a_thin_disc_from_its_side),
-        cmocka_unit_test(a_thin_disc_shakes_down_below_two_k),
-        cmocka_unit_test(what_is_compressible_depends_on_the_plane)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -62,7 +62,7 @@ static rb_rolling_row row_of(rb_rolling_pool *pool, int k)
 }
 
 /* What is asked for, and NAN otherwise. */
-static void rows_have_what_is_asked_for(void **state)
+TEST(rows_have_what_is_asked_for)
 {
     for (unsigned also = 0; also < 4; also++) {
         const rb_rolling_sweep sweep = of(1, 1, also);
@@ -107,7 +107,7 @@ static void rows_have_what_is_asked_for(void **state)
     }
 }
 
-static void refused_cases_have_their_status(void **state)
+TEST(refused_cases_have_their_status)
 {
     const rb_rolling_sweep sweep = of(8, 1, RB_ROW_STRESS);
     rb_rolling_pool *pool;
@@ -126,7 +126,7 @@ static void refused_cases_have_their_status(void **state)
 
 /* A worker that dies is replaced and tries its case once more: a death is nobody's fault,
  * two are the case's. */
-static void a_case_is_lost_with_its_second_worker(void **state)
+TEST(a_case_is_lost_with_its_second_worker)
 {
     int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -151,7 +151,7 @@ static void a_case_is_lost_with_its_second_worker(void **state)
     munmap(deaths, sizeof *deaths);
 }
 
-static void workers_are_counted(void **state)
+TEST(workers_are_counted)
 {
     static const int workers[][3] = {{5, 3, 3}, {2, 3, 2}, {0, 3, 0}}; /* count, wanted */
     rb_rolling_pool *pool;
@@ -180,7 +180,7 @@ static void workers_are_counted(void **state)
 }
 
 /* Every worker in turn: rows come whoever finishes. */
-static void all_cases_come_back_once(void **state)
+TEST(all_cases_come_back_once)
 {
     enum { CASES = 12 };
     rb_rolling_sweep sweep = of(CASES, 3, 0);
@@ -209,7 +209,7 @@ static void all_cases_come_back_once(void **state)
 }
 
 /* The row of the second worker does not wait for the one of the first. */
-static void a_fast_case_overtakes_a_slow_one(void **state)
+TEST(a_fast_case_overtakes_a_slow_one)
 {
     const rb_rolling_sweep sweep = of(8, 2, 0);
     rb_rolling_pool *pool;
@@ -226,7 +226,7 @@ static void a_fast_case_overtakes_a_slow_one(void **state)
 }
 
 /* Without descriptors no worker can be reached. */
-static void a_pool_that_cannot_start_says_why(void **state)
+TEST(a_pool_that_cannot_start_says_why)
 {
     const rb_rolling_sweep sweep = of(4, 4, 0);
     rb_rolling_pool *pool;
@@ -306,7 +306,7 @@ static pretended pretend(int idle, int submits, int collects)
 }
 
 /* Rows are seen in the order of the cases, and at most 16384 wait for an earlier one. */
-static void a_pool_s_rows_are_seen_in_order(void **state)
+TEST(a_pool_s_rows_are_seen_in_order)
 {
     static pretended p;
     p = pretend(100000, -1, -1);
@@ -319,7 +319,7 @@ static void a_pool_s_rows_are_seen_in_order(void **state)
     assert_int_equal(p.stopped, 1);
 }
 
-static void a_pool_that_cannot_go_on_ends_the_study(void **state)
+TEST(a_pool_that_cannot_go_on_ends_the_study)
 {
     static pretended p;
     for (int k = 0; k < 2; k++) {
@@ -349,7 +349,7 @@ static rb_status make_covered(int k, rb_rolling_case *rc, void *context)
 }
 
 /* Error bars wait for the stress. */
-static void rows_without_stress_have_its_status(void **state)
+TEST(rows_without_stress_have_its_status)
 {
     rb_rolling_sweep sweep = of(1, 1, RB_ROW_STRESS | RB_ROW_ERRORS);
     rb_rolling_pool *pool;
@@ -362,7 +362,7 @@ static void rows_without_stress_have_its_status(void **state)
 }
 
 /* A pool that has stopped leaves no process behind, not even a dead one. */
-static void no_process_outlives_its_pool(void **state)
+TEST(no_process_outlives_its_pool)
 {
     const rb_rolling_sweep sweep = of(8, 3, 0);
     rb_rolling_pool *pool;
@@ -383,7 +383,7 @@ static void ring(int number)
 }
 
 /* Signals that its program handles, with a timer, say, do not disturb a study. */
-static void a_timer_does_not_disturb_a_study(void **state)
+TEST(a_timer_does_not_disturb_a_study)
 {
     const struct itimerval often = {{0, 500}, {0, 500}}, never = {{0, 0}, {0, 0}};
     struct sigaction before, handler = {.sa_handler = ring}; /* interrupts system calls */
@@ -403,7 +403,7 @@ static void a_timer_does_not_disturb_a_study(void **state)
 }
 
 /* Whoever is killed takes the processes of its study along. */
-static void workers_end_with_their_parent(void **state)
+TEST(workers_end_with_their_parent)
 {
     int line[2];
     char byte;
@@ -425,22 +425,4 @@ static void workers_end_with_their_parent(void **state)
     close(line[0]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_have_what_is_asked_for),
-        cmocka_unit_test(refused_cases_have_their_status),
-        cmocka_unit_test(a_case_is_lost_with_its_second_worker),
-        cmocka_unit_test(workers_are_counted),
-        cmocka_unit_test(all_cases_come_back_once),
-        cmocka_unit_test(a_fast_case_overtakes_a_slow_one),
-        cmocka_unit_test(a_pool_that_cannot_start_says_why),
-        cmocka_unit_test(a_pool_s_rows_are_seen_in_order),
-        cmocka_unit_test(a_pool_that_cannot_go_on_ends_the_study),
-        cmocka_unit_test(rows_without_stress_have_its_status),
-        cmocka_unit_test(no_process_outlives_its_pool),
-        cmocka_unit_test(a_timer_does_not_disturb_a_study),
-        cmocka_unit_test(workers_end_with_their_parent),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

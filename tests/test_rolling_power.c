@@ -8,7 +8,7 @@ static double shift[N] = {0.3, -0.1, 0.0, 0.2, 0.7}, q[N] = {1.0, -2.0, 3.0, 0.5
               h[N] = {0.5, 0.25, 1.0, 2.0, 0.125}, slip[N] = {0.1, 0.2, -0.3, 0.4, 0.5},
               e_T[N] = {2.0, 3.0, 4.0, 5.0, 6.0};
 
-static void steady_slip_lies_between_two_midpoints(void **state)
+TEST(steady_slip_lies_between_two_midpoints)
 {
     const rb_rolling_solution s = {
         .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
@@ -28,7 +28,7 @@ static void steady_slip_lies_between_two_midpoints(void **state)
 
 /* Beside the edges the mean friction of an element in contact and an open one is no
  * friction of anything that slips. */
-static void what_sticks_dissipates_nothing(void **state)
+TEST(what_sticks_dissipates_nothing)
 {
     double opens[N] = {0.3, 0.0, 0.0, 0.0, -0.1}, sticks[N] = {0.0, -2.0, 3.0, 0.5, 0.0};
     const rb_rolling_solution s = {.n = N,
@@ -47,7 +47,7 @@ static void what_sticks_dissipates_nothing(void **state)
     CHECK_ABS(rb_rolling_slid_pressure(&rc, N, opens, sticks, h, e_T), 0.0, 0.0, "wear");
 }
 
-static void other_slip_belongs_to_its_element(void **state)
+TEST(other_slip_belongs_to_its_element)
 {
     rb_rolling_solution s = {
         .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
@@ -72,7 +72,7 @@ static void other_slip_belongs_to_its_element(void **state)
     assert_true(isnan(rb_rolling_dissipated_power(&rc, N, shift, q, h, e_T)));
 }
 
-static void elastic_bodies_lose_nothing(void **state)
+TEST(elastic_bodies_lose_nothing)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     const rb_rolling_model model = {.rc = &rc};
@@ -84,13 +84,4 @@ static void elastic_bodies_lose_nothing(void **state)
     CHECK_ABS(power, 0.0, 0.0, "steady");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steady_slip_lies_between_two_midpoints),
-        cmocka_unit_test(what_sticks_dissipates_nothing),
-        cmocka_unit_test(other_slip_belongs_to_its_element),
-        cmocka_unit_test(elastic_bodies_lose_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -76,7 +76,7 @@ static double tabulated_peak(int n, double noise)
     return p0;
 }
 
-static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
+TEST(a_coarse_table_of_a_parabola_is_that_parabola)
 {
     const rb_rolling_case rc = rail();
     const double want = peak(&rc);
@@ -91,7 +91,7 @@ static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
 
 /* The potential contact of a tabulated parabola is the one of the parabola: where its gap
  * is less than at the edge of Hertz's contact, and as much beyond. */
-static void a_table_of_a_parabola_has_its_zone(void **state)
+TEST(a_table_of_a_parabola_has_its_zone)
 {
     double ends[2][2];
     for (int k = 0; k < 2; k++) {
@@ -114,7 +114,7 @@ static void a_table_of_a_parabola_has_its_zone(void **state)
     CHECK_REL(ends[1][1], ends[0][1], 1e-3, "right end");
 }
 
-static void smoothing_takes_the_noise_away(void **state)
+TEST(smoothing_takes_the_noise_away)
 {
     const rb_rolling_case rc = rail();
     const double want = peak(&rc), noise = 2e-3, steps[] = {0.5, 0.5, 0.5, 0.1, 0.01};
@@ -129,7 +129,7 @@ static void smoothing_takes_the_noise_away(void **state)
 
 /* The curve stays within the noise of the points, and a shape larger than the noise is
  * still there. */
-static void smoothing_keeps_the_shape(void **state)
+TEST(smoothing_keeps_the_shape)
 {
     const double noise = 1e-3;
     const int n = tabulate(-30.0, 30.0, 0.25, noise, 11, x, gap);
@@ -150,7 +150,7 @@ static void smoothing_keeps_the_shape(void **state)
 
 /* A curve of mirrored points is the mirrored curve: the splines stand alike at both
  * ends. */
-static void smoothing_does_not_know_left_from_right(void **state)
+TEST(smoothing_does_not_know_left_from_right)
 {
     enum { N = 40 };
     double u[2][N], g[2][N];
@@ -174,7 +174,7 @@ static void smoothing_does_not_know_left_from_right(void **state)
 }
 
 /* On points anywhere, also on uneven ones; beyond them straight on. */
-static void the_spline_passes_through_its_points(void **state)
+TEST(the_spline_passes_through_its_points)
 {
     const double u[] = {-3.0, -2.9, -1.0, 0.5, 4.0}, g[] = {2.0, 1.9, 0.3, 0.1, 3.0};
     double from, to;
@@ -206,7 +206,7 @@ static void check_refused(int n, const double *u, const double *g, double noise,
         fail_msg("'%s' does not say '%s'", why.text, text);
 }
 
-static void bad_tables_are_refused(void **state)
+TEST(bad_tables_are_refused)
 {
     const double u[] = {-1.0, 0.0, 1.0, 2.0}, g[] = {1.0, 0.0, 1.0, 2.0};
     const double twice[] = {-1.0, 0.0, 0.0, 2.0}, back[] = {2.0, 1.0, 0.0, -1.0};
@@ -236,7 +236,7 @@ static void bad_tables_are_refused(void **state)
 
 /* Under load and under approach, without rolling and with it, on half-planes and wheels:
  * a contact wider than the table is no result. */
-static void contact_beyond_the_table_is_no_result(void **state)
+TEST(contact_beyond_the_table_is_no_result)
 {
     const int n = tabulate(-5.0, 5.0, 0.5, 0.0, 1, x, gap);
     rb_rolling_profile *profile = profile_of(n, x, gap, 0.0);
@@ -268,7 +268,7 @@ static void contact_beyond_the_table_is_no_result(void **state)
 }
 
 /* The spline's own library ends the program where its memory runs out, if it is let. */
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     const int n = tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
@@ -291,7 +291,7 @@ static void every_failed_allocation_is_reported(void **state)
 /* The spline goes through the points, or where they are smoothed through as many places,
  * at most 1001 of them; a parabola is smoothed to itself, and goes on straight beyond its
  * ends. */
-static void smoothed_splines_have_as_many_points(void **state)
+TEST(smoothed_splines_have_as_many_points)
 {
     static const int counts[][2] = {{3, 3}, {9, 9}, {301, 301}, {6001, 1001}};
     for (int k = 0; k < 4; k++) {
@@ -324,19 +324,4 @@ static void smoothed_splines_have_as_many_points(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smoothed_splines_have_as_many_points),
-        cmocka_unit_test(a_coarse_table_of_a_parabola_is_that_parabola),
-        cmocka_unit_test(a_table_of_a_parabola_has_its_zone),
-        cmocka_unit_test(smoothing_takes_the_noise_away),
-        cmocka_unit_test(smoothing_keeps_the_shape),
-        cmocka_unit_test(smoothing_does_not_know_left_from_right),
-        cmocka_unit_test(the_spline_passes_through_its_points),
-        cmocka_unit_test(bad_tables_are_refused),
-        cmocka_unit_test(contact_beyond_the_table_is_no_result),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

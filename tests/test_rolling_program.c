@@ -24,7 +24,7 @@ static rb_rolling_case rolling(void)
 
 /* ---- The case of a step ------------------------------------------------------------ */
 
-static void no_part_of_a_row_is_longer_than_the_time_step(void **state)
+TEST(no_part_of_a_row_is_longer_than_the_time_step)
 {
     const double time[] = {0.0, 1.0, 3.0, 3.0, 3.3}, load[] = {1.0, 2.0, 6.0, 7.0, 8.0};
     const rb_rolling_program program = {.n = 5, .time = time, .load = load},
@@ -53,7 +53,7 @@ static void no_part_of_a_row_is_longer_than_the_time_step(void **state)
 
 /* Loads are those of the end of a step, creepages the mean over it, exact over rows that
  * lie inside. */
-static void a_rolled_step_has_the_mean_creepage(void **state)
+TEST(a_rolled_step_has_the_mean_creepage)
 {
     const double distance[] = {0.0, 1.0, 3.0}, creep[] = {0.0, 1.0, 5.0},
                  load[] = {10.0, 20.0, 40.0}, equal[] = {0.1, 0.1, 0.1};
@@ -77,7 +77,7 @@ static void a_rolled_step_has_the_mean_creepage(void **state)
 }
 
 /* At rest a creepage means nothing: the first step goes on from the last row there. */
-static void rolling_begins_with_the_last_row_at_rest(void **state)
+TEST(rolling_begins_with_the_last_row_at_rest)
 {
     const double distance[] = {0.0, 0.0, 0.0, 1.0}, creep[] = {9.0, 5.0, 1.0, 3.0};
     const rb_rolling_program program = {.n = 4, .distance = distance, .creep = creep},
@@ -91,7 +91,7 @@ static void rolling_begins_with_the_last_row_at_rest(void **state)
     assert_int_equal(rb_rolling_program_at_rest(&timeless), 3);
 }
 
-static void results_refer_to_the_largest_mu(void **state)
+TEST(results_refer_to_the_largest_mu)
 {
     const double mu[] = {0.1, 0.4, 0.2};
     rb_rolling_case rc = rolling();
@@ -124,7 +124,7 @@ static void results_refer_to_the_largest_mu(void **state)
             fail_msg("%s", why.text);                                                    \
     } while (0)
 
-static void programs_that_make_no_sense_are_refused(void **state)
+TEST(programs_that_make_no_sense_are_refused)
 {
     const double d[] = {0.0, 0.0, 1.0}, late[] = {0.1, 0.2, 1.0},
                  back[] = {0.0, 2.0, 1.0}, twice[] = {0.0, 1.0, 1.0},
@@ -171,7 +171,7 @@ static void check_rows(const double *got, const double *wanted, int n, const cha
         CHECK_ABS(got[r], wanted[r], 1e-15 * fabs(wanted[r]), "row %d: %s", r, what);
 }
 
-static void increments_press_first_and_load_then(void **state)
+TEST(increments_press_first_and_load_then)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_program program;
@@ -204,7 +204,7 @@ static void increments_press_first_and_load_then(void **state)
     free(columns);
 }
 
-static void a_transient_rolls_under_its_loads(void **state)
+TEST(a_transient_rolls_under_its_loads)
 {
     rb_rolling_case rc = rolling();
     rb_rolling_program program;
@@ -232,16 +232,4 @@ static void a_transient_rolls_under_its_loads(void **state)
     free(columns);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_part_of_a_row_is_longer_than_the_time_step),
-        cmocka_unit_test(a_rolled_step_has_the_mean_creepage),
-        cmocka_unit_test(rolling_begins_with_the_last_row_at_rest),
-        cmocka_unit_test(results_refer_to_the_largest_mu),
-        cmocka_unit_test(programs_that_make_no_sense_are_refused),
-        cmocka_unit_test(increments_press_first_and_load_then),
-        cmocka_unit_test(a_transient_rolls_under_its_loads),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

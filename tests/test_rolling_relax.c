@@ -104,7 +104,7 @@ static const struct {
             {"hub", RB_BEM_HUB, 0, 1, 0.0, 0.0, 5e-4},
             {"cover", RB_BEM_HUB, 0, 2, 0.0, 5.0, 5e-4}};
 
-static void a_held_approach_relaxes(void **state)
+TEST(a_held_approach_relaxes)
 {
     static const double time[2] = {0.0, 1.5}, approach[2] = {0.5, 0.5},
                         shift[2] = {0.02, 0.02};
@@ -183,7 +183,7 @@ static double complementary_energy(const rb_rolling_case *rc, double softer, dou
 
 /* Half-width, pressure and, when all has relaxed, the work that the dashpots have taken:
  * P times the further approach less what is stored, int_0^P (delta_r - delta_g) dP. */
-static void a_held_load_creeps(void **state)
+TEST(a_held_load_creeps)
 {
     static const double time[3] = {0.0, 2.0, 11.0}, load[3] = {100.0, 100.0, 100.0};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
@@ -263,7 +263,7 @@ static double minus_growth(double unused, double t)
 
 /* The load rises and falls again in a second each.  Beyond the widest contact the past
  * counts only as far as the contact was narrower (Ting 1966, Graham 1967). */
-static void an_unloaded_contact_shrinks(void **state)
+TEST(an_unloaded_contact_shrinks)
 {
     static const double time[3] = {0.0, 1.0, 2.0}, load[3] = {1e-3, 100.0, 1e-3};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
@@ -296,7 +296,7 @@ static void an_unloaded_contact_shrinks(void **state)
 
 /* Very slow and very fast relaxation are elastic bodies, glassy and rubbery, under the
  * same loads and shifts; a ratio of 0 too. */
-static void limits_are_elastic(void **state)
+TEST(limits_are_elastic)
 {
     static const double time[5] = {0.0, 1.0, 1.0, 2.0, 3.0},
                         load[5] = {50.0, 100.0, 120.0, 80.0, 60.0},
@@ -333,7 +333,7 @@ static void limits_are_elastic(void **state)
 }
 
 /* Which of the bodies relaxes: seen from the other one, friction is of the other sign. */
-static void bodies_may_change_places(void **state)
+TEST(bodies_may_change_places)
 {
     static const double time[4] = {0.0, 0.5, 1.0, 2.0},
                         load[4] = {50.0, 100.0, 100.0, 30.0};
@@ -392,7 +392,7 @@ static rb_rolling_case roller(int n)
  * upstream difference, to the product rule of the memory.  That is of second order, and
  * of order 3/2 where the pressure begins like a square root.  What is lost per way
  * becomes the hysteresis. */
-static void rolling_becomes_steady(void **state)
+TEST(rolling_becomes_steady)
 {
     for (int control = 0; control < 2; control++) {
         double error[2];
@@ -435,7 +435,7 @@ static void rolling_becomes_steady(void **state)
 }
 
 /* Hunter's exact M: f = 1, V tau = a_g (theory.md V3). */
-static void rolling_from_rest_ends_at_hunters_moment(void **state)
+TEST(rolling_from_rest_ends_at_hunters_moment)
 {
     rb_rolling_case rc = relaxing(100);
     rb_rolling_history h;
@@ -453,7 +453,7 @@ static void rolling_from_rest_ends_at_hunters_moment(void **state)
 }
 
 /* A ratio of 0 is an elastic body, step by step. */
-static void elastic_rolling_is_the_limit(void **state)
+TEST(elastic_rolling_is_the_limit)
 {
     rb_rolling_history h[2];
     rb_rolling_case rc = roller(40);
@@ -473,7 +473,7 @@ static void elastic_rolling_is_the_limit(void **state)
 }
 
 /* By transforms the same. */
-static void many_elements_tell_the_same(void **state)
+TEST(many_elements_tell_the_same)
 {
     static const double time[2] = {0.0, 0.4}, load[2] = {50.0, 100.0};
     const rb_rolling_program program = {.n = 2, .time = time, .load = load};
@@ -495,7 +495,7 @@ static void many_elements_tell_the_same(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void bad_programs_are_refused(void **state)
+TEST(bad_programs_are_refused)
 {
     static const double time[3] = {0.0, 1.0, 2.0}, late[3] = {1.0, 2.0, 3.0},
                         back[3] = {0.0, 2.0, 1.0}, load[3] = {1.0, 2.0, 3.0},
@@ -541,7 +541,7 @@ static void bad_programs_are_refused(void **state)
 }
 
 /* Solved at once, without steps, it would be an elastic body. */
-static void one_static_solve_is_refused(void **state)
+TEST(one_static_solve_is_refused)
 {
     rb_rolling_case rc = relaxing(24);
     rb_rolling_solution s;
@@ -558,7 +558,7 @@ static void one_static_solve_is_refused(void **state)
 }
 
 /* At rest and rolling; what there is is freed. */
-static void every_failing_allocation_is_noticed(void **state)
+TEST(every_failing_allocation_is_noticed)
 {
     static const double time[3] = {0.0, 0.5, 0.5}, load[3] = {50.0, 100.0, 80.0};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
@@ -594,7 +594,7 @@ static void every_failing_allocation_is_noticed(void **state)
 /* Tractions, and what the terms keep of them, move by an element, each direction for
  * itself, and nothing comes in; the displacement that they bring along is that of kept
  * and former tractions through the glassy body (V6). */
-static void the_past_moves_with_the_material(void **state)
+TEST(the_past_moves_with_the_material)
 {
     enum { N = 6, TAIL = 3, ALL = N + TAIL };
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -635,7 +635,7 @@ static void the_past_moves_with_the_material(void **state)
 
 /* Over steps of any length the three parts make one, and each is its integral, here in
  * more digits: kept exp(-r), after 1 - (1 - exp(-r))/r. */
-static void what_fades_is_known_to_rounding(void **state)
+TEST(what_fades_is_known_to_rounding)
 {
     for (double r = 1e-7; r < 50.0; r *= 1.3) {
         const rb_bem_fading f = rb_bem_fading_over(4.0, 4.0 * r);
@@ -665,7 +665,7 @@ static double work_of(const rb_bem_flexibility *f, const double *a, const double
 /* A dashpot loses (1/tau) int e F e dt, with e = e_0 exp(-t/tau) + d (1 - exp(-t/tau))
  * tau/step for a change d of the traction.  After a long step and a short one, both
  * of e_0 and d are there; from rest and at a held traction, one of them alone. */
-static void a_step_loses_what_its_dashpot_does(void **state)
+TEST(a_step_loses_what_its_dashpot_does)
 {
     enum { N = 6 };
     static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
@@ -708,24 +708,4 @@ static void a_step_loses_what_its_dashpot_does(void **state)
     rb_rolling_mesh_free(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_held_approach_relaxes),
-        cmocka_unit_test(a_held_load_creeps),
-        cmocka_unit_test(an_unloaded_contact_shrinks),
-        cmocka_unit_test(limits_are_elastic),
-        cmocka_unit_test(bodies_may_change_places),
-        cmocka_unit_test(rolling_becomes_steady),
-        cmocka_unit_test(rolling_from_rest_ends_at_hunters_moment),
-        cmocka_unit_test(elastic_rolling_is_the_limit),
-        cmocka_unit_test(many_elements_tell_the_same),
-        cmocka_unit_test(bad_programs_are_refused),
-        cmocka_unit_test(one_static_solve_is_refused),
-        cmocka_unit_test(every_failing_allocation_is_noticed),
-        cmocka_unit_test(the_past_moves_with_the_material),
-        cmocka_unit_test(what_fades_is_known_to_rounding),
-        cmocka_unit_test(a_step_loses_what_its_dashpot_does),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

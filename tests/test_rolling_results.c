@@ -21,7 +21,7 @@ static double carter(double s)
     return s >= 1.0 ? 1.0 : s * (2.0 - s);
 }
 
-static void a_creep_curve_is_carters(void **state)
+TEST(a_creep_curve_is_carters)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
@@ -44,7 +44,7 @@ static void a_creep_curve_is_carters(void **state)
 
 /* On a cosine mesh elements are not lengths: Carter's stick at s = 0.1 is 0.90 of the
  * contact and 0.80 of the elements. */
-static void the_stick_ratio_is_one_of_lengths(void **state)
+TEST(the_stick_ratio_is_one_of_lengths)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
@@ -67,7 +67,7 @@ static void the_stick_ratio_is_one_of_lengths(void **state)
 }
 
 /* Each point of a curve is what the same case says alone, dissimilar bodies included. */
-static void a_curve_agrees_with_single_solves(void **state)
+TEST(a_curve_agrees_with_single_solves)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_curve c;
@@ -89,7 +89,7 @@ static void a_curve_agrees_with_single_solves(void **state)
     rb_rolling_curve_free(&c);
 }
 
-static void bad_curves_are_refused(void **state)
+TEST(bad_curves_are_refused)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
@@ -115,7 +115,7 @@ static void check_extremum(const char *name, rb_rolling_extremum got, double val
     CHECK_ABS(got.y, y * a, 1e-2 * a, "%s, y", name);
 }
 
-static void hertz_below_the_surface(void **state)
+TEST(hertz_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
@@ -131,7 +131,7 @@ static void hertz_below_the_surface(void **state)
 }
 
 /* Full sliding, friction on A towards +x (xi < 0). */
-static void full_sliding_below_the_surface(void **state)
+TEST(full_sliding_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
@@ -151,7 +151,7 @@ static void full_sliding_below_the_surface(void **state)
 }
 
 /* The wheel's own boundary elements see the same stress as the half-plane, up to a/R. */
-static void a_wheel_has_the_stress_of_the_half_plane(void **state)
+TEST(a_wheel_has_the_stress_of_the_half_plane)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
@@ -169,7 +169,7 @@ static void a_wheel_has_the_stress_of_the_half_plane(void **state)
 
 /* Where friction pulls, at the edge on the very surface, the elements' ends leave no
  * mark. */
-static void the_pulled_edge_of_a_wheel_is_that_of_the_half_plane(void **state)
+TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
 {
     double tension[2];
     for (int k = 0; k < 2; k++) {
@@ -192,7 +192,7 @@ static void the_pulled_edge_of_a_wheel_is_that_of_the_half_plane(void **state)
 }
 
 /* On y = 0 inside the contact: syy = -p, sxy = -q (A lies above its surface). */
-static void the_surface_carries_the_tractions(void **state)
+TEST(the_surface_carries_the_tractions)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     rb_rolling_model model;
@@ -215,7 +215,7 @@ static void the_surface_carries_the_tractions(void **state)
 }
 
 /* Of points outside the body the first is named, on every support by the same number. */
-static void a_point_outside_has_its_index(void **state)
+TEST(a_point_outside_has_its_index)
 {
     const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
     const double xy[] = {0.0, 1.0, 0.1, 1.0, 0.0, -1.0, 0.0, -2.0};
@@ -237,7 +237,7 @@ static void a_point_outside_has_its_index(void **state)
 /* ---- Dissipation (theory.md 6) ----------------------------------------------------- */
 
 /* D = -xi Q + (1/R) int x p dx for bodies similar or not. */
-static void dissipation_is_the_work_of_the_forces(void **state)
+TEST(dissipation_is_the_work_of_the_forces)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel_on_plane(k & 1 ? 0.3 : 0.5);
@@ -293,7 +293,7 @@ static void count_random_case(int fitted, tally *t)
     rb_rolling_solution_free(&so);
 }
 
-static void error_bars_hold_the_truth(void **state)
+TEST(error_bars_hold_the_truth)
 {
     srand(3);
     for (int fitted = 0; fitted < 2; fitted++) {
@@ -306,7 +306,7 @@ static void error_bars_hold_the_truth(void **state)
 
 /* Three times the spread are three errors of a method of first order, nine of one of
  * second order, as on fitted meshes: more where the error changes its sign. */
-static void error_bars_of_curves_hold_the_truth(void **state)
+TEST(error_bars_of_curves_hold_the_truth)
 {
     for (int fitted = 0; fitted < 2; fitted++) {
         rb_rolling_case rc = wheel_on_plane(0.5);
@@ -330,7 +330,7 @@ static void error_bars_of_curves_hold_the_truth(void **state)
     }
 }
 
-static void refinement_reaches_the_accuracy(void **state)
+TEST(refinement_reaches_the_accuracy)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_solution s;
@@ -362,7 +362,7 @@ static void check_names(const rb_rolling_results *table)
     }
 }
 
-static void every_result_stands_once(void **state)
+TEST(every_result_stands_once)
 {
     int studied = 0;
     check_names(&rb_rolling_solution_scalars);
@@ -380,7 +380,7 @@ static void every_result_stands_once(void **state)
     assert_null(rb_rolling_study_column(studied + 1));
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_model model;
@@ -474,7 +474,7 @@ static double factor_of(const rb_rolling_result *r, double length, double stress
 
 /* No bound of the program knows a length or a stress: in units a thousand million times
  * as large or small every number and every column is the same but for its unit. */
-static void no_result_knows_its_unit(void **state)
+TEST(no_result_knows_its_unit)
 {
     static const double units[][2] = {{0x1p-12, 0x1p-30}, {0x1p20, 0x1p24}};
     for (int k = 0; k < 7; k++)
@@ -518,26 +518,4 @@ static void no_result_knows_its_unit(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_creep_curve_is_carters),
-        cmocka_unit_test(the_stick_ratio_is_one_of_lengths),
-        cmocka_unit_test(a_curve_agrees_with_single_solves),
-        cmocka_unit_test(bad_curves_are_refused),
-        cmocka_unit_test(hertz_below_the_surface),
-        cmocka_unit_test(full_sliding_below_the_surface),
-        cmocka_unit_test(a_wheel_has_the_stress_of_the_half_plane),
-        cmocka_unit_test(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane),
-        cmocka_unit_test(the_surface_carries_the_tractions),
-        cmocka_unit_test(a_point_outside_has_its_index),
-        cmocka_unit_test(dissipation_is_the_work_of_the_forces),
-        cmocka_unit_test(error_bars_hold_the_truth),
-        cmocka_unit_test(error_bars_of_curves_hold_the_truth),
-        cmocka_unit_test(refinement_reaches_the_accuracy),
-        cmocka_unit_test(every_result_stands_once),
-        cmocka_unit_test(no_result_knows_its_unit),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

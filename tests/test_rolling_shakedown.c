@@ -72,7 +72,7 @@ static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit
     return status;
 }
 
-static void johnsons_map_is_met(void **state)
+TEST(johnsons_map_is_met)
 {
     /* both sides of the coefficient from which on the surface yields first */
     const int step = getenv("ROLLBEM_TEST_ALL") ? 1 : 2;
@@ -95,7 +95,7 @@ static void johnsons_map_is_met(void **state)
     }
 }
 
-static void what_is_no_half_plane_is_refused(void **state)
+TEST(what_is_no_half_plane_is_refused)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = sliding(0.1);
@@ -111,11 +111,4 @@ static void what_is_no_half_plane_is_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(johnsons_map_is_met),
-        cmocka_unit_test(what_is_no_half_plane_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -315,7 +315,7 @@ static rb_rolling_case wheel(rb_rolling_case rc)
     return rc;
 }
 
-static void solutions_are_short_of_memory(void **state)
+TEST(solutions_are_short_of_memory)
 {
     FAIL(solve, dissimilar(few(RB_STEADY, 8)));
     FAIL(solve, second(few(RB_STEADY, 8)));
@@ -329,7 +329,7 @@ static void solutions_are_short_of_memory(void **state)
     FAIL(again, warm(falling(RB_STEADY, 8)));
 }
 
-static void friction_laws_are_short_of_memory(void **state)
+TEST(friction_laws_are_short_of_memory)
 {
     FAIL(solve, falling(RB_STEADY, 8));
     FAIL(solve, falling(RB_TRANSIENT, 8));
@@ -339,7 +339,7 @@ static void friction_laws_are_short_of_memory(void **state)
     FAIL(solutions, falling(RB_STEADY, 6));
 }
 
-static void tasks_are_short_of_memory(void **state)
+TEST(tasks_are_short_of_memory)
 {
     FAIL(curve, dissimilar(few(RB_STEADY, 12)));
     FAIL(curve, warm(few(RB_STEADY, 8)));
@@ -362,7 +362,7 @@ static void tasks_are_short_of_memory(void **state)
 /* ---- How much it will be ----------------------------------------------------------- */
 
 /* The table of docs/performance.md, "Memory"; c + s = 60 unknowns of 40 elements. */
-static void bytes_are_those_of_the_documentation(void **state)
+TEST(bytes_are_those_of_the_documentation)
 {
     rb_rolling_case rc = few(RB_STEADY, 40);
     const double n = 40.0;
@@ -404,13 +404,4 @@ static void bytes_are_those_of_the_documentation(void **state)
         1e-15, "where the contact needs more");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solutions_are_short_of_memory),
-        cmocka_unit_test(friction_laws_are_short_of_memory),
-        cmocka_unit_test(tasks_are_short_of_memory),
-        cmocka_unit_test(bytes_are_those_of_the_documentation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -30,7 +30,7 @@ static rb_rolling_solution of(const rb_rolling_model *model)
 }
 
 /* Every part of the work of a wheel takes some of its time. */
-static void the_parts_of_the_time_are_within_the_whole(void **state)
+TEST(the_parts_of_the_time_are_within_the_whole)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
@@ -52,7 +52,7 @@ static void the_parts_of_the_time_are_within_the_whole(void **state)
     rb_rolling_solution_free(&s);
 }
 
-static void columns_are_those_of_the_state(void **state)
+TEST(columns_are_those_of_the_state)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane((rb_rolling_formulation)k);
@@ -111,7 +111,7 @@ static void columns_are_those_of_the_state(void **state)
     }
 }
 
-static void sums_are_those_of_the_tractions(void **state)
+TEST(sums_are_those_of_the_tractions)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(k ? RB_STEADY : RB_STATIC);
@@ -153,7 +153,7 @@ static void sums_are_those_of_the_tractions(void **state)
 
 /* A shift before the state's own is added; the creepage of a contact at rest is the given
  * one, or its ratio. */
-static void shift_and_creepage_at_rest(void **state)
+TEST(shift_and_creepage_at_rest)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rc.shift = 0.001;
@@ -179,7 +179,7 @@ static void shift_and_creepage_at_rest(void **state)
 }
 
 /* Slip against the zone is counted, of each zone; as small as rounding it is none. */
-static void slip_that_pushes_is_a_violation(void **state)
+TEST(slip_that_pushes_is_a_violation)
 {
     const rb_rolling_case rc = plane(RB_STEADY);
     rb_rolling_model model = solved_model(&rc);
@@ -207,7 +207,7 @@ static void slip_that_pushes_is_a_violation(void **state)
 }
 
 /* Two thousand boundary elements have no dense matrix. */
-static void many_boundary_elements_are_called_hierarchical(void **state)
+TEST(many_boundary_elements_are_called_hierarchical)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
@@ -222,7 +222,7 @@ static void many_boundary_elements_are_called_hierarchical(void **state)
 }
 
 /* The support of a wheel holds the load; both wheels' elements are counted. */
-static void a_support_holds_the_load(void **state)
+TEST(a_support_holds_the_load)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
@@ -251,7 +251,7 @@ static void a_support_holds_the_load(void **state)
 }
 
 /* Solved again with another load: as from the start, whatever the model held. */
-static void a_model_solves_the_next_case_as_the_first(void **state)
+TEST(a_model_solves_the_next_case_as_the_first)
 {
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = plane(RB_STEADY), next;
@@ -277,7 +277,7 @@ static void a_model_solves_the_next_case_as_the_first(void **state)
 }
 
 /* A given ratio of the creepage refers to the load that an approach leads to. */
-static void a_ratio_is_met_under_an_approach(void **state)
+TEST(a_ratio_is_met_under_an_approach)
 {
     rb_rolling_case rc = plane(RB_STEADY);
     rc.load = NAN;
@@ -292,7 +292,7 @@ static void a_ratio_is_met_under_an_approach(void **state)
 }
 
 /* On elements between given places; where they do not hold the contact, that is said. */
-static void elements_may_stand_where_they_are_told(void **state)
+TEST(elements_may_stand_where_they_are_told)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rb_rolling_solution s;
@@ -315,7 +315,7 @@ static void elements_may_stand_where_they_are_told(void **state)
 }
 
 /* Along normals that turn with the surface pressure and friction have both components. */
-static void tilted_tractions_add_up_to_both_forces(void **state)
+TEST(tilted_tractions_add_up_to_both_forces)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.normals = RB_BEM_NORMALS_SURFACE;
@@ -342,7 +342,7 @@ static void tilted_tractions_add_up_to_both_forces(void **state)
 }
 
 /* Fewer than five elements in contact do not tell its edges, and that is said. */
-static void few_elements_do_not_tell_the_edges(void **state)
+TEST(few_elements_do_not_tell_the_edges)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(RB_STEADY);
@@ -355,7 +355,7 @@ static void few_elements_do_not_tell_the_edges(void **state)
 
 /* Hertz: P/2 (delta - a^2/(8 R)).  On any body dE/d(delta) = P without friction.  What
  * relaxes or yields has no such energy. */
-static void strain_energy_is_the_work_of_pressing(void **state)
+TEST(strain_energy_is_the_work_of_pressing)
 {
     rb_rolling_case rc = plane(RB_STATIC);
     rc.mu = 0.0;
@@ -394,22 +394,4 @@ static void strain_energy_is_the_work_of_pressing(void **state)
     rb_rolling_solution_free(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_parts_of_the_time_are_within_the_whole),
-        cmocka_unit_test(columns_are_those_of_the_state),
-        cmocka_unit_test(strain_energy_is_the_work_of_pressing),
-        cmocka_unit_test(sums_are_those_of_the_tractions),
-        cmocka_unit_test(shift_and_creepage_at_rest),
-        cmocka_unit_test(slip_that_pushes_is_a_violation),
-        cmocka_unit_test(a_support_holds_the_load),
-        cmocka_unit_test(many_boundary_elements_are_called_hierarchical),
-        cmocka_unit_test(a_model_solves_the_next_case_as_the_first),
-        cmocka_unit_test(a_ratio_is_met_under_an_approach),
-        cmocka_unit_test(elements_may_stand_where_they_are_told),
-        cmocka_unit_test(tilted_tractions_add_up_to_both_forces),
-        cmocka_unit_test(few_elements_do_not_tell_the_edges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -68,7 +68,7 @@ static void check_same(const rb_rolling_solution *a, const rb_rolling_solution *
 
 /* Static contact, a static history of one row and a transient that stays at rest are one
  * problem; the creepage enters (12) in all of them. */
-static void one_step_at_rest_is_a_static_case(void **state)
+TEST(one_step_at_rest_is_a_static_case)
 {
     static const double start[] = {0.0}, force[] = {0.4};
     for (int k = 0; k < KINDS; k++)
@@ -113,7 +113,7 @@ static void one_step_at_rest_is_a_static_case(void **state)
 }
 
 /* The shift of a history is the whole one, in its column and in the solution. */
-static void shifts_add_up(void **state)
+TEST(shifts_add_up)
 {
     const double shift[] = {1e-3, 3e-3, 4e-3};
     const rb_rolling_program program = {.n = 3, .shift = shift};
@@ -210,7 +210,7 @@ static double stick_under_a_flat_punch(int elements)
     return part;
 }
 
-static void increments_press_as_spence(void **state)
+TEST(increments_press_as_spence)
 {
     rb_rolling_case rc = spence(400);
     rb_rolling_model model;
@@ -236,7 +236,7 @@ static void increments_press_as_spence(void **state)
 }
 
 /* After pressing as many increments of shift or force lead to what the case asks for. */
-static void increments_end_where_the_case_says(void **state)
+TEST(increments_end_where_the_case_says)
 {
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
@@ -272,7 +272,7 @@ static int count_steps(const rb_rolling_model *model, const rb_rolling_history *
 
 /* Similar bodies do not care how they are pressed (their pressure causes no slip), and a
  * transient presses as a static case does. */
-static void similar_bodies_press_at_once(void **state)
+TEST(similar_bodies_press_at_once)
 {
     rb_rolling_case rc = spence(40);
     rb_rolling_solution one, many;
@@ -304,7 +304,7 @@ static void similar_bodies_press_at_once(void **state)
 
 /* ---- Where a history ends ---------------------------------------------------------- */
 
-static void histories_end_on_their_last_row(void **state)
+TEST(histories_end_on_their_last_row)
 {
     static const double distance[] = {0.0, 1.0, 2.0},
                         up_and_down[] = {100.0, 400.0, 100.0}, force[] = {0.0, 0.5, 0.5},
@@ -337,7 +337,7 @@ static void histories_end_on_their_last_row(void **state)
 
 /* Under a given force the last creepage does not jump with the place where the way ends.
  */
-static void the_last_creepage_is_one_of_many(void **state)
+TEST(the_last_creepage_is_one_of_many)
 {
     rb_rolling_case rc = spence(50);
     double end[5];
@@ -361,7 +361,7 @@ static void the_last_creepage_is_one_of_many(void **state)
 }
 
 /* A creepage ratio refers to the load of the step, which a given approach only brings. */
-static void ratios_refer_to_the_load_of_the_step(void **state)
+TEST(ratios_refer_to_the_load_of_the_step)
 {
     for (int k = KINDS / 2; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
@@ -381,7 +381,7 @@ static void ratios_refer_to_the_load_of_the_step(void **state)
 
 /* ---- Columns ----------------------------------------------------------------------- */
 
-static void columns_are_those_of_the_solution(void **state)
+TEST(columns_are_those_of_the_solution)
 {
     for (int k = 0; k < KINDS; k++) {
         rb_rolling_case rc = kind_of_case(k);
@@ -409,7 +409,7 @@ static void columns_are_those_of_the_solution(void **state)
 }
 
 /* In a steady state D = -xi Q + (1/R) int x p dx (theory.md 6). */
-static void power_and_moment_balance_when_steady(void **state)
+TEST(power_and_moment_balance_when_steady)
 {
     rb_rolling_case rc = spence(160);
     rb_rolling_model model;
@@ -456,7 +456,7 @@ static rb_rolling_case with_spot(const rb_rolling_case *rc, const spot *s)
 }
 
 /* An irregularity of height 0 is none: the history comes to the steady state. */
-static void nothing_passes_unnoticed(void **state)
+TEST(nothing_passes_unnoticed)
 {
     const spot flat = make_spot(0.3, 0.2, 0.0);
     for (int k = 0; k < KINDS; k++) {
@@ -506,7 +506,7 @@ static int take(const rb_rolling_model *model, const rb_rolling_history *h, int 
 /* A bump that lies before the contact rides through it from +x to -x, by the rolled
  * distance: there the pressure differs most from that without it, and what is behind it
  * is as before. */
-static void a_bump_passes_from_front_to_back(void **state)
+TEST(a_bump_passes_from_front_to_back)
 {
     static film smooth, bumpy;
     for (int k = 0; k < 6; k++) {
@@ -552,7 +552,7 @@ static void a_bump_passes_from_front_to_back(void **state)
 
 /* A hole as wide as the contact and deeper than the approach: nothing touches for a
  * while, and a ratio to no load is no number, nor is it infinite. */
-static void contact_may_be_lost_and_found(void **state)
+TEST(contact_may_be_lost_and_found)
 {
     const spot hole = make_spot(9.0, 6.0, 0.5);
     for (int k = KINDS / 2; k < KINDS; k++) {
@@ -596,7 +596,7 @@ static int find_widest(const rb_rolling_model *model, const rb_rolling_history *
 
 /* A flat under a given load widens the contact beyond that at rest: an automatic zone
  * grows, a given one is refused with a line. */
-static void zones_grow_with_what_passes(void **state)
+TEST(zones_grow_with_what_passes)
 {
     rb_rolling_case rc = spence(60);
     const spot flat = make_spot(0.9, 0.45, 3e-3);
@@ -624,7 +624,7 @@ static void zones_grow_with_what_passes(void **state)
     release(&model, &h);
 }
 
-static void bad_irregularities_are_refused(void **state)
+TEST(bad_irregularities_are_refused)
 {
     static const double x[] = {0.0, 1.0, 2.0}, back[] = {0.0, 1.0, 1.0},
                         open[] = {0.0, 1.0, 0.5}, closed[] = {0.0, 1.0, 0.0},
@@ -652,7 +652,7 @@ static void bad_irregularities_are_refused(void **state)
     }
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     const spot bump = make_spot(0.3, 0.2, -1e-4);
     rb_rolling_case rc = kind_of_case(2);
@@ -678,7 +678,7 @@ static void every_failed_allocation_is_reported(void **state)
 }
 
 /* Steps without contact have no edge whose power is uncertain. */
-static void lost_contact_has_error_bars(void **state)
+TEST(lost_contact_has_error_bars)
 {
     const spot hole = make_spot(9.0, 6.0, 0.5);
     rb_rolling_case rc = kind_of_case(KINDS - 1);
@@ -701,26 +701,4 @@ static void lost_contact_has_error_bars(void **state)
     release(&model, &h);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_step_at_rest_is_a_static_case),
-        cmocka_unit_test(shifts_add_up),
-        cmocka_unit_test(increments_press_as_spence),
-        cmocka_unit_test(increments_end_where_the_case_says),
-        cmocka_unit_test(similar_bodies_press_at_once),
-        cmocka_unit_test(histories_end_on_their_last_row),
-        cmocka_unit_test(the_last_creepage_is_one_of_many),
-        cmocka_unit_test(ratios_refer_to_the_load_of_the_step),
-        cmocka_unit_test(columns_are_those_of_the_solution),
-        cmocka_unit_test(power_and_moment_balance_when_steady),
-        cmocka_unit_test(nothing_passes_unnoticed),
-        cmocka_unit_test(a_bump_passes_from_front_to_back),
-        cmocka_unit_test(contact_may_be_lost_and_found),
-        cmocka_unit_test(zones_grow_with_what_passes),
-        cmocka_unit_test(bad_irregularities_are_refused),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-        cmocka_unit_test(lost_contact_has_error_bars),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

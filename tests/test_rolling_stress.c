@@ -44,7 +44,7 @@ static void check_parts(const rb_rolling_stress *s, double nu)
 
 /* McEwen on the axis: sxx = -p0 [(1 + 2 y^2)/sqrt(1 + y^2) - 2 y], syy = -p0/sqrt(1+y^2).
  */
-static void the_axis_has_its_closed_form(void **state)
+TEST(the_axis_has_its_closed_form)
 {
     const rb_rolling_case rc = hertz(200);
     rb_rolling_model model = solved_model(&rc);
@@ -65,7 +65,7 @@ static void the_axis_has_its_closed_form(void **state)
 
 /* Flamant's point load from far away: srr = -2 P cos(angle)/(pi r), on either side of the
  * distance where strips of constant traction take over. */
-static void far_away_it_is_a_point_load(void **state)
+TEST(far_away_it_is_a_point_load)
 {
     const rb_rolling_case rc = hertz(60);
     rb_rolling_model model = solved_model(&rc);
@@ -92,7 +92,7 @@ static void far_away_it_is_a_point_load(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void places_outside_are_named(void **state)
+TEST(places_outside_are_named)
 {
     const double xy[] = {0.0, 0.0, 0.1, 0.2, 0.3, -1e-9};
     rb_rolling_stress s[3];
@@ -113,7 +113,7 @@ static void places_outside_are_named(void **state)
 
 /* p0: 0.300 at 0.786 a; Mises of nu = 0.3: 0.558 at 0.704 a; sxy: 1/4 at 0.866 a, a/2; no
  * tension but rounding.  A depth that ends before them ends the search. */
-static void maxima_are_hertzs(void **state)
+TEST(maxima_are_hertzs)
 {
     const rb_rolling_case rc = hertz(100);
     rb_rolling_model model = solved_model(&rc);
@@ -153,7 +153,7 @@ static rb_rolling_case stuck(void)
 
 /* Of several peaks the highest, on its top: no point of a fine row has more.  Mirror
  * images have the same. */
-static void the_highest_of_several_peaks_is_found(void **state)
+TEST(the_highest_of_several_peaks_is_found)
 {
     const rb_rolling_case rc = stuck();
     rb_rolling_model model = solved_model(&rc);
@@ -180,7 +180,7 @@ static void the_highest_of_several_peaks_is_found(void **state)
 }
 
 /* At the ends of a wheel's elements, which are its corners, as next to them. */
-static void ends_of_elements_are_not_seen(void **state)
+TEST(ends_of_elements_are_not_seen)
 {
     rb_rolling_case rc = hertz(24);
     rc.a.support = RB_BEM_HUB;
@@ -206,7 +206,7 @@ static void ends_of_elements_are_not_seen(void **state)
 }
 
 /* A half-width beyond either edge, evenly down to 2.5 half-widths. */
-static void a_grid_lies_under_the_contact(void **state)
+TEST(a_grid_lies_under_the_contact)
 {
     const rb_rolling_case rc = hertz(60);
     rb_rolling_model model = solved_model(&rc);
@@ -248,7 +248,7 @@ static void a_grid_lies_under_the_contact(void **state)
 
 /* The wheel is a polygon: between it and its circle there is stress, outside the circle
  * and in the hub there is none. */
-static void a_wheel_has_stress_up_to_its_circle(void **state)
+TEST(a_wheel_has_stress_up_to_its_circle)
 {
     rb_rolling_case rc = hertz(16);
     rc.a.support = RB_BEM_HUB;
@@ -287,7 +287,7 @@ static void a_wheel_has_stress_up_to_its_circle(void **state)
 }
 
 /* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
-static void a_wide_grid_stays_on_the_lower_half(void **state)
+TEST(a_wide_grid_stays_on_the_lower_half)
 {
     rb_rolling_case rc = hertz(16);
     rc.a.support = RB_BEM_HUB;
@@ -314,7 +314,7 @@ static void a_wide_grid_stays_on_the_lower_half(void **state)
 
 /* Tresca's circle with the residual stress 2 c: at the best depth of Hertz p0/4, whatever
  * the residual stress does for sxx - syy. */
-static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
+TEST(shakedown_of_a_frictionless_contact_is_sxy)
 {
     const rb_rolling_case rc = hertz(80);
     rb_rolling_model model = solved_model(&rc);
@@ -348,7 +348,7 @@ static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
 
 /* A grid and the maxima end at a rigid base; points below it are refused, and a residual
  * stress of two materials is not looked for. */
-static void a_rigid_base_has_no_stress(void **state)
+TEST(a_rigid_base_has_no_stress)
 {
     rb_rolling_case rc = hertz(16);
     rb_message why;
@@ -378,7 +378,7 @@ static void a_rigid_base_has_no_stress(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void a_cover_that_relaxes_on_an_elastic_core_is_refused(void **state)
+TEST(a_cover_that_relaxes_on_an_elastic_core_is_refused)
 {
     rb_rolling_case rc = hertz(16);
     rb_message why;
@@ -393,21 +393,4 @@ static void a_cover_that_relaxes_on_an_elastic_core_is_refused(void **state)
     CHECK_STATUS(rb_rolling_stress_check(&rc, &why), RB_OK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_axis_has_its_closed_form),
-        cmocka_unit_test(far_away_it_is_a_point_load),
-        cmocka_unit_test(places_outside_are_named),
-        cmocka_unit_test(maxima_are_hertzs),
-        cmocka_unit_test(the_highest_of_several_peaks_is_found),
-        cmocka_unit_test(ends_of_elements_are_not_seen),
-        cmocka_unit_test(a_grid_lies_under_the_contact),
-        cmocka_unit_test(a_wheel_has_stress_up_to_its_circle),
-        cmocka_unit_test(a_wide_grid_stays_on_the_lower_half),
-        cmocka_unit_test(shakedown_of_a_frictionless_contact_is_sxy),
-        cmocka_unit_test(a_rigid_base_has_no_stress),
-        cmocka_unit_test(a_cover_that_relaxes_on_an_elastic_core_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

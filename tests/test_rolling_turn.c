@@ -60,7 +60,7 @@ static void sum_of_waves(cplx (*memory)[4], double angle, double b, double F[4])
 
 /* Homogeneous, covers on a rigid and on an elastic core; memory short and long against
  * the circumference. */
-static void the_kernel_is_the_sum_of_its_waves(void **state)
+TEST(the_kernel_is_the_sum_of_its_waves)
 {
     enum { N = 5, M = N + 1 };
     static const double ratio[2] = {0.7, 2.0};
@@ -114,7 +114,7 @@ static void the_kernel_is_the_sum_of_its_waves(void **state)
     free(memory);
 }
 
-static void bad_wheels_are_refused(void **state)
+TEST(bad_wheels_are_refused)
 {
     static const double ratio[1] = {1.0}, length[1] = {1.0}, none[1] = {0.0};
     const rb_bem_material steel = {1.0, 0.3}, bad = {-1.0, 0.3};
@@ -139,7 +139,7 @@ static void bad_wheels_are_refused(void **state)
 
 /* On any flexibility of the glassy wheel, the disc by transforms, too: what is added to
  * it is added to its matrix. */
-static void memory_is_added_to_any_flexibility(void **state)
+TEST(memory_is_added_to_any_flexibility)
 {
     enum { n = 6, m = n + 1 };
     static const double ratio[1] = {1.0}, length[1] = {0.3};
@@ -208,7 +208,7 @@ static void figures(const rb_rolling_case *rc, double value[3])
 
 /* The nip is 2 mm wide and the wheels grow: deviations from the half-plane fall like 1/R.
  */
-static void a_large_wheel_is_a_halfplane(void **state)
+TEST(a_large_wheel_is_a_halfplane)
 {
     double plane[3], before[3] = {0.0}, value[3];
     rb_rolling_case rc = wheel(40);
@@ -230,7 +230,7 @@ static void a_large_wheel_is_a_halfplane(void **state)
 }
 
 /* So does a cover become the layer that relaxes, on a rigid and on an elastic core. */
-static void a_thin_cover_is_the_layer(void **state)
+TEST(a_thin_cover_is_the_layer)
 {
     for (int core = 0; core < 2; core++) {
         double before[3] = {0.0};
@@ -264,7 +264,7 @@ static void a_thin_cover_is_the_layer(void **state)
 
 /* All below the cover is rigid: it is the wheel on a hub of that size, with other
  * elements on the hub. */
-static void a_cover_to_the_hub_is_the_wheel(void **state)
+TEST(a_cover_to_the_hub_is_the_wheel)
 {
     double value[2][3];
     for (int k = 0; k < 2; k++) {
@@ -280,7 +280,7 @@ static void a_cover_to_the_hub_is_the_wheel(void **state)
 /* Memory that is over at once makes the rubbery wheel; memory that lasts for many turns
  * the glassy one, whose rim has shrunk by what the mean pressure leaves.  The bounds are
  * the error of the boundary elements, which the memory's part does not have. */
-static void speed_has_its_limits(void **state)
+TEST(speed_has_its_limits)
 {
     for (int kind = 0; kind < 3; kind++)
         for (int fast = 0; fast < 2; fast++) {
@@ -314,7 +314,7 @@ static double levers(const rb_rolling_solution *s, double radius)
 
 /* A body that hardly relaxes loses hardly anything, at any traction: hub, cover, cover on
  * an elastic core, of A or of B, beside an elastic or a rigid other body. */
-static void what_does_not_relax_loses_nothing(void **state)
+TEST(what_does_not_relax_loses_nothing)
 {
     for (int k = 0; k < 24; k++) {
         rb_rolling_case rc = wheel(20);
@@ -345,7 +345,7 @@ static void what_does_not_relax_loses_nothing(void **state)
 
 /* What creepage and resistance feed is lost, and bodies lose more than nothing: wheels,
  * covers, either body, both, a free axle, several terms. */
-static void the_energy_balances(void **state)
+TEST(the_energy_balances)
 {
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = wheel(k == 7 ? 60 : 20);
@@ -405,7 +405,7 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
 
 /* It misses nothing but what elements do, and arcs that stand on their chords: both are
  * of second order, whatever the wheel and its normals. */
-static void the_balance_closes_to_second_order(void **state)
+TEST(the_balance_closes_to_second_order)
 {
     for (int k = 0; k < 4; k++) {
         double rest[2], per_radius[2];
@@ -434,7 +434,7 @@ static void the_balance_closes_to_second_order(void **state)
 
 /* Slip and gap belong to the directions of the tractions: Q and M/R, along x and y, would
  * miss 5 % of the power, which no mesh brings back. */
-static void surface_normals_feed_by_their_own_tractions(void **state)
+TEST(surface_normals_feed_by_their_own_tractions)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(k ? 60 : 15);
@@ -467,7 +467,7 @@ static void surface_normals_feed_by_their_own_tractions(void **state)
 }
 
 /* The wheel that relaxes below is the one above with everything mirrored. */
-static void either_body_may_relax(void **state)
+TEST(either_body_may_relax)
 {
     rb_rolling_case rc = wheel(40);
     rb_rolling_solution s[2];
@@ -493,7 +493,7 @@ static void either_body_may_relax(void **state)
 
 /* Resistance of a covered roll over the speed: one maximum, and each point is its case.
  */
-static void resistance_has_a_maximum_over_the_speed(void **state)
+TEST(resistance_has_a_maximum_over_the_speed)
 {
     rb_rolling_curve c;
     rb_message why = {""};
@@ -516,7 +516,7 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
     rb_rolling_curve_free(&c);
 }
 
-static void what_does_not_turn_is_refused(void **state)
+TEST(what_does_not_turn_is_refused)
 {
     static const char *const word[2] = {"clamped arc cannot turn", "halfplane only"};
     for (int k = 0; k < 2; k++) {
@@ -530,23 +530,4 @@ static void what_does_not_turn_is_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_kernel_is_the_sum_of_its_waves),
-        cmocka_unit_test(bad_wheels_are_refused),
-        cmocka_unit_test(memory_is_added_to_any_flexibility),
-        cmocka_unit_test(a_large_wheel_is_a_halfplane),
-        cmocka_unit_test(a_thin_cover_is_the_layer),
-        cmocka_unit_test(a_cover_to_the_hub_is_the_wheel),
-        cmocka_unit_test(speed_has_its_limits),
-        cmocka_unit_test(what_does_not_relax_loses_nothing),
-        cmocka_unit_test(the_energy_balances),
-        cmocka_unit_test(the_balance_closes_to_second_order),
-        cmocka_unit_test(surface_normals_feed_by_their_own_tractions),
-        cmocka_unit_test(either_body_may_relax),
-        cmocka_unit_test(resistance_has_a_maximum_over_the_speed),
-        cmocka_unit_test(what_does_not_turn_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -74,7 +74,7 @@ static double roughness(const rb_rolling_solution *s)
 
 /* The worn volume is K P S to rounding, in any number of steps, and each step is stable:
  * 1.56 a is the half-width after two units (1.62 in one step). */
-static void sliding_wears_its_volume(void **state)
+TEST(sliding_wears_its_volume)
 {
     static const int steps[] = {100, 10, 1};
     static const double width[] = {1.56, 1.56, 1.62};
@@ -100,7 +100,7 @@ static void sliding_wears_its_volume(void **state)
 }
 
 /* Late: p = P/(2b) and V = 2 b^3/(3R), from any number of steps. */
-static void cylinder_wears_to_uniform_pressure(void **state)
+TEST(cylinder_wears_to_uniform_pressure)
 {
     const rb_rolling_case rc = cylinder(160, 0.0); /* the zone grows with the scar */
     const rb_rolling_wear wear = sliding(&rc, 400.0, 40);
@@ -119,7 +119,7 @@ static void cylinder_wears_to_uniform_pressure(void **state)
 }
 
 /* A flat punch with rounded corners: from 1/sqrt at its edges to P/(2c). */
-static void punch_wears_to_uniform_pressure(void **state)
+TEST(punch_wears_to_uniform_pressure)
 {
     enum { ROWS = 401 };
     double x[ROWS], gap[ROWS];
@@ -156,7 +156,7 @@ static void punch_wears_to_uniform_pressure(void **state)
 
 /* Partial slip: nothing wears where it sticks, and the law of dissipation takes the
  * friction work of the cycle. */
-static void fretting_spares_what_sticks(void **state)
+TEST(fretting_spares_what_sticks)
 {
     rb_rolling_case rc = cylinder(120, 1.5);
     rc.force_ratio = 0.75; /* c = a/2 */
@@ -181,7 +181,7 @@ static void fretting_spares_what_sticks(void **state)
 }
 
 /* Far beyond the elastic displacement a cycle is four strokes long. */
-static void gross_slip_wears_four_strokes(void **state)
+TEST(gross_slip_wears_four_strokes)
 {
     rb_rolling_case rc = cylinder(100, 2.0);
     const double p0 = rb_closed_hertz_max_pressure(rc.load, 1.0);
@@ -197,7 +197,7 @@ static void gross_slip_wears_four_strokes(void **state)
 }
 
 /* A round wheel stays round: dz = K D per turn. */
-static void wheel_loses_its_radius(void **state)
+TEST(wheel_loses_its_radius)
 {
     rb_rolling_case rc = cylinder(60, 0.0);
     rc.formulation = RB_STEADY;
@@ -220,7 +220,7 @@ static void wheel_loses_its_radius(void **state)
 
 /* Carter: it slides where abs(q) = mu p, so that Archard's law takes K xi abs(Q)/mu per
  * turn, in partial and in full sliding. */
-static void archard_s_wheel_loses_what_creepage_feeds(void **state)
+TEST(archard_s_wheel_loses_what_creepage_feeds)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = cylinder(50, 0.0);
@@ -240,7 +240,7 @@ static void archard_s_wheel_loses_what_creepage_feeds(void **state)
 }
 
 /* Ten steps, or five and then five more from the profile they left. */
-static void wear_goes_on(void **state)
+TEST(wear_goes_on)
 {
     rb_rolling_case rc = cylinder(160, 5.0);
     const rb_rolling_wear ten = sliding(&rc, 2.0, 10), five = sliding(&rc, 1.0, 5);
@@ -268,7 +268,7 @@ static rb_rolling_wear shared(rb_rolling_wear wear, double share)
 
 /* The volumes are as the shares wherever B loses its own: in the contact, on its track,
  * from its radius outside A or around it.  The sum is what A would lose alone. */
-static void volumes_are_as_the_shares(void **state)
+TEST(volumes_are_as_the_shares)
 {
     static const double radius_b[] = {INFINITY, INFINITY, INFINITY, 80.0, -70.0};
     for (int k = 0; k < 5; k++) {
@@ -311,7 +311,7 @@ static void volumes_are_as_the_shares(void **state)
 }
 
 /* Fretting, the gap is that of both; sliding, that of A's part of the coefficient. */
-static void the_gap_knows_what_wears_in_it(void **state)
+TEST(the_gap_knows_what_wears_in_it)
 {
     rb_rolling_case rc = cylinder(60, 3.0);
     rb_rolling_wear one = sliding(&rc, 0.5, 3);
@@ -338,7 +338,7 @@ static void the_gap_knows_what_wears_in_it(void **state)
     worn_free(&alone);
 }
 
-static void shares_lie_between_0_and_1(void **state)
+TEST(shares_lie_between_0_and_1)
 {
     static const double shares[] = {-0.1, 1.1, NAN};
     const rb_rolling_case rc = cylinder(60, 3.0);
@@ -354,7 +354,7 @@ static void shares_lie_between_0_and_1(void **state)
     }
 }
 
-static void meaningless_wear_is_refused(void **state)
+TEST(meaningless_wear_is_refused)
 {
     const rb_rolling_case good = cylinder(60, 0.0);
     enum { BAD = 6 };
@@ -392,7 +392,7 @@ static void meaningless_wear_is_refused(void **state)
 }
 
 /* A stroke by its force and by the ratio of that is one stroke. */
-static void strokes_may_be_forces(void **state)
+TEST(strokes_may_be_forces)
 {
     double depth[2];
     for (int k = 0; k < 2; k++) {
@@ -414,7 +414,7 @@ static void strokes_may_be_forces(void **state)
 
 /* The law of dissipation takes one coefficient where surfaces slide; Archard's law, and
  * wheels that roll, take any. */
-static void friction_laws_wear_where_they_can(void **state)
+TEST(friction_laws_wear_where_they_can)
 {
     rb_message why = {""};
     worn w;
@@ -442,23 +442,4 @@ static void friction_laws_wear_where_they_can(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sliding_wears_its_volume),
-        cmocka_unit_test(cylinder_wears_to_uniform_pressure),
-        cmocka_unit_test(punch_wears_to_uniform_pressure),
-        cmocka_unit_test(fretting_spares_what_sticks),
-        cmocka_unit_test(gross_slip_wears_four_strokes),
-        cmocka_unit_test(wheel_loses_its_radius),
-        cmocka_unit_test(archard_s_wheel_loses_what_creepage_feeds),
-        cmocka_unit_test(wear_goes_on),
-        cmocka_unit_test(volumes_are_as_the_shares),
-        cmocka_unit_test(the_gap_knows_what_wears_in_it),
-        cmocka_unit_test(shares_lie_between_0_and_1),
-        cmocka_unit_test(meaningless_wear_is_refused),
-        cmocka_unit_test(strokes_may_be_forces),
-        cmocka_unit_test(friction_laws_wear_where_they_can),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -73,7 +73,7 @@ static distance from_halfplane(rb_rolling_case rc)
     return d;
 }
 
-static void tractions_tend_to_the_halfplane_with_first_order(void **state)
+TEST(tractions_tend_to_the_halfplane_with_first_order)
 {
     for (int k = 0; k < 2; k++) {
         distance last = from_halfplane(wheel(wheels[k], 1e-3));
@@ -92,7 +92,7 @@ static void tractions_tend_to_the_halfplane_with_first_order(void **state)
 
 /* With nu < 1/2 pressure also stretches the surface, and constant elements see a stretch
  * only to first order: what is left at a/R -> 0 falls with all elements. */
-static void compressible_wheels_need_small_elements_too(void **state)
+TEST(compressible_wheels_need_small_elements_too)
 {
     for (int k = 0; k < 2; k++) {
         double last = 0.0;
@@ -139,7 +139,7 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
 
 /* Fitted meshes take the near field of every load exactly: what is left is the mesh of
  * the half-plane and the size of the wheel, a/R = 2e-5. */
-static void bentall_johnson_on_two_wheels(void **state)
+TEST(bentall_johnson_on_two_wheels)
 {
     for (int k = 0; k < 2; k++) {
         CHECK_MAX(bentall_johnson_error(wheels[k], 50), 5e-4, "%s", name_of(wheels[k]));
@@ -149,7 +149,7 @@ static void bentall_johnson_on_two_wheels(void **state)
 
 /* On equal elements too the exact near field leaves a compressible wheel nothing but its
  * size to differ from the half-plane by. */
-static void the_exact_near_field_spares_the_small_elements(void **state)
+TEST(the_exact_near_field_spares_the_small_elements)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-5);
@@ -173,7 +173,7 @@ static double support_constant(const rb_rolling_case *rc)
     return k;
 }
 
-static void approach_differs_by_a_constant_of_the_support(void **state)
+TEST(approach_differs_by_a_constant_of_the_support)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-4);
@@ -189,7 +189,7 @@ static void approach_differs_by_a_constant_of_the_support(void **state)
 }
 
 /* (B9) */
-static void a_contact_of_1e_8_of_the_radius_keeps_its_digits(void **state)
+TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-8);
@@ -222,7 +222,7 @@ static double creepage_of_force(rb_rolling_case rc, double ratio, double *approa
 
 /* Braking and driving are mirror images about the creepage of free rolling, which is of
  * the order of (a/R)^2, that is of delta/R but for a logarithm (4.3). */
-static void the_two_signs_mirror_up_to_delta_over_R(void **state)
+TEST(the_two_signs_mirror_up_to_delta_over_R)
 {
     for (int k = 0; k < 2; k++) {
         double last_sum = 0.0, last_approach = 0.0;
@@ -254,7 +254,7 @@ static double free_creepage(rb_rolling_case rc)
 
 /* The surface's strain under the load, which is all that free rolling then has: (a/R)^2
  * times a number of the support. */
-static void free_rolling_of_an_incompressible_wheel(void **state)
+TEST(free_rolling_of_an_incompressible_wheel)
 {
     const double want[] = {0.4999, 0.8518};
     for (int k = 0; k < 2; k++)
@@ -264,7 +264,7 @@ static void free_rolling_of_an_incompressible_wheel(void **state)
 }
 
 /* (4.3): the surface's own normals make a creepage delta/R of the approach. */
-static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
+TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-3);
@@ -284,7 +284,7 @@ static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
 }
 
 /* They turn pressure into a part of Q and friction into a part of P. */
-static void normals_of_the_surface_share_the_forces(void **state)
+TEST(normals_of_the_surface_share_the_forces)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.1);
     rc.normals = RB_BEM_NORMALS_SURFACE;
@@ -311,7 +311,7 @@ static double support_balance(rb_rolling_case rc, int outer, int fine)
 
 /* At least first order in the size of the elements: graded outside a small contact, equal
  * on the whole circle in Addi's case. */
-static void the_support_carries_the_load(void **state)
+TEST(the_support_carries_the_load)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel(wheels[k % 2], 0.02);
@@ -338,7 +338,7 @@ typedef struct {
     double contact_from, contact_to, stick_from, stick_to;
 } zones;
 
-static void the_case_of_addi(void **state)
+TEST(the_case_of_addi)
 {
     const zones want[] = {
         {RB_BEM_ARC, 0.3, RB_BEM_NORMALS_OBSTACLE, -0.52, 0.55, -0.21, 0.34},
@@ -373,7 +373,7 @@ static void the_case_of_addi(void **state)
 }
 
 /* Without a shift both halves of the contact are mirror images: p even, q odd. */
-static void a_symmetric_case_has_a_symmetric_answer(void **state)
+TEST(a_symmetric_case_has_a_symmetric_answer)
 {
     const int mirrored[] = {[RB_ZONE_SEPARATED] = RB_ZONE_SEPARATED,
                             [RB_ZONE_STICK] = RB_ZONE_STICK,
@@ -404,7 +404,7 @@ static void a_symmetric_case_has_a_symmetric_answer(void **state)
 
 /* Its slip of (12) contradicts the state wherever it sticks; what solves for the slip
  * does not. */
-static void slip_afterwards_contradicts_stick(void **state)
+TEST(slip_afterwards_contradicts_stick)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.creep = 0.1;
@@ -423,7 +423,7 @@ static void slip_afterwards_contradicts_stick(void **state)
 }
 
 /* nu = 1/2 on a hub is the limit of nu -> 1/2, not a singular system. */
-static void an_incompressible_wheel_on_a_hub(void **state)
+TEST(an_incompressible_wheel_on_a_hub)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.01);
     rc.zone = 1.3 * rc.half_width;
@@ -439,7 +439,7 @@ static void an_incompressible_wheel_on_a_hub(void **state)
     rb_rolling_solution_free(&limit);
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
     rc.contact_elements = 10;
@@ -462,7 +462,7 @@ static void every_failed_allocation_is_reported(void **state)
 
 /* The edges are found with few elements around the contact: the answer still has all of
  * them, and its mesh ends where its own contact does. */
-static void many_outer_elements_fit_their_own_contact(void **state)
+TEST(many_outer_elements_fit_their_own_contact)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.02);
     rb_rolling_model model;
@@ -482,26 +482,4 @@ static void many_outer_elements_fit_their_own_contact(void **state)
     rb_rolling_model_free(&model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tractions_tend_to_the_halfplane_with_first_order),
-        cmocka_unit_test(many_outer_elements_fit_their_own_contact),
-        cmocka_unit_test(compressible_wheels_need_small_elements_too),
-        cmocka_unit_test(bentall_johnson_on_two_wheels),
-        cmocka_unit_test(the_exact_near_field_spares_the_small_elements),
-        cmocka_unit_test(approach_differs_by_a_constant_of_the_support),
-        cmocka_unit_test(a_contact_of_1e_8_of_the_radius_keeps_its_digits),
-        cmocka_unit_test(the_two_signs_mirror_up_to_delta_over_R),
-        cmocka_unit_test(free_rolling_of_an_incompressible_wheel),
-        cmocka_unit_test(normals_of_the_surface_cost_a_creepage_of_delta_over_R),
-        cmocka_unit_test(normals_of_the_surface_share_the_forces),
-        cmocka_unit_test(the_support_carries_the_load),
-        cmocka_unit_test(the_case_of_addi),
-        cmocka_unit_test(a_symmetric_case_has_a_symmetric_answer),
-        cmocka_unit_test(slip_afterwards_contradicts_stick),
-        cmocka_unit_test(an_incompressible_wheel_on_a_hub),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

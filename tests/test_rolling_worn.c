@@ -60,7 +60,7 @@ static void finish(run *r)
 }
 
 /* Implicit: each step takes K ds p off with the pressure at its end. */
-static void a_step_takes_off_what_its_pressure_wears(void **state)
+TEST(a_step_takes_off_what_its_pressure_wears)
 {
     for (int law = 0; law < 2; law++) {
         run r = {.stop_at = -1};
@@ -124,7 +124,7 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
 
 /* Without a matrix: the equations of the worn gap hold with the matrix, a step takes off
  * what its pressure wears, and fretting goes as on fewer elements. */
-static void many_elements_wear_without_a_matrix(void **state)
+TEST(many_elements_wear_without_a_matrix)
 {
     for (int slides = 0; slides < 2; slides++) {
         double depth[2];
@@ -157,7 +157,7 @@ static void many_elements_wear_without_a_matrix(void **state)
 }
 
 /* What wears without sliding friction is pressed without a force. */
-static void smooth_surfaces_wear_by_archard(void **state)
+TEST(smooth_surfaces_wear_by_archard)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
@@ -175,7 +175,7 @@ static void smooth_surfaces_wear_by_archard(void **state)
 
 /* Of the second cycle every increment counts: here it slides as a whole, to s and back,
  * so that each place of the middle slides 4 s, and the work is mu P 4 s. */
-static void fretting_counts_one_closed_cycle(void **state)
+TEST(fretting_counts_one_closed_cycle)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
@@ -193,7 +193,7 @@ static void fretting_counts_one_closed_cycle(void **state)
 }
 
 /* (W3) a round wheel stays round: R = R_before - turns K power, the power of its end. */
-static void a_rolling_wheel_shrinks(void **state)
+TEST(a_rolling_wheel_shrinks)
 {
     for (int law = 0; law < 2; law++) {
         run r = {.stop_at = -1};
@@ -229,7 +229,7 @@ static void a_rolling_wheel_shrinks(void **state)
     }
 }
 
-static void a_scar_that_outgrows_its_zone(void **state)
+TEST(a_scar_that_outgrows_its_zone)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
@@ -253,7 +253,7 @@ static void a_scar_that_outgrows_its_zone(void **state)
     finish(&r);
 }
 
-static void an_observer_ends_the_run(void **state)
+TEST(an_observer_ends_the_run)
 {
     run r = {.stop_at = 2};
     const rb_rolling_case rc = plane(20);
@@ -267,7 +267,7 @@ static void an_observer_ends_the_run(void **state)
     finish(&r);
 }
 
-static void wear_that_makes_no_sense_is_refused(void **state)
+TEST(wear_that_makes_no_sense_is_refused)
 {
     const rb_rolling_wear fine = {
         .slides = 1, .coefficient = 1e-8, .way = 1.0, .steps = 1, .increments = 1};
@@ -308,17 +308,4 @@ static void wear_that_makes_no_sense_is_refused(void **state)
 #undef REFUSED
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_takes_off_what_its_pressure_wears),
-        cmocka_unit_test(many_elements_wear_without_a_matrix),
-        cmocka_unit_test(smooth_surfaces_wear_by_archard),
-        cmocka_unit_test(fretting_counts_one_closed_cycle),
-        cmocka_unit_test(a_rolling_wheel_shrinks),
-        cmocka_unit_test(a_scar_that_outgrows_its_zone),
-        cmocka_unit_test(an_observer_ends_the_run),
-        cmocka_unit_test(wear_that_makes_no_sense_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -57,7 +57,7 @@ static const struct {
     {0.0, 0.02, 105, 0.5864, 39, 12, 50},      {-20500.0, 0.02, 105, 0.5430, 34, 5, 62},
 };
 
-static void contact_program_is_met(void **state)
+TEST(contact_program_is_met)
 {
     static const rb_contact_solver by[] = {RB_SOLVER_NEWTON, RB_SOLVER_LEMKE};
 
@@ -90,7 +90,7 @@ static void count_zones(const rb_contact_state *state, int *stick, int *slip, in
 
 /* Of testbank/examples_plast/catt2d_plast: a shift with FX = 0.6 FSTAT FN, then steps of
  * one element with the creepage -0.0004; what has yielded rides with the material. */
-static void rolling_from_a_shift_is_met(void **state)
+TEST(rolling_from_a_shift_is_met)
 {
     static const struct {
         double ratio;
@@ -160,7 +160,7 @@ static double brush_force(const rb_rolling_case *rc, double a)
            slides;
 }
 
-static void brushes_converge_to_second_order(void **state)
+TEST(brushes_converge_to_second_order)
 {
     static const double hardening[] = {2e4, 4e5, 2e6};
     static const int n[] = {50, 100, 200};
@@ -253,7 +253,7 @@ static int draw(unsigned *seed, int n)
 
 /* Bodies, controls, meshes, layers by a fixed seed; Lemke's and Newton's answers are the
  * same one. */
-static void law_holds_by_the_columns(void **state)
+TEST(law_holds_by_the_columns)
 {
     unsigned seed = 5;
     int yielding = 0, both_bounds = 0;
@@ -305,7 +305,7 @@ static void law_holds_by_the_columns(void **state)
 }
 
 /* A yield stress that nothing reaches leaves every bit as it is without. */
-static void large_yield_stress_is_elastic(void **state)
+TEST(large_yield_stress_is_elastic)
 {
     const rb_rolling_formulation of[] = {RB_STATIC, RB_STEADY, RB_TRANSIENT};
 
@@ -336,7 +336,7 @@ static void large_yield_stress_is_elastic(void **state)
 
 /* Without hardening the layer is the bound min(mu p, yield); below every mu p it is the
  * only one, and a tenth of it in full sliding is that times the width of the contact. */
-static void small_yield_stress_is_a_bound(void **state)
+TEST(small_yield_stress_is_a_bound)
 {
     rb_rolling_case rc = plastic_example(0.0);
     rc.mesh = RB_MESH_FITTED;
@@ -393,7 +393,7 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
 }
 
 /* To and fro: what has yielded grows in both directions. */
-static void shift_to_and_fro_hardens(void **state)
+TEST(shift_to_and_fro_hardens)
 {
     static const double shift[] = {1e-3, 2e-3, 3e-3, 1e-3, -1e-3, -3e-3, 0.0, 3e-3};
     rb_rolling_case rc = plastic_example(5000.0);
@@ -418,7 +418,7 @@ static void shift_to_and_fro_hardens(void **state)
 }
 
 /* What has yielded leaves the contact with the material. */
-static void a_transient_becomes_steady(void **state)
+TEST(a_transient_becomes_steady)
 {
     rb_rolling_case rc = plastic_example(123000.0);
     rc.contact_elements = 60;
@@ -443,7 +443,7 @@ static void a_transient_becomes_steady(void **state)
 
 /* ---- A given force, and what is refused -------------------------------------------- */
 
-static void forces_find_their_creepage(void **state)
+TEST(forces_find_their_creepage)
 {
     static const double hardening[] = {0.0, 123000.0, 4018000.0, -20500.0};
 
@@ -475,7 +475,7 @@ static void refused(rb_rolling_case rc, const char *words)
     rb_rolling_solution_free(&s);
 }
 
-static void bad_layers_are_refused(void **state)
+TEST(bad_layers_are_refused)
 {
     rb_rolling_case rc = plastic_example(0.0);
     rc.yield_stress = -1.0;
@@ -498,19 +498,4 @@ static void bad_layers_are_refused(void **state)
     refused(rc, "force Q = -55");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contact_program_is_met),
-        cmocka_unit_test(rolling_from_a_shift_is_met),
-        cmocka_unit_test(brushes_converge_to_second_order),
-        cmocka_unit_test(law_holds_by_the_columns),
-        cmocka_unit_test(large_yield_stress_is_elastic),
-        cmocka_unit_test(small_yield_stress_is_a_bound),
-        cmocka_unit_test(shift_to_and_fro_hardens),
-        cmocka_unit_test(a_transient_becomes_steady),
-        cmocka_unit_test(forces_find_their_creepage),
-        cmocka_unit_test(bad_layers_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

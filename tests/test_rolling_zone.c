@@ -47,7 +47,7 @@ static void check_ends(const rb_rolling_solution *s, const char *what)
 
 /* Full sliding: p falls like a power other than 1/2 (theory.md E1), which extrapolation
  * of p^2 misses by up to some elements. */
-static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
+TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
 {
     static const double poisson[] = {0.0, 0.3, -0.2}, mu[] = {1.0, 3.0, 2.0};
     for (int k = 0; k < 3; k++) {
@@ -74,7 +74,7 @@ static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
 
 /* Even the fewest elements hold the contact and see it: neither grown until it lies
  * between midpoints, nor taken for open.  The edges are those of Hertz to an element. */
-static void few_elements_see_the_contact(void **state)
+TEST(few_elements_see_the_contact)
 {
     for (int n = 3; n <= 12; n++)
         for (int k = 0; k < 3; k++) {
@@ -107,7 +107,7 @@ static double sum(int n, const double *a, const double *h)
 
 /* Cases whose mesh ended inside the contact, where a corner of a punch was called solved
  * (p0 115.9 and 108, Q -0.922), and one whose edges jump to and fro by some elements. */
-static void fitted_elements_hold_the_contact(void **state)
+TEST(fitted_elements_hold_the_contact)
 {
     static const struct {
         double poisson, mu, creep_ratio, load;
@@ -142,7 +142,7 @@ static void fitted_elements_hold_the_contact(void **state)
 }
 
 /* Fitted against fine equal elements for bodies of any kind. */
-static void fitted_and_equal_elements_agree(void **state)
+TEST(fitted_and_equal_elements_agree)
 {
     srand(9);
     for (int k = 0; k < 15; k++) {
@@ -170,7 +170,7 @@ static void fitted_and_equal_elements_agree(void **state)
 
 /* Seen upside down B lies on A: the creepage and the friction change their signs and the
  * pressure stays, element by element. */
-static void exchanged_bodies_have_the_same_pressure(void **state)
+TEST(exchanged_bodies_have_the_same_pressure)
 {
     srand(10);
     for (int k = 0; k < 20; k++) {
@@ -231,7 +231,7 @@ static void set_table(rb_rolling_case *rc, double half_length, double flat)
     take_table(rc);
 }
 
-static void a_worn_flat_is_held_by_the_potential_contact(void **state)
+TEST(a_worn_flat_is_held_by_the_potential_contact)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.3, 80);
@@ -266,7 +266,7 @@ static void set_lobes(rb_rolling_case *rc, double c, double d, int mirror)
 
 /* The second patch lies far outside the first guess of the potential contact, on equal
  * elements, fitted ones, half-planes and wheels. */
-static void every_patch_is_found(void **state)
+TEST(every_patch_is_found)
 {
     static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
     for (int k = 0; k < 6; k++) {
@@ -305,7 +305,7 @@ static void every_patch_is_found(void **state)
     }
 }
 
-static void a_mirrored_profile_has_mirrored_patches(void **state)
+TEST(a_mirrored_profile_has_mirrored_patches)
 {
     rb_rolling_case rc = halfplane(0.3, 0.3, 40);
     rc.formulation = RB_STATIC;
@@ -330,7 +330,7 @@ static void a_mirrored_profile_has_mirrored_patches(void **state)
 }
 
 /* More patches than elements are fitted to. */
-static void a_wavy_surface_gets_equal_elements(void **state)
+TEST(a_wavy_surface_gets_equal_elements)
 {
     rb_rolling_case rc = halfplane(0.3, 0.3, 400);
     rc.mesh = RB_MESH_FITTED;
@@ -350,7 +350,7 @@ static void a_wavy_surface_gets_equal_elements(void **state)
 }
 
 /* Below patches that lie far apart in comparison with their widths. */
-static void stress_is_looked_for_below_every_patch(void **state)
+TEST(stress_is_looked_for_below_every_patch)
 {
     rb_rolling_case rc = halfplane(0.3, 0.0, 80);
     rb_rolling_model model;
@@ -373,7 +373,7 @@ static void stress_is_looked_for_below_every_patch(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void a_given_zone_must_hold_every_patch(void **state)
+TEST(a_given_zone_must_hold_every_patch)
 {
     rb_rolling_case rc = halfplane(0.3, 0.3, 40);
     rb_rolling_solution s;
@@ -392,7 +392,7 @@ static void a_given_zone_must_hold_every_patch(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
-static void a_contact_without_an_end_is_refused(void **state)
+TEST(a_contact_without_an_end_is_refused)
 {
     rb_rolling_case rc = halfplane(0.5, 0.3, 60);
     rb_rolling_solution s;
@@ -409,7 +409,7 @@ static void a_contact_without_an_end_is_refused(void **state)
     }
 }
 
-static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
+TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     rb_rolling_curve curve;
@@ -439,7 +439,7 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
 
 /* The first zone, 1.3 half-widths, stays where three separated elements stand at either
  * end of it, and grows otherwise. */
-static void a_zone_ends_with_three_separated_elements(void **state)
+TEST(a_zone_ends_with_three_separated_elements)
 {
     int kept = 0, grown = 0;
     for (int n = 20; n <= 44; n += 2) {
@@ -470,7 +470,7 @@ static void a_zone_ends_with_three_separated_elements(void **state)
 
 /* Under a very soft third body the surfaces stay as they are: pressed by an approach,
  * they touch to sqrt(2 R delta); by a load, P = 2 a^3/(3 R L). */
-static void a_soft_interlayer_has_the_zone_of_its_own_contact(void **state)
+TEST(a_soft_interlayer_has_the_zone_of_its_own_contact)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.3, 0.0, 40);
@@ -489,7 +489,7 @@ static void a_soft_interlayer_has_the_zone_of_its_own_contact(void **state)
 
 /* No choice on the way depends on the unit of length: the potential contact of a layer,
  * which is tightened, and all results are as many times larger. */
-static void a_contact_has_the_same_zone_in_every_unit(void **state)
+TEST(a_contact_has_the_same_zone_in_every_unit)
 {
     double ends[2], width[2];
     for (int k = 0; k < 2; k++) {
@@ -514,7 +514,7 @@ static void a_contact_has_the_same_zone_in_every_unit(void **state)
 
 /* Similar bodies roll freely without creepage unless something displaces their surfaces:
  * d_T everywhere, which -d_T/e_T undoes. */
-static void free_rolling_undoes_what_displaces(void **state)
+TEST(free_rolling_undoes_what_displaces)
 {
     rb_rolling_case rc = halfplane(0.5, 0.3, 20);
     double creepage;
@@ -532,7 +532,7 @@ static void free_rolling_undoes_what_displaces(void **state)
 
 /* Sliding towards one side the contact fits elements that end before the contact that
  * rolls freely does: that one is looked for on elements of its own. */
-static void free_rolling_may_need_other_elements(void **state)
+TEST(free_rolling_may_need_other_elements)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 80);
     rb_rolling_model model;
@@ -555,7 +555,7 @@ static void free_rolling_may_need_other_elements(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.3, 0.3, 8);
@@ -578,7 +578,7 @@ static void every_failed_allocation_is_reported(void **state)
 
 /* At rest the table holds the contact, in sliding not: the zone grows to all of it, and
  * then there is nothing more. */
-static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
+TEST(a_history_grows_its_zone_to_the_end_of_the_table)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     rb_rolling_model model;
@@ -599,7 +599,7 @@ static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
 
 /* An incompressible layer carries by waves as short as it is thick: so long an element
  * may be, and no longer. */
-static void elements_are_as_long_as_the_layer_at_most(void **state)
+TEST(elements_are_as_long_as_the_layer_at_most)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.0, 20);
@@ -618,30 +618,7 @@ static void elements_are_as_long_as_the_layer_at_most(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_of_sliding_contacts_are_those_of_fine_meshes),
-        cmocka_unit_test(few_elements_see_the_contact),
-        cmocka_unit_test(fitted_elements_hold_the_contact),
-        cmocka_unit_test(fitted_and_equal_elements_agree),
-        cmocka_unit_test(exchanged_bodies_have_the_same_pressure),
-        cmocka_unit_test(a_worn_flat_is_held_by_the_potential_contact),
-        cmocka_unit_test(every_patch_is_found),
-        cmocka_unit_test(a_mirrored_profile_has_mirrored_patches),
-        cmocka_unit_test(a_wavy_surface_gets_equal_elements),
-        cmocka_unit_test(stress_is_looked_for_below_every_patch),
-        cmocka_unit_test(a_given_zone_must_hold_every_patch),
-        cmocka_unit_test(a_zone_ends_with_three_separated_elements),
-        cmocka_unit_test(a_soft_interlayer_has_the_zone_of_its_own_contact),
-        cmocka_unit_test(a_contact_has_the_same_zone_in_every_unit),
-        cmocka_unit_test(free_rolling_undoes_what_displaces),
-        cmocka_unit_test(free_rolling_may_need_other_elements),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-        cmocka_unit_test(a_contact_without_an_end_is_refused),
-        cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
-        cmocka_unit_test(a_history_grows_its_zone_to_the_end_of_the_table),
-        cmocka_unit_test(elements_are_as_long_as_the_layer_at_most),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = run_all_tests(NULL, NULL);
     rb_rolling_profile_free(profile);
     return failed;
 }

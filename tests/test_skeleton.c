@@ -41,7 +41,7 @@ static double worst_column(const double *K, int kept, const int *order, const do
     return worst;
 }
 
-static void the_rank_is_found(void **state)
+TEST(the_rank_is_found)
 {
     double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
     int rank, order[COLUMNS], seen[COLUMNS] = {0};
@@ -59,7 +59,7 @@ static void the_rank_is_found(void **state)
 }
 
 /* Below the tolerance nothing counts; more may be kept than needed. */
-static void what_is_small_is_left_out(void **state)
+TEST(what_is_small_is_left_out)
 {
     double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
     int rank, order[COLUMNS];
@@ -80,7 +80,7 @@ static void what_is_small_is_left_out(void **state)
 
 /* Matrices of many columns are shortened first, where they have as many rows: the rank
  * and the columns are those of any other. */
-static void wide_matrices_are_shortened(void **state)
+TEST(wide_matrices_are_shortened)
 {
     static const int size[][2] = {{130, 100}, {100, 100}, {90, 100}, {130, 95}};
     for (int k = 0; k < 4; k++) {
@@ -114,12 +114,4 @@ static void wide_matrices_are_shortened(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_rank_is_found),
-        cmocka_unit_test(what_is_small_is_left_out),
-        cmocka_unit_test(wide_matrices_are_shortened),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -38,7 +38,7 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
     rb_triplets_free(&t);
 }
 
-static void products_agree_with_the_dense_matrix(void **state)
+TEST(products_agree_with_the_dense_matrix)
 {
     enum { M = 31, N = 17 };
     double dense[M * N], x[N], xt[M], y[M], yt[N], want[M], want_t[N];
@@ -83,7 +83,7 @@ static void products_agree_with_the_dense_matrix(void **state)
     rb_sparse_free(&a);
 }
 
-static void products_of_matrices_agree_with_dense_ones(void **state)
+TEST(products_of_matrices_agree_with_dense_ones)
 {
     enum { M = 23, N = 17, L = 29 };
     double left[M * N], right[N * L], got[M * L] = {0.0};
@@ -117,7 +117,7 @@ static void products_of_matrices_agree_with_dense_ones(void **state)
     rb_sparse_free(&b);
 }
 
-static void places_outside_are_refused(void **state)
+TEST(places_outside_are_refused)
 {
     int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
     double x[] = {1.0, 2.0};
@@ -159,7 +159,7 @@ static void chain(int n, int held, rb_sparse *k)
     rb_triplets_free(&t);
 }
 
-static void ranks_are_seen(void **state)
+TEST(ranks_are_seen)
 {
     rb_sparse k;
     int rank;
@@ -173,7 +173,7 @@ static void ranks_are_seen(void **state)
     rb_sparse_free(&k);
 }
 
-static void lu_solves_and_names_singular_matrices(void **state)
+TEST(lu_solves_and_names_singular_matrices)
 {
     enum { N = 40 };
     double dense[N * N], x[N], b[N], y[N], flops = 0.0;
@@ -211,7 +211,7 @@ static void lu_solves_and_names_singular_matrices(void **state)
     rb_sparse_free(&k);
 }
 
-static void cholesky_solves_condenses_and_refuses(void **state)
+TEST(cholesky_solves_condenses_and_refuses)
 {
     enum { N = 30, M = 6 };
     double dense[N * M], b[N], y[N], x[M], got[M], want[M];
@@ -248,7 +248,7 @@ static void cholesky_solves_condenses_and_refuses(void **state)
 
 /* W of unconnected bodies is sparse, and so is what it takes to make it: here 6000^2
  * entries with their places would need 576 MB. */
-static void a_sparse_congruence_takes_little_memory(void **state)
+TEST(a_sparse_congruence_takes_little_memory)
 {
 #if SANITIZED
     skip(); /* it takes address space of its own */
@@ -315,7 +315,7 @@ static rb_status build_and_factor(void)
     return s;
 }
 
-static void failing_allocations_are_reported(void **state)
+TEST(failing_allocations_are_reported)
 {
     int count = 0;
     for (rb_status s = RB_ENOMEM; s != RB_OK; count++) {
@@ -349,7 +349,7 @@ static void *no_more_memory(void *p, size_t size)
 }
 
 /* SuiteSparse asks by itself. */
-static void suitesparse_without_memory_is_reported(void **state)
+TEST(suitesparse_without_memory_is_reported)
 {
     const double dense[] = {2.0, 1.0, 1.0, 3.0};
     const struct SuiteSparse_config_struct as_it_was = SuiteSparse_config;
@@ -383,7 +383,7 @@ static void suitesparse_without_memory_is_reported(void **state)
 }
 
 /* Each of the numbers that make a matrix, wrong in turn. */
-static void impossible_sizes_are_refused(void **state)
+TEST(impossible_sizes_are_refused)
 {
     static const struct {
         int rows, cols, row, col;
@@ -414,7 +414,7 @@ static void impossible_sizes_are_refused(void **state)
 }
 
 /* There is no room: an entry that is missing must not go unseen. */
-static void triplets_without_room_stay_refused(void **state)
+TEST(triplets_without_room_stay_refused)
 {
     rb_triplets t = {.rows = 2, .cols = 2};
     rb_sparse a;
@@ -429,7 +429,7 @@ static void triplets_without_room_stay_refused(void **state)
 }
 
 /* As many entries as columns, and yet not diagonal. */
-static void what_looks_diagonal_is_factored(void **state)
+TEST(what_looks_diagonal_is_factored)
 {
     const double crossed[] = {0.0, 1.0, 1.0, 0.0}, below[] = {1.0, 1.0, 0.0, 0.0};
     const double negative[] = {2.0, 0.0, 0.0, -1.0}, right[] = {4.0, 0.0, 0.0, 2.0};
@@ -456,7 +456,7 @@ static void what_looks_diagonal_is_factored(void **state)
 }
 
 /* Twenty-four decades between the units of two unknowns are no bad condition. */
-static void units_of_the_unknowns_do_not_matter(void **state)
+TEST(units_of_the_unknowns_do_not_matter)
 {
     const double k[] = {1e-12, 0.5, 0.5, 1e12}, b[] = {1e-6, 1e6};
     double x[2]; /* times the roots of the diagonal: [1 .5; .5 1] (2/3, 2/3) = (1, 1) */
@@ -471,7 +471,7 @@ static void units_of_the_unknowns_do_not_matter(void **state)
     rb_sparse_free(&a);
 }
 
-static void only_square_matrices_have_components(void **state)
+TEST(only_square_matrices_have_components)
 {
     const double dense[] = {1.0, 2.0};
     rb_sparse wide, none;
@@ -485,7 +485,7 @@ static void only_square_matrices_have_components(void **state)
 }
 
 /* Before there are numbers there is nothing to solve with. */
-static void a_factor_without_numbers_solves_nothing(void **state)
+TEST(a_factor_without_numbers_solves_nothing)
 {
     const double dense[] = {2.0, 0.0, 0.0, 4.0}, zero[] = {0.0, 0.0, 0.0, 0.0};
     const double b[] = {2.0, 4.0};
@@ -510,24 +510,4 @@ static void a_factor_without_numbers_solves_nothing(void **state)
     rb_sparse_free(&none);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(products_agree_with_the_dense_matrix),
-        cmocka_unit_test(products_of_matrices_agree_with_dense_ones),
-        cmocka_unit_test(places_outside_are_refused),
-        cmocka_unit_test(ranks_are_seen),
-        cmocka_unit_test(lu_solves_and_names_singular_matrices),
-        cmocka_unit_test(cholesky_solves_condenses_and_refuses),
-        cmocka_unit_test(a_sparse_congruence_takes_little_memory),
-        cmocka_unit_test(failing_allocations_are_reported),
-        cmocka_unit_test(suitesparse_without_memory_is_reported),
-        cmocka_unit_test(impossible_sizes_are_refused),
-        cmocka_unit_test(triplets_without_room_stay_refused),
-        cmocka_unit_test(what_looks_diagonal_is_factored),
-        cmocka_unit_test(units_of_the_unknowns_do_not_matter),
-        cmocka_unit_test(only_square_matrices_have_components),
-        cmocka_unit_test(a_factor_without_numbers_solves_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -17,7 +17,7 @@ static rb_rolling_case pressed(rb_bem_support support)
 }
 
 /* Rows follow the surface; every answer is that of the point alone. */
-static void grid_holds_the_stress_of_its_points(void **state)
+TEST(grid_holds_the_stress_of_its_points)
 {
     static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_ARC};
     for (int k = 0; k < 2; k++) {
@@ -44,7 +44,7 @@ static void grid_holds_the_stress_of_its_points(void **state)
 }
 
 /* rb_rolling_inside says where rb_rolling_stress_at has an answer. */
-static void inside_is_where_there_is_stress(void **state)
+TEST(inside_is_where_there_is_stress)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
     rb_rolling_model model;
@@ -65,7 +65,7 @@ static void inside_is_where_there_is_stress(void **state)
 }
 
 /* A roof of pressure and friction against a thousand constant strips. */
-static void linear_tractions_are_the_limit_of_strips(void **state)
+TEST(linear_tractions_are_the_limit_of_strips)
 {
     enum { STRIPS = 2000 };
     static const double nodes[] = {-1.0, 0.25, 1.0}, p[] = {0.0, 1.0, 0.0},
@@ -91,7 +91,7 @@ static void linear_tractions_are_the_limit_of_strips(void **state)
 }
 
 /* Sliding: sxx = 2 mu p0 at the edge that is pulled, and -p - 2 mu p0 x/a between. */
-static void sliding_pulls_at_the_edge(void **state)
+TEST(sliding_pulls_at_the_edge)
 {
     enum { N = 401 };
     static double x[N], p[N], q[N], xy[2 * N], s[3 * N];
@@ -111,7 +111,7 @@ static void sliding_pulls_at_the_edge(void **state)
     }
 }
 
-static void bad_linear_tractions_are_refused(void **state)
+TEST(bad_linear_tractions_are_refused)
 {
     const double nodes[] = {0.0, 1.0}, back[] = {1.0, 0.0}, none[] = {0.0, 0.0},
                  above[] = {0.0, -1.0}, xy[] = {0.0, 1.0};
@@ -135,7 +135,7 @@ static void bad_linear_tractions_are_refused(void **state)
     assert_int_equal(status, RB_ENOMEM);
 }
 
-static void bad_grids_are_refused(void **state)
+TEST(bad_grids_are_refused)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     rb_rolling_model model;
@@ -152,7 +152,7 @@ static void bad_grids_are_refused(void **state)
 }
 
 /* Grid and maxima, then the ParaView file, on each failing allocation. */
-static void stress_without_memory(void **state)
+TEST(stress_without_memory)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
     rb_rolling_model model;
@@ -188,7 +188,7 @@ static void stress_without_memory(void **state)
     rb_rolling_model_free(&model);
 }
 
-static void full_disc_is_told(void **state)
+TEST(full_disc_is_told)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     static const rb_rolling_stress at[4];
@@ -207,17 +207,4 @@ static void full_disc_is_told(void **state)
     fclose(full);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grid_holds_the_stress_of_its_points),
-        cmocka_unit_test(inside_is_where_there_is_stress),
-        cmocka_unit_test(linear_tractions_are_the_limit_of_strips),
-        cmocka_unit_test(sliding_pulls_at_the_edge),
-        cmocka_unit_test(bad_linear_tractions_are_refused),
-        cmocka_unit_test(bad_grids_are_refused),
-        cmocka_unit_test(stress_without_memory),
-        cmocka_unit_test(full_disc_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -50,7 +50,7 @@ static rb_status run(record *r, int workers, rb_message *why)
     return rb_rolling_sweep_run(&sweep, why);
 }
 
-static void rows_are_those_of_single_solutions(void **state)
+TEST(rows_are_those_of_single_solutions)
 {
     record r = {.first = 2, .kill_at = -1};
     CHECK_STATUS(run(&r, 3, NULL), RB_OK);
@@ -73,7 +73,7 @@ static void rows_are_those_of_single_solutions(void **state)
 }
 
 /* The memory killer of the system may have taken it. */
-static void a_case_is_tried_again_after_its_process_died(void **state)
+TEST(a_case_is_tried_again_after_its_process_died)
 {
     int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -85,7 +85,7 @@ static void a_case_is_tried_again_after_its_process_died(void **state)
     munmap(deaths, sizeof *deaths);
 }
 
-static void a_process_that_dies_loses_one_case(void **state)
+TEST(a_process_that_dies_loses_one_case)
 {
     record r = {.kill_at = 9};
     CHECK_STATUS(run(&r, 2, NULL), RB_OK);
@@ -95,7 +95,7 @@ static void a_process_that_dies_loses_one_case(void **state)
                                                    : RB_OK);
 }
 
-static void stops_when_told(void **state)
+TEST(stops_when_told)
 {
     record r = {.stop_at = 4, .kill_at = -1};
     rb_message why;
@@ -141,7 +141,7 @@ static const struct {
     {"--vary-1 'mu 0.1' --jobs -1", 64, "--jobs: expected a whole number"},
 };
 
-static void bad_studies_are_refused(void **state)
+TEST(bad_studies_are_refused)
 {
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         char line[400];
@@ -151,7 +151,7 @@ static void bad_studies_are_refused(void **state)
 }
 
 /* A grid from a file, times a table: every combination, the last varying fastest. */
-static void grid_times_table(void **state)
+TEST(grid_times_table)
 {
     rb_io_table t;
     write_file("study.ini",
@@ -177,7 +177,7 @@ static void grid_times_table(void **state)
 
 /* The whole file at once, and cut off in the middle of a row and gone on with. */
 /* What stands only beside an option that varies is not refused for its absence. */
-static void options_may_need_the_one_that_varies(void **state)
+TEST(options_may_need_the_one_that_varies)
 {
     static const char *const all[] = {
         "--support hub --core-young 70000 --vary-1 'cover-thickness 5 10'",
@@ -197,7 +197,7 @@ static void options_may_need_the_one_that_varies(void **state)
                   "for temperatures only, see --conductivity");
 }
 
-static void an_interrupted_study_goes_on(void **state)
+TEST(an_interrupted_study_goes_on)
 {
     static const char study[] =
         STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:31' --output study.tsv";
@@ -225,7 +225,7 @@ static void an_interrupted_study_goes_on(void **state)
 
 /* A table holds the rows that there are; JSON is whole or not there, whatever was there
  * before stays. */
-static void an_interrupted_study_in_json_leaves_no_file(void **state)
+TEST(an_interrupted_study_in_json_leaves_no_file)
 {
     write_file("whole.json", "before");
     assert_int_equal(shell("\"$R\" " STUDY
@@ -238,7 +238,7 @@ static void an_interrupted_study_in_json_leaves_no_file(void **state)
 }
 
 /* A table that a case file in SI names is in SI; the study shows what it shows. */
-static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
+TEST(tables_are_in_the_units_of_the_file_that_names_them)
 {
     write_file("si.ini", "units = si\nsupport = halfplane\nyoung = 2e11\nradius = 0.3\n"
                          "contact-elements = 12\n[sweep]\ncases = si.txt\n");
@@ -254,7 +254,7 @@ static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
     assert_non_null(strstr(out, "\n2\t200\t"));
 }
 
-static void cases_that_fail_are_rows_and_an_exit_code(void **state)
+TEST(cases_that_fail_are_rows_and_an_exit_code)
 {
     assert_int_equal(rollbem("sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
                              "--zone 0.001 --contact-elements 10"),
@@ -266,7 +266,7 @@ static void cases_that_fail_are_rows_and_an_exit_code(void **state)
 }
 
 /* Also where messages are not wanted; of the others nobody hears. */
-static void the_first_case_that_fails_says_why(void **state)
+TEST(the_first_case_that_fails_says_why)
 {
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 10 8 20'"),
@@ -290,7 +290,7 @@ static void check_not_resumed(const char *change, const char *part)
 }
 
 /* Every line is one that this study would have written. */
-static void what_is_no_row_of_the_study_is_refused(void **state)
+TEST(what_is_no_row_of_the_study_is_refused)
 {
     check_not_resumed("echo hello >>s.tsv", "s.tsv:9: not the row of case 4");
     check_not_resumed("sed -i '7s/.*/hello/' s.tsv", "s.tsv:7: not the row of case 2");
@@ -314,7 +314,7 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
 
 /* What is in the file when the disk is full is whole, and the study goes on from there.
  */
-static void a_full_disk_leaves_whole_rows(void **state)
+TEST(a_full_disk_leaves_whole_rows)
 {
     static const char study[] = STUDY "--contact-elements 30 --vary-1 'mu 0.1:0.3:12' ";
     static char whole[20000], part[20000];
@@ -353,7 +353,7 @@ static void a_full_disk_leaves_whole_rows(void **state)
 }
 
 /* The other formats have the same numbers and come whole. */
-static void studies_come_in_three_formats(void **state)
+TEST(studies_come_in_three_formats)
 {
     char head[20000];
     assert_int_equal(shell("\"$R\" " STUDY "--vary-1 'mu 0.1 0.3' --quiet"), 0);
@@ -371,7 +371,7 @@ static void studies_come_in_three_formats(void **state)
     json_decref(root);
 }
 
-static void any_result_is_a_column_by_its_name(void **state)
+TEST(any_result_is_a_column_by_its_name)
 {
     json_t *root = run_json(STUDY "--similar --vary-1 'creep-ratio 0.2 0.6' --results "
                                   "stick_length,contact_to,normal_load");
@@ -384,7 +384,7 @@ static void any_result_is_a_column_by_its_name(void **state)
                   "no result 'stick_lenght' (did you mean 'stick_length'?)");
 }
 
-static void studies_name_their_papers(void **state)
+TEST(studies_name_their_papers)
 {
     assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --vary-1 'mu .1 .2' "
                                    "--cite"),
@@ -394,7 +394,7 @@ static void studies_name_their_papers(void **state)
 }
 
 /* Quantities with units are values of the study in its own system. */
-static void values_may_have_units(void **state)
+TEST(values_may_have_units)
 {
     json_t *root =
         run_json(STUDY "--similar --contact-elements 20 --vary-1 'load 100kN/m "
@@ -452,7 +452,7 @@ static int begins_like_a_picture(const char *name, const char *begin)
 }
 
 /* The map has the numbers of the table, every x in the rows of every y. */
-static void a_map_shows_the_table(void **state)
+TEST(a_map_shows_the_table)
 {
     rb_io_table t;
     double at[20][3];
@@ -482,7 +482,7 @@ static void a_map_shows_the_table(void **state)
 }
 
 /* A table of cases is a grid in whatever order its rows come. */
-static void a_table_of_cases_may_be_a_grid(void **state)
+TEST(a_table_of_cases_may_be_a_grid)
 {
     double at[20][3];
     write_file("grid",
@@ -504,7 +504,7 @@ static void a_table_of_cases_may_be_a_grid(void **state)
 }
 
 /* A curve for each value of the family; the option that varies fastest lies along x. */
-static void curves_are_those_of_the_family(void **state)
+TEST(curves_are_those_of_the_family)
 {
     double at[20][3];
     assert_int_equal(rollbem(GRID "--plot c.png --plot-script c.gp"), 0);
@@ -526,7 +526,7 @@ static void curves_are_those_of_the_family(void **state)
 }
 
 /* A study that goes on, and one that is finished, draw what is in the file. */
-static void a_resumed_study_draws_all_its_rows(void **state)
+TEST(a_resumed_study_draws_all_its_rows)
 {
     static char whole[40000], again[40000];
     static const char study[] = GRID "--plot r.png --plot-script r.gp --output r.tsv";
@@ -541,7 +541,7 @@ static void a_resumed_study_draws_all_its_rows(void **state)
 }
 
 /* Cases without a solution leave a hole; the exit code tells of them. */
-static void unsolved_cases_leave_holes(void **state)
+TEST(unsolved_cases_leave_holes)
 {
     double at[20][3];
     assert_int_equal(rollbem(STUDY "--zone 1 --vary-1 'load 100 200 1e5' --plot h.png "
@@ -555,7 +555,7 @@ static void unsolved_cases_leave_holes(void **state)
 }
 
 /* What the file of a study says stands there, whatever varies. */
-static void files_of_studies_are_blamed_by_line(void **state)
+TEST(files_of_studies_are_blamed_by_line)
 {
     static const struct {
         const char *line, *part;
@@ -577,7 +577,7 @@ static void files_of_studies_are_blamed_by_line(void **state)
     }
 }
 
-static void what_cannot_be_drawn_is_refused(void **state)
+TEST(what_cannot_be_drawn_is_refused)
 {
     static const struct {
         const char *arguments;
@@ -612,7 +612,7 @@ static void what_cannot_be_drawn_is_refused(void **state)
 }
 
 /* The same numbers as those of a single case: its largest stresses and its error bars. */
-static void rows_have_stresses_and_error_bars(void **state)
+TEST(rows_have_stresses_and_error_bars)
 {
 #define SLIDING                                                                          \
     "--support halfplane --similar --mu 0.3 --formulation steady "                       \
@@ -650,7 +650,7 @@ static void rows_have_stresses_and_error_bars(void **state)
     assert_non_null(strstr(err, "e.tsv holds 3 of 3 cases"));
 }
 
-static void an_empty_file_is_a_start(void **state)
+TEST(an_empty_file_is_a_start)
 {
     char whole[20000], got[20000];
     assert_int_equal(rollbem(THREE "--restart"), 0);
@@ -662,7 +662,7 @@ static void an_empty_file_is_a_start(void **state)
 }
 
 /* More than a page of command line, as a study of many values has. */
-static void a_long_command_line_is_resumed(void **state)
+TEST(a_long_command_line_is_resumed)
 {
     assert_int_equal(
         shell("v=$(seq -s' ' 0.0001 0.0001 0.1); "
@@ -673,7 +673,7 @@ static void a_long_command_line_is_resumed(void **state)
         0);
 }
 
-static void files_of_the_case_belong_to_the_study(void **state)
+TEST(files_of_the_case_belong_to_the_study)
 {
     static const char study[] =
         "sweep --support halfplane --formulation steady --load 100 "
@@ -686,7 +686,7 @@ static void files_of_the_case_belong_to_the_study(void **state)
     check_refused(study, 73, "g.tsv: has other contents");
 }
 
-static void two_programs_on_one_file_are_refused(void **state)
+TEST(two_programs_on_one_file_are_refused)
 {
     static const char line[] =
         "\"$R\" " STUDY "--contact-elements 200 --jobs 1 --vary-1 'creep-ratio 0:1:4000' "
@@ -700,7 +700,7 @@ static void two_programs_on_one_file_are_refused(void **state)
     assert_non_null(strstr(err, "both.tsv: another process is writing it"));
 }
 
-static void a_finished_study_keeps_its_exit_code(void **state)
+TEST(a_finished_study_keeps_its_exit_code)
 {
     static const char study[] = "sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
                                 "--zone 0.001 --contact-elements 10 --output f.tsv";
@@ -710,40 +710,4 @@ static void a_finished_study_keeps_its_exit_code(void **state)
     assert_non_null(strstr(err, "not solved: 2 of 2"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_are_those_of_single_solutions),
-        cmocka_unit_test(a_case_is_tried_again_after_its_process_died),
-        cmocka_unit_test(a_process_that_dies_loses_one_case),
-        cmocka_unit_test(stops_when_told),
-        cmocka_unit_test(bad_studies_are_refused),
-        cmocka_unit_test(grid_times_table),
-        cmocka_unit_test(options_may_need_the_one_that_varies),
-        cmocka_unit_test(an_interrupted_study_goes_on),
-        cmocka_unit_test(an_interrupted_study_in_json_leaves_no_file),
-        cmocka_unit_test(tables_are_in_the_units_of_the_file_that_names_them),
-        cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
-        cmocka_unit_test(the_first_case_that_fails_says_why),
-        cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
-        cmocka_unit_test(a_full_disk_leaves_whole_rows),
-        cmocka_unit_test(studies_come_in_three_formats),
-        cmocka_unit_test(any_result_is_a_column_by_its_name),
-        cmocka_unit_test(studies_name_their_papers),
-        cmocka_unit_test(values_may_have_units),
-        cmocka_unit_test(a_map_shows_the_table),
-        cmocka_unit_test(a_table_of_cases_may_be_a_grid),
-        cmocka_unit_test(curves_are_those_of_the_family),
-        cmocka_unit_test(a_resumed_study_draws_all_its_rows),
-        cmocka_unit_test(unsolved_cases_leave_holes),
-        cmocka_unit_test(files_of_studies_are_blamed_by_line),
-        cmocka_unit_test(what_cannot_be_drawn_is_refused),
-        cmocka_unit_test(rows_have_stresses_and_error_bars),
-        cmocka_unit_test(an_empty_file_is_a_start),
-        cmocka_unit_test(a_long_command_line_is_resumed),
-        cmocka_unit_test(files_of_the_case_belong_to_the_study),
-        cmocka_unit_test(two_programs_on_one_file_are_refused),
-        cmocka_unit_test(a_finished_study_keeps_its_exit_code),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

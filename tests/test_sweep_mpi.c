@@ -35,7 +35,7 @@ static void check_study(void)
     assert_string_equal(got, whole);
 }
 
-static void writes_what_one_machine_writes(void **state)
+TEST(writes_what_one_machine_writes)
 {
     need_mpi();
     solve_alone();
@@ -43,7 +43,7 @@ static void writes_what_one_machine_writes(void **state)
     check_study();
 }
 
-static void goes_on_after_a_process_was_killed(void **state)
+TEST(goes_on_after_a_process_was_killed)
 {
     need_mpi();
     solve_alone();
@@ -57,7 +57,7 @@ static void goes_on_after_a_process_was_killed(void **state)
     check_study();
 }
 
-static void says_once_what_is_wrong(void **state)
+TEST(says_once_what_is_wrong)
 {
     need_mpi();
     solve_alone();
@@ -68,7 +68,7 @@ static void says_once_what_is_wrong(void **state)
     assert_string_equal(out, "");
 }
 
-static void another_study_on_one_of_them_is_refused(void **state)
+TEST(another_study_on_one_of_them_is_refused)
 {
     need_mpi();
     solve_alone();
@@ -80,7 +80,7 @@ static void another_study_on_one_of_them_is_refused(void **state)
 }
 
 /* Several processes that do not know of each other would write the same file. */
-static void a_build_without_mpi_says_so(void **state)
+TEST(a_build_without_mpi_says_so)
 {
     solve_alone();
     assert_int_equal(shell("cp \"$R\" alone; OMPI_COMM_WORLD_SIZE=3 ./alone sweep "
@@ -91,14 +91,4 @@ static void a_build_without_mpi_says_so(void **state)
     assert_int_equal(shell("OMPI_COMM_WORLD_SIZE=1 ./alone sweep study.ini --quiet"), 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(writes_what_one_machine_writes),
-        cmocka_unit_test(goes_on_after_a_process_was_killed),
-        cmocka_unit_test(says_once_what_is_wrong),
-        cmocka_unit_test(another_study_on_one_of_them_is_refused),
-        cmocka_unit_test(a_build_without_mpi_says_so),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -117,7 +117,7 @@ static void skip_under_sanitizers(void)
         skip();
 }
 
-static void exports_are_the_headers(void **state)
+TEST(exports_are_the_headers)
 {
     static names in_headers, in_library;
     int strange = 0;
@@ -139,7 +139,7 @@ static void exports_are_the_headers(void **state)
     assert_int_equal(strange, 0);
 }
 
-static void one_header_has_them_all(void **state)
+TEST(one_header_has_them_all)
 {
     assert_int_equal(
         system("cd include && for h in rollbem/*.h; do [ $h = rollbem/rollbem.h ] || "
@@ -148,7 +148,7 @@ static void one_header_has_them_all(void **state)
 }
 
 /* A C++ program with every header, linked to the shared library, solves a case. */
-static void headers_serve_cxx(void **state)
+TEST(headers_serve_cxx)
 {
     char command[900];
 
@@ -176,10 +176,4 @@ static void headers_serve_cxx(void **state)
     assert_int_equal(system(command), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exports_are_the_headers),
-                                       cmocka_unit_test(one_header_has_them_all),
-                                       cmocka_unit_test(headers_serve_cxx)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -84,7 +84,7 @@ static void *work(void *context)
     return NULL;
 }
 
-static void threads_give_the_same_bytes(void **state)
+TEST(threads_give_the_same_bytes)
 {
     static worker alone, together[THREADS];
     pthread_t thread[THREADS];
@@ -107,7 +107,6 @@ static void threads_give_the_same_bytes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_give_the_same_bytes)};
     rb_blas_threads(1);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_all_tests(NULL, NULL);
 }

@@ -81,7 +81,7 @@ static void compare(int n, rb_bem_material a, const rb_bem_material *b, double d
     rb_bem_flexibility_free(&fast);
 }
 
-static void equals_the_dense_matrix(void **state)
+TEST(equals_the_dense_matrix)
 {
     const int n[] = {1, 2, 3, 7, 64, 201};
     for (size_t k = 0; k < sizeof n / sizeof *n; k++) {
@@ -93,7 +93,7 @@ static void equals_the_dense_matrix(void **state)
 }
 
 /* A pair of two kinds keeps both; two matrices become one, in the place of the first. */
-static void pairs_of_any_kind_agree(void **state)
+TEST(pairs_of_any_kind_agree)
 {
     enum { n = 12, m = n + 1 };
     make *const kind[] = {rb_bem_flexibility_surface, rb_bem_flexibility_toeplitz};
@@ -127,7 +127,7 @@ static void pairs_of_any_kind_agree(void **state)
 }
 
 /* A deep datum adds a constant that must not drown the rest. */
-static void keeps_differences_under_a_deep_datum(void **state)
+TEST(keeps_differences_under_a_deep_datum)
 {
     enum { n = 500 };
     rb_bem_flexibility near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
@@ -144,7 +144,7 @@ static void keeps_differences_under_a_deep_datum(void **state)
     rb_bem_flexibility_free(&deep);
 }
 
-static void long_lines_work(void **state)
+TEST(long_lines_work)
 {
     enum { n = 200000 };
     rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
@@ -206,7 +206,7 @@ static rb_bem_flexibility disc(int n, double radius, double from, double to,
 }
 
 /* Products are those of the matrix, in both frames; the matrix is symmetric. */
-static void the_disc_is_symmetric(void **state)
+TEST(the_disc_is_symmetric)
 {
     enum { n = 90, m = n + 1 };
     static double F[2 * m * 2 * n], r[2 * n], w[2 * m];
@@ -243,7 +243,7 @@ static void turn(double angle, double way, const double in[2], double out[2])
 
 /* The obstacle's frame is the surface's, turned by the angle of each point and element.
  */
-static void the_obstacles_frame_is_turned_by_the_angle(void **state)
+TEST(the_obstacles_frame_is_turned_by_the_angle)
 {
     enum { n = 24, m = n + 1 };
     static double F[2][2 * m * 2 * n];
@@ -272,7 +272,7 @@ static void the_obstacles_frame_is_turned_by_the_angle(void **state)
 }
 
 /* A rigid motion apart it is the reference: u and what is expected differ by c, t e_x. */
-static void the_disc_is_the_reference_but_for_a_translation(void **state)
+TEST(the_disc_is_the_reference_but_for_a_translation)
 {
     enum { n = 40, m = n + 1, j = 13 };
     static double r[2 * n], w[2 * m];
@@ -302,7 +302,7 @@ static void the_disc_is_the_reference_but_for_a_translation(void **state)
 }
 
 /* Near its load the disc answers like a half-plane, to the order of the angle. */
-static void a_short_arc_is_a_half_plane(void **state)
+TEST(a_short_arc_is_a_half_plane)
 {
     enum { n = 50, m = n + 1 };
     static double r[2 * n], w[2 * m], v[2 * m];
@@ -326,7 +326,7 @@ static void a_short_arc_is_a_half_plane(void **state)
     rb_bem_flexibility_free(&f);
 }
 
-static void bad_discs_are_refused(void **state)
+TEST(bad_discs_are_refused)
 {
     const double equal[] = {-1.5, -0.5, 0.5, 1.5};
     rb_bem_flexibility f;
@@ -365,7 +365,7 @@ static void bad_discs_are_refused(void **state)
 
 /* Whether elements are equal does not depend on the unit of length, nor on where they
  * lie, but for the rounding of their places. */
-static void equal_lengths_are_those_of_any_unit(void **state)
+TEST(equal_lengths_are_those_of_any_unit)
 {
     enum { n = 6 };
     for (int e = -9; e <= 9; e += 3)
@@ -384,7 +384,7 @@ static void equal_lengths_are_those_of_any_unit(void **state)
         }
 }
 
-static void bad_input(void **state)
+TEST(bad_input)
 {
     const double equal[] = {0, 1, 2, 3}, unequal[] = {0, 1, 2, 3.0001},
                  falling[] = {0, 1, 1, 3};
@@ -402,7 +402,7 @@ static void bad_input(void **state)
     rb_bem_flexibility_free(&f);
 }
 
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
     double *ends = equal_ends(6, 0.0, 1.0);
     rb_message why;
@@ -420,21 +420,4 @@ static void failing_allocations(void **state)
     free(ends);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_dense_matrix),
-        cmocka_unit_test(pairs_of_any_kind_agree),
-        cmocka_unit_test(keeps_differences_under_a_deep_datum),
-        cmocka_unit_test(long_lines_work),
-        cmocka_unit_test(the_disc_is_symmetric),
-        cmocka_unit_test(the_obstacles_frame_is_turned_by_the_angle),
-        cmocka_unit_test(the_disc_is_the_reference_but_for_a_translation),
-        cmocka_unit_test(a_short_arc_is_a_half_plane),
-        cmocka_unit_test(bad_discs_are_refused),
-        cmocka_unit_test(equal_lengths_are_those_of_any_unit),
-        cmocka_unit_test(bad_input),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

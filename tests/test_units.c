@@ -17,7 +17,7 @@ static double read_unit(const char *text, const char *unit)
     return value;
 }
 
-static void units_are_as_defined(void **state)
+TEST(units_are_as_defined)
 {
     static const struct {
         const char *text, *unit;
@@ -49,7 +49,7 @@ static void units_are_as_defined(void **state)
 
 /* What the table does not know stays as it is: ratios, and units of a kind of their own.
  */
-static void units_of_no_kind_are_their_own(void **state)
+TEST(units_of_no_kind_are_their_own)
 {
     double value = 0.0;
     int plain;
@@ -69,7 +69,7 @@ static void units_of_no_kind_are_their_own(void **state)
 }
 
 /* The point moves: no digit is lost where a unit is a power of ten of another. */
-static void powers_of_ten_are_exact(void **state)
+TEST(powers_of_ten_are_exact)
 {
     char text[40];
     for (int k = 1; k < 2000; k++) {
@@ -131,7 +131,7 @@ static void compare_tables(const char *a_path, const char *b_path, rb_units syst
     rb_io_table_free(&b);
 }
 
-static void every_command_converts_the_same_numbers(void **state)
+TEST(every_command_converts_the_same_numbers)
 {
     /* $R1 ...: lengths, stresses, loads and a compliance, once as plain numbers of each
      * system */
@@ -187,7 +187,7 @@ static void every_command_converts_the_same_numbers(void **state)
 }
 
 /* A value's own unit: the same case to the last digit. */
-static void values_say_their_own_units(void **state)
+TEST(values_say_their_own_units)
 {
     const char *same = "--support halfplane --similar --formulation steady --quiet "
                        "--header=bare";
@@ -202,7 +202,7 @@ static void values_say_their_own_units(void **state)
     assert_int_equal(shell(line), 0);
 }
 
-static void files_take_units(void **state)
+TEST(files_take_units)
 {
     write_file("a.txt", "shift load\n0 100\n0.001 120\n");
     write_file("b.txt", "shift_um load_kN/m\n0 100\n1 120\n");
@@ -260,7 +260,7 @@ static void files_take_units(void **state)
 
 /* Numbers of a command's own options, which a case file gives, are in the file's units.
  */
-static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
+TEST(studies_and_curves_of_files_have_the_units_of_the_file)
 {
     write_file("study.ini", "units = inch\nsupport = halfplane\n[sweep]\n"
                             "vary-1 = load 1000 2000\n");
@@ -301,7 +301,7 @@ static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
 /* --from and --to are values of what --over names. */
 /* The way slid and the work per way have no unit in their columns' names; what is worn
  * off goes on in any system; every snapshot and picture is in that of the run. */
-static void wear_speaks_every_system(void **state)
+TEST(wear_speaks_every_system)
 {
     static const rb_units system[] = {RB_UNITS_SI, RB_UNITS_INCH};
     static const char *const name[] = {"si", "inch"};
@@ -358,7 +358,7 @@ static void wear_speaks_every_system(void **state)
     json_decref(mm);
 }
 
-static void ends_of_a_curve_may_have_units(void **state)
+TEST(ends_of_a_curve_may_have_units)
 {
 #define RELAXES                                                                          \
     "curve --similar --support halfplane --load 100 --contact-elements 20 "              \
@@ -384,7 +384,7 @@ static void ends_of_a_curve_may_have_units(void **state)
     check_refused("curve ends.ini", 65, "ends.ini:3: from: expected a number, got 'a'");
 }
 
-static void case_files_have_their_own_units(void **state)
+TEST(case_files_have_their_own_units)
 {
     static const char body[] = "radius = %s\nyoung = %s\nsupport = halfplane\n"
                                "load = %s\n[units]\nunits = %s\n";
@@ -419,7 +419,7 @@ static void case_files_have_their_own_units(void **state)
     json_decref(root);
 }
 
-static void what_people_see_says_the_units(void **state)
+TEST(what_people_see_says_the_units)
 {
     assert_int_equal(rollbem("--support halfplane --similar --load 100kN/m --units inch"),
                      0);
@@ -434,7 +434,7 @@ static void what_people_see_says_the_units(void **state)
     assert_int_equal(shell("grep -q 'N/m' p.svg && ! grep -q 'N/mm' p.svg"), 0);
 }
 
-static void wrong_units_are_named(void **state)
+TEST(wrong_units_are_named)
 {
     check_refused("--young 210GPA", 64, "did you mean 'GPa'?");
     check_refused("--young 5mm", 64, "expected a number in one of MPa, Pa,");
@@ -460,7 +460,7 @@ static void wrong_units_are_named(void **state)
 }
 
 /* As people type them. */
-static void units_have_several_spellings(void **state)
+TEST(units_have_several_spellings)
 {
     static const struct {
         const char *text, *unit;
@@ -500,22 +500,4 @@ static void units_have_several_spellings(void **state)
     CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &why), RB_EINVAL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(units_are_as_defined),
-        cmocka_unit_test(units_of_no_kind_are_their_own),
-        cmocka_unit_test(powers_of_ten_are_exact),
-        cmocka_unit_test(every_command_converts_the_same_numbers),
-        cmocka_unit_test(values_say_their_own_units),
-        cmocka_unit_test(files_take_units),
-        cmocka_unit_test(studies_and_curves_of_files_have_the_units_of_the_file),
-        cmocka_unit_test(wear_speaks_every_system),
-        cmocka_unit_test(ends_of_a_curve_may_have_units),
-        cmocka_unit_test(case_files_have_their_own_units),
-        cmocka_unit_test(what_people_see_says_the_units),
-        cmocka_unit_test(wrong_units_are_named),
-        cmocka_unit_test(units_have_several_spellings),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

@@ -10,7 +10,7 @@ static void keep(const rb_verify_check *check, void *context)
     *(rb_verify_check *)context = *check;
 }
 
-static void bounds_are_of_differences_or_ratios(void **state)
+TEST(bounds_are_of_differences_or_ratios)
 {
     static const struct {
         int relative;
@@ -41,7 +41,7 @@ static void bounds_are_of_differences_or_ratios(void **state)
 }
 
 /* The solver's own line, or, where it has none, what its status means. */
-static void failures_have_a_reason(void **state)
+TEST(failures_have_a_reason)
 {
     rb_verify_check check;
     rb_verify v = {.each = keep, .context = &check};
@@ -82,7 +82,7 @@ static void count(const rb_verify_check *check, void *context)
 }
 
 /* Without memory no reference is met, and each says why. */
-static void nothing_holds_without_a_solution(void **state)
+TEST(nothing_holds_without_a_solution)
 {
     counts c = {0};
 
@@ -94,12 +94,4 @@ static void nothing_holds_without_a_solution(void **state)
     assert_int_equal(c.held, 3); /* also of a history that never ran */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_are_of_differences_or_ratios),
-        cmocka_unit_test(failures_have_a_reason),
-        cmocka_unit_test(nothing_holds_without_a_solution),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)
