@@ -169,6 +169,29 @@ TEST(the_field_is_in_equilibrium)
     }
 }
 
+/* Of many points the far ones are computed by a series, of a single one never. */
+TEST(far_points_are_those_of_single_strips)
+{
+    enum { POINTS = 400 };
+    const load l = hertz(0.3);
+    double xy[2 * POINTS], s[3 * POINTS];
+    for (int k = 0; k < POINTS; k++) { /* from a distance of 1.7 to one of 60 */
+        const double r = 1.7 * pow(60.0 / 1.7, (k / 20) / 19.0), t = M_PI * (k % 20) / 19;
+        xy[2 * k] = r * cos(t);
+        xy[2 * k + 1] = fmax(r * sin(t), 0.0);
+    }
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){n_strips, l.ends, l.p, l.q},
+                                         (rb_bem_points){POINTS, xy}, s),
+                 RB_OK);
+    for (int k = 0; k < POINTS; k++) {
+        double one[3];
+        stress_at(&l, xy[2 * k], xy[2 * k + 1], one);
+        for (int c = 0; c < 3; c++)
+            CHECK_ABS(s[3 * k + c], one[c], 1e-14, "(%g, %g), %d", xy[2 * k],
+                      xy[2 * k + 1], c);
+    }
+}
+
 /* A strip between ends 2 c apart in the third direction, on a half-space: Boussinesq's
  * and Cerruti's displacements, the third direction in closed form, x by midpoints. */
 static double of_half_space(int tangential, double from, double to, double c)

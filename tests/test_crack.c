@@ -3,6 +3,7 @@
  * from an independent discretisation (dislocations collocated with graded elements, 9
  * digits, and Galerkin at n = 40), those of the full plane from closed forms. */
 #include "check.h"
+#include "rollbem/case.h"
 #include "rollbem/contact.h"
 #include "rollbem/crack.h"
 
@@ -319,7 +320,7 @@ static void betti(void **state)
 
 typedef struct {
     rb_crack_history h;
-    rb_crack_summary s;
+    rb_case_crack_summary s;
 } pass;
 
 /* Whether trapped fluid is that of the place where the mouth closes. */
@@ -342,7 +343,7 @@ static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int 
                                       .fluid = fluid,
                                       .locate_closing = located};
     CHECK_STATUS(rb_crack_pass(c, &passage, &p->h, NULL), RB_OK);
-    p->s = rb_crack_summarise(&p->h, passes);
+    p->s = rb_case_crack_summarise(&p->h, passes);
     rb_crack_free(c);
 }
 
@@ -603,16 +604,16 @@ static void directions(void **state)
                           .stick_length = none,
                           .fluid_pressure = none,
                           .residual = none};
-    rb_crack_summary s = rb_crack_summarise(&h, 1);
+    rb_case_crack_summary s = rb_case_crack_summarise(&h, 1);
     CHECK_REL(s.K_theta_max, 2.0, 1e-15, "mode I");
     CHECK_ABS(s.kink_angle, 0.0, 1e-15, "mode I");
     K_I[0] = 0.0;
     K_II[0] = 1.0;
-    s = rb_crack_summarise(&h, 1);
+    s = rb_case_crack_summarise(&h, 1);
     CHECK_REL(s.K_theta_max, 2.0 / sqrt(3.0), 1e-14, "mode II");
     CHECK_REL(s.kink_angle, -acos(1.0 / 3.0) * 180.0 / M_PI, 1e-14, "mode II");
     h.n = 3;
-    s = rb_crack_summarise(&h, 1);
+    s = rb_case_crack_summarise(&h, 1);
     CHECK_REL(s.K_theta_max, 1.5 * 2.0 / sqrt(3.0), 1e-14, "the largest");
     CHECK_REL(s.kink_angle, acos(1.0 / 3.0) * 180.0 / M_PI, 1e-14, "the largest");
 }

@@ -539,6 +539,24 @@ typedef struct {
     rb_crack_path path;
 } rb_case_crack_growth;
 
+/* Summary of the last pass, which begins at step `from`. */
+typedef struct {
+    int from;
+    double K_I_max, K_I_min, K_II_max, K_II_min, delta_K_I, delta_K_II;
+    double K_I_max_at, K_II_max_at, K_II_min_at; /* x */
+    double K_II_at_K_I_max; /* K_II at the moment of the largest K_I */
+    double K_theta_max;     /* largest rb_crack_largest_tension of the pass */
+    double kink_angle;      /* its direction, from t towards n [degrees] */
+    double K_I_max_upper, K_I_min_upper, K_II_max_upper, K_II_min_upper; /* or NAN */
+    double open_max, fluid_pressure_max;
+    double pass_change;  /* largest change of K from the pass before; NAN with one pass */
+    double max_pressure; /* of the contact, if it depends on the crack; otherwise NAN */
+    double residual;
+} rb_case_crack_summary;
+
+rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *history,
+                                              int passes);
+
 rb_case_crack rb_case_crack_defaults(void);
 /* The options of the section [crack]; their offsets refer to rb_case_crack. */
 extern const rb_option rb_case_crack_options[];
@@ -551,9 +569,9 @@ typedef struct {
     int passes;
     rb_crack_shape shape;
     rb_crack_history history;
-    rb_crack_summary summary;
+    rb_case_crack_summary summary;
     int has_errors;
-    rb_crack_summary errors; /* error of each number of the summary */
+    rb_case_crack_summary errors; /* error of each number of the summary */
     rb_case_crack_growth growth;
     int notes;
     char note[RB_CASE_CRACK_NOTES][200]; /* notes on how to read the result */
@@ -581,7 +599,7 @@ rb_status rb_case_crack_row(const rb_resolved_case *resolved, const rb_case_crac
 /* A number of rb_case_crack_scalars in such a row, or its error bar. */
 double rb_case_crack_of_row(const rb_rolling_result *result, int is_error,
                             const rb_rolling_row *row);
-/* The numbers of rb_crack_summary and the columns of rb_crack_history and of
+/* The numbers of rb_case_crack_summary and the columns of rb_crack_history and of
  * rb_case_crack_growth. */
 extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
     rb_case_crack_growth_columns;

@@ -66,7 +66,8 @@ double rb_crack_asymmetry(const rb_crack *crack);
 
 /* Nodal forces T (2n) of the stress that the load causes in the body without a crack.
  * load: strips [length] with pressure p and friction q on the upper body A, moved by x;
- * NULL: none.  tension: uniform stress along the surface. */
+ * NULL: none.  tension: uniform stress along the surface.  RB_EINVAL: the strips are out
+ * of order, or a crack of the full plane lies above y = 0; RB_ENOMEM. */
 rb_status rb_crack_load(const rb_crack *crack, const rb_bem_edge_load *load, double x,
                         double tension, double *T);
 
@@ -138,9 +139,10 @@ typedef struct {
     double *x, *K_I, *K_II;
     double *K_I_upper, *K_II_upper; /* NULL if the upper end is a mouth */
     double *open_length, *stick_length, *fluid_pressure;
+    double *fluid_volume; /* volume of the fluid, as in rb_crack_state */
     double *residual;
     double *max_pressure; /* of the contact, if it depends on the crack; otherwise NULL */
-    double *D;            /* n x 2 nodes, step by step */
+    double *D, *r;        /* n x 2 nodes, step by step */
     int *zone;            /* n x nodes */
 } rb_crack_history;
 
@@ -150,24 +152,9 @@ rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage,
                         rb_crack_history *history, rb_message *why);
 void rb_crack_history_free(rb_crack_history *history);
 
-/* Summary of the last pass, which begins at step `from`. */
-typedef struct {
-    int from;
-    double K_I_max, K_I_min, K_II_max, K_II_min, delta_K_I, delta_K_II;
-    double K_I_max_at, K_II_max_at, K_II_min_at; /* x */
-    double K_II_at_K_I_max; /* K_II at the moment of the largest K_I */
-    double K_theta_max; /* maximum over the pass and over all directions ahead of the tip
-                           of the tension across the direction times sqrt(2 pi r) (Erdogan
-                           and Sih); approximately K_I of a kink in this direction */
-    double kink_angle;  /* this direction, from t towards n [degrees] */
-    double K_I_max_upper, K_I_min_upper, K_II_max_upper, K_II_min_upper; /* or NAN */
-    double open_max, fluid_pressure_max;
-    double pass_change;  /* largest change of K from the pass before; NAN with one pass */
-    double max_pressure; /* of the contact, if it depends on the crack; otherwise NAN */
-    double residual;
-} rb_crack_summary;
-
-rb_crack_summary rb_crack_summarise(const rb_crack_history *history, int passes);
+/* The largest tension across any direction ahead of a tip, times sqrt(2 pi r) (Erdogan
+ * and Sih): approximately K_I of a kink in this direction.  *angle: from t towards n. */
+double rb_crack_largest_tension(double K_I, double K_II, double *angle);
 
 RB_PUBLIC_END
 

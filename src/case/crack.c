@@ -1,5 +1,4 @@
-/* A crack under the contact of a case: its options, the contact as its load, its results
- * by name. */
+/* A crack under the contact of a case: its options, and the contact as its load. */
 #include "case/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -97,144 +96,6 @@ rb_case_crack rb_case_crack_defaults(void)
                            .paris = NAN,
                            .grow_to = NAN,
                            .grow_steps = 10};
-}
-
-/* ---- Results ----------------------------------------------------------------------- */
-
-#define OF(type, name_, member, ...)                                                     \
-    {                                                                                    \
-        .name = name_, .offset = offsetof(type, member), __VA_ARGS__                     \
-    }
-#define NUMBER(name, ...) OF(rb_crack_summary, #name, name, __VA_ARGS__)
-#define COLUMN(name, ...) OF(rb_crack_history, #name, name, __VA_ARGS__)
-#define PLACE_OF(name) offsetof(rb_crack_summary, name)
-#define IS_K .unit = "MPa.mm^0.5", .error_bar = RB_SCALE_PRESSURE
-
-static const rb_rolling_result scalars[] = {
-    NUMBER(K_I_max, IS_K, .meaning = "largest K_I at the tip in the last pass"),
-    NUMBER(K_I_min, IS_K, .meaning = "smallest K_I"),
-    NUMBER(K_II_max, IS_K, .meaning = "largest K_II; > 0: the upper face slides down"),
-    NUMBER(K_II_min, IS_K, .meaning = "smallest K_II"),
-    NUMBER(delta_K_I, IS_K, .meaning = "K_I_max - K_I_min"),
-    NUMBER(delta_K_II, IS_K, .meaning = "K_II_max - K_II_min"),
-    NUMBER(K_I_max_at, .unit = "mm", .meaning = "position of the contact"),
-    NUMBER(K_II_max_at, .unit = "mm", .meaning = "position of the contact"),
-    NUMBER(K_II_min_at, .unit = "mm", .meaning = "position of the contact"),
-    NUMBER(K_II_at_K_I_max, IS_K, .meaning = "K_II where K_I is largest: the phase"),
-    NUMBER(K_theta_max, IS_K,
-           .meaning = "largest tension across any direction ahead of the tip times "
-                      "sqrt(2 pi r), over the pass (Erdogan and Sih)"),
-    NUMBER(kink_angle, .unit = "degrees",
-           .meaning = "that direction, from the crack's own, counter-clockwise"),
-    NUMBER(K_I_max_upper, IS_K,
-           .meaning = "largest K_I at the upper end of a crack below the surface"),
-    NUMBER(K_I_min_upper, IS_K, .meaning = "smallest K_I there"),
-    NUMBER(K_II_max_upper, IS_K, .meaning = "largest K_II there"),
-    NUMBER(K_II_min_upper, IS_K, .meaning = "smallest K_II there"),
-    NUMBER(open_max, .unit = "mm", .meaning = "largest open length"),
-    NUMBER(fluid_pressure_max, .unit = "MPa", .meaning = "of the fluid in the crack"),
-    NUMBER(pass_change, IS_K,
-           .meaning = "largest change of K_I or K_II since the pass before: shakedown"),
-    NUMBER(max_pressure, .unit = "MPa",
-           .meaning = "of the contact if it depends on the crack; at the mouth it is "
-                      "singular and grows with the number of elements"),
-    NUMBER(residual, .meaning = "natural residual of the scaled problem of a step"),
-};
-
-static const rb_rolling_result columns[] = {
-    COLUMN(x, .unit = "mm", .meaning = "position of the contact"),
-    COLUMN(K_I, IS_K, .meaning = "opening, at the tip"),
-    COLUMN(K_II, IS_K, .meaning = "sliding, at the tip"),
-    COLUMN(K_I_upper, IS_K, .meaning = "at the upper end below the surface"),
-    COLUMN(K_II_upper, IS_K, .meaning = "at the upper end below the surface"),
-    COLUMN(open_length, .unit = "mm", .meaning = "of the faces that are apart"),
-    COLUMN(stick_length, .unit = "mm", .meaning = "of the faces that do not slide"),
-    COLUMN(fluid_pressure, .unit = "MPa", .meaning = "in the crack"),
-    COLUMN(max_pressure, .unit = "MPa",
-           .meaning = "of a contact that depends on the crack"),
-};
-
-#define GROWTH(name, ...) OF(rb_case_crack_growth, #name, name, __VA_ARGS__)
-static const rb_rolling_result growth_columns[] = {
-    GROWTH(length, .unit = "mm", .meaning = "along the crack"),
-    GROWTH(tip_x, .unit = "mm", .meaning = "of the tip"),
-    GROWTH(tip_y, .unit = "mm", .meaning = "of the tip"),
-    GROWTH(angle, .unit = "degrees", .meaning = "to the surface, of its last piece"),
-    GROWTH(K_I_max, IS_K, .meaning = "in a pass at this length"),
-    GROWTH(delta_K_II, IS_K, .meaning = "in a pass at this length"),
-    GROWTH(delta_K, IS_K, .meaning = "that makes it grow"),
-    GROWTH(rate, .unit = "mm", .meaning = "da/dN, a pass"),
-    GROWTH(cycles, .meaning = "passes until it has this length"),
-};
-
-#define TABLE(rows)                                                                      \
-    {                                                                                    \
-        sizeof(rows) / sizeof *(rows), rows                                              \
-    }
-const rb_rolling_results rb_case_crack_scalars = TABLE(scalars);
-const rb_rolling_results rb_case_crack_columns = TABLE(columns);
-const rb_rolling_results rb_case_crack_growth_columns = TABLE(growth_columns);
-
-const rb_rolling_result_table *rb_case_result_table(int k)
-{
-    static const rb_rolling_result_table of_cracks[] = {
-        {"crack", "Numbers of a pass over a crack", &rb_case_crack_scalars},
-        {"position", "Positions of a contact over a crack", &rb_case_crack_columns},
-        {"growth", "Lengths of a crack that grows", &rb_case_crack_growth_columns}};
-    const rb_rolling_result_table *t = rb_rolling_result_tables;
-    for (; t->name && k > 0; t++)
-        k--;
-    return t->name                                           ? t
-           : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k]
-                                                             : NULL;
-}
-
-static double *number_of(rb_crack_summary *s, int k)
-{
-    return (double *)(void *)((char *)s + scalars[k].offset);
-}
-
-int rb_case_crack_has_result(const rb_rolling_result *r, const rb_case_crack *k)
-{
-    return strstr(r->name, "_upper")                   ? k->depth > 0.0
-           : r->offset == PLACE_OF(fluid_pressure_max) ? k->fluid != RB_CRACK_DRY
-           : r->offset == PLACE_OF(pass_change)        ? k->passes > 1
-           : r->offset == PLACE_OF(max_pressure)       ? k->coupled
-                                                       : 1;
-}
-
-void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
-{
-    rb_case_result_convert(&r->contact, units);
-    r->units = units;
-    if (units == RB_UNITS_MM)
-        return;
-    r->half_width = rb_unit_shown(units, "mm", r->half_width);
-    for (int k = 0; k < rb_case_crack_scalars.n; k++)
-        for (int errors = 0; errors < 2 && scalars[k].unit; errors++) {
-            double *x = number_of(errors ? &r->errors : &r->summary, k);
-            *x = rb_unit_shown(units, scalars[k].unit, *x);
-        }
-    for (int k = 0; k < rb_case_crack_columns.n; k++) {
-        double *const *column = (void *)((char *)&r->history + columns[k].offset);
-        for (int i = 0; *column && i < r->history.n; i++)
-            (*column)[i] = rb_unit_shown(units, columns[k].unit, (*column)[i]);
-    }
-    for (int i = 0; i < 2 * r->history.n * r->history.nodes; i++)
-        r->history.D[i] = rb_unit_shown(units, "mm", r->history.D[i]);
-    for (int k = 0; k < rb_case_crack_growth_columns.n && r->growth.n > 0; k++) {
-        double *const *column = (void *)((char *)&r->growth + growth_columns[k].offset);
-        for (int i = 0; i < r->growth.n && growth_columns[k].unit; i++)
-            (*column)[i] = rb_unit_shown(units, growth_columns[k].unit, (*column)[i]);
-    }
-}
-
-void rb_case_crack_free(rb_case_crack_result *r)
-{
-    rb_case_result_free(&r->contact);
-    rb_crack_history_free(&r->history);
-    free(r->growth.length);
-    r->growth.length = NULL;
 }
 
 /* ---- Positions --------------------------------------------------------------------- */
@@ -547,7 +408,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
             s = rb_crack_pass(crack, &passage, &r->history, why);
         find_notes(c, k, &t, r);
         if (r->history.n > 0)
-            r->summary = rb_crack_summarise(&r->history, r->passes);
+            r->summary = rb_case_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
             s = rb_case_grow_crack(c, k, &passage, r, why);
         note_end_of_growth(c->units, r);
@@ -565,22 +426,15 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
     if (s == RB_OK)
         s = solve_once(c, k, 1, r, why);
     if (s == RB_OK && c->error) {
-        /* of second order: a third of the difference is left in the finer one */
         rb_case_crack_result fine;
         s = solve_once(c, k, 2, &fine, why);
         r->has_errors = s == RB_OK;
-        for (int i = 0; i < rb_case_crack_scalars.n && s == RB_OK; i++)
-            *number_of(&r->errors, i) =
-                2.0 * fabs(*number_of(&fine.summary, i) - *number_of(&r->summary, i));
+        if (s == RB_OK)
+            rb_case_crack_set_errors(&fine.summary, r);
         rb_case_crack_free(&fine);
     }
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
 }
-
-/* ---- A row of a study -------------------------------------------------------------- */
-
-enum { NUMBERS = sizeof scalars / sizeof *scalars };
-_Static_assert(2 * NUMBERS <= RB_ROW_OWN, "numbers and their error bars");
 
 rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k,
                             rb_rolling_row *row, rb_message *why)
@@ -590,16 +444,8 @@ rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k,
 
     if (r.contact.solution.n > 0)
         row->solution = rb_rolling_scalars_of(&r.contact.solution);
-    for (int i = 0; i < NUMBERS && s == RB_OK; i++) {
-        row->own[i] = *number_of(&r.summary, i);
-        row->own[NUMBERS + i] = r.has_errors ? *number_of(&r.errors, i) : NAN;
-    }
+    if (s == RB_OK)
+        rb_case_crack_set_row(&r, row);
     rb_case_crack_free(&r);
     return s;
-}
-
-double rb_case_crack_of_row(const rb_rolling_result *r, int is_error,
-                            const rb_rolling_row *row)
-{
-    return row->own[(is_error ? NUMBERS : 0) + (r - scalars)];
 }

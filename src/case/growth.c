@@ -68,7 +68,7 @@ static int extend(double by, double angle, rb_crack_path *path)
 /* dK and da/dN, whose law is written in the units of the case. */
 static void add_length(const rb_resolved_case *c, const rb_case_crack *k,
                        const rb_crack_path *path, double length,
-                       const rb_crack_summary *s, rb_case_crack_growth *g)
+                       const rb_case_crack_summary *s, rb_case_crack_growth *g)
 {
     const int i = g->n++;
     const double opens = fmax(s->K_I_max, 0.0) - fmax(s->K_I_min, 0.0);
@@ -105,7 +105,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
     rb_crack_shape shape = r->shape;
     const double first = k->length * r->half_width,
                  last = isnan(k->grow_to) ? 2.0 * first : k->grow_to * r->half_width;
-    rb_crack_summary summary = r->summary;
+    rb_case_crack_summary summary = r->summary;
     rb_status s = growth_alloc(k->grow_steps + 1, g);
 
     if (s == RB_OK)
@@ -124,7 +124,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
         if (s == RB_OK)
             s = rb_crack_pass(crack, passage, &history, why);
         if (s == RB_OK) {
-            summary = rb_crack_summarise(&history, passage->passes);
+            summary = rb_case_crack_summarise(&history, passage->passes);
             g->path = shape.path;
             add_length(c, k, &shape.path, first + (last - first) * i / k->grow_steps,
                        &summary, g);

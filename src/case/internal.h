@@ -72,6 +72,15 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
+/* ---- crack_results.c --------------------------------------------------------------- */
+
+/* Error bars from the summary on twice as many elements: of second order, a third of the
+ * difference is left in it. */
+void rb_case_crack_set_errors(const rb_case_crack_summary *finer,
+                              rb_case_crack_result *result);
+/* The summary and its error bars as the own numbers of a row. */
+void rb_case_crack_set_row(rb_case_crack_result *result, rb_rolling_row *row);
+
 /* ---- growth.c ---------------------------------------------------------------------- */
 
 /* Checks the options of crack growth. */

@@ -6,6 +6,7 @@
 #include "rollbem/crack.h"
 
 #include <complex.h>
+#include <gsl/gsl_integration.h>
 
 /* One straight element with a linear D: a constant density of dislocations. */
 typedef struct {
@@ -21,6 +22,24 @@ typedef struct {
     double weight, hat[2];
 } rb_crack_point;
 
+/* Gauss points of an element by rule[0], or in two halves of which those that are graded
+ * towards their end have rule[1].  Returns how many. */
+int rb_crack_points(const rb_crack_element *e, int graded_from, int graded_to,
+                    gsl_integration_glfixed_table *const rule[2], rb_crack_point *point);
+
+/* The contact of the faces, behind the m elements of a wheel if it is computed with them,
+ * scaled so that the diagonal of F_NN is 1. */
+typedef struct {
+    int n, m;                  /* m + the nodes of the crack; m */
+    double *F;                 /* 2n x 2n; owned, as all here */
+    double *scale;             /* n: 1/sqrt(F_jj) */
+    double *gap, *slip, *room; /* n, n, 2n; gap and slip of the last solution */
+    rb_contact_problem problem;
+    rb_contact_state state;
+    int warm;        /* 1: the zones of the state are a start */
+    double approach; /* of the wheel, in the last solution */
+} rb_crack_contact;
+
 struct rb_crack {
     rb_crack_shape shape;
     int n;                     /* unknown nodes: first, first + 1, ... */
@@ -28,32 +47,33 @@ struct rb_crack {
     rb_crack_element *element; /* shape.elements; owned, as all here */
     double complex *t;         /* n: direction of the frame of each node */
     double *hat;               /* n: e_j */
-    double *scale;  /* n: 1/sqrt(F_jj), by which the contact problem is scaled */
-    double *F;      /* 2n x 2n */
-    double *scaled; /* the same scaled, of the contact problem */
+    double *F;                 /* 2n x 2n */
     double asymmetry;
     double per_D; /* K over D of the node next to a tip */
-    rb_contact_problem problem;
-    rb_contact_state contact;
-    rb_contact_state wheel; /* of the last coupled step; n = 0: none */
-    double approach;        /* in it */
-    int warm;               /* 1: the zones of `contact` are a start */
+    rb_crack_contact faces, coupled;
 };
 
-/* Names a solved step: gaps, slips and state of its problem, whose scales are `scale`,
- * from entry `at` on. */
-void rb_crack_read_state(const rb_crack *crack, const double *gap, const double *slip,
-                         const double *scale, const rb_contact_state *of, int at,
-                         rb_crack_state *state);
-/* The same step with the wheel's contact elements in the problem (C9). */
+/* ---- contact.c --------------------------------------------------------------------- */
+
+rb_status rb_crack_contact_alloc(const rb_crack *crack, int m, rb_crack_contact *contact);
+void rb_crack_contact_free(rb_crack_contact *contact);
+/* Scales contact->F, which the caller has filled, and poses the problem. */
+rb_status rb_crack_contact_pose(const rb_crack *crack, rb_crack_contact *contact);
+/* d = F (T + p_f e), scaled; slips count from those of the state.  size: of the scaled
+ * forces. */
+void rb_crack_contact_load(const rb_crack *crack, const double *T, double pressure,
+                           double size, const rb_crack_state *before,
+                           rb_crack_contact *contact);
+rb_status rb_crack_contact_solve(rb_crack_contact *contact, rb_message *why);
+/* The solution in the units of the crack. */
+void rb_crack_contact_read(const rb_crack *crack, const rb_crack_contact *contact,
+                           rb_crack_state *state);
+
+/* ---- coupled.c --------------------------------------------------------------------- */
+
+/* A step with the wheel's contact elements in the problem (C9). */
 rb_status rb_crack_step_coupled(rb_crack *crack, const rb_crack_wheel *wheel, double x,
                                 const double *T, double stress, rb_crack_state *state,
                                 double *max_pressure, rb_message *why);
-/* Of the scaled natural residual. */
-#define RB_CRACK_TOLERANCE 1e-10
-
-enum { RB_CRACK_LOAD_POINTS = 6 };
-/* Gauss points of element k for the stress of a load. */
-void rb_crack_load_points(const rb_crack_element *e, rb_crack_point *point);
 
 #endif

@@ -35,7 +35,7 @@ rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
     return rb_report_end_columns(&c, grows ? r->growth.n : r->history.n, 1, &columns);
 }
 
-static json_t *numbers(const rb_crack_summary *s)
+static json_t *numbers(const rb_case_crack_summary *s)
 {
     json_t *object = json_object();
     for (int k = 0; k < rb_case_crack_scalars.n; k++)
@@ -99,7 +99,7 @@ static void print_bar(FILE *out, const rb_case_crack_result *r, double error)
 
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
 {
-    const rb_crack_summary *s = &r->summary, *e = &r->errors;
+    const rb_case_crack_summary *s = &r->summary, *e = &r->errors;
     const char *K = rb_unit_name(r->units, "MPa.mm^0.5"),
                *mm = rb_unit_name(r->units, "mm");
 
