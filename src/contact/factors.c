@@ -119,25 +119,6 @@ static double border_row(const rb_contact_problem *p, const rb_contact_reduced *
     }
 }
 
-/* Answer of A's equations to a border's unknown. */
-static void border_column(const rb_contact_problem *p, const kept_lu *k, const border *b,
-                          double *column)
-{
-    const int is_traction =
-        b->kind == TURNED || b->kind == NEW_CONTACT || b->kind == NEW_STICK;
-
-    for (int i = 0; i < k->contacts; i++)
-        column[i] = is_traction           ? gap_of(p, k->unknown[i].at, b->unknown)
-                    : b->kind == APPROACH ? -1.0
-                                          : 0.0;
-    for (int i = k->contacts; i < k->size; i++)
-        column[i] = is_traction           ? slip_of(p, k->unknown[i].at, b->unknown)
-                    : b->kind == CREEPAGE ? p->e_T[k->unknown[i].at] / p->e_T[0]
-                                          : 0.0;
-    if (b->kind == LAPSED)
-        column[b->place] = 1.0;
-}
-
 /* Answer of one border's equation to another one's unknown, or to its own. */
 static double corner(const rb_contact_problem *p, const rb_contact_reduced *r,
                      const border *row, const border *column)
@@ -157,36 +138,6 @@ static double corner(const rb_contact_problem *p, const rb_contact_reduced *r,
 }
 
 /* ---- What has changed since the LU ------------------------------------------------- */
-
-static void plan_free(plan *pl)
-{
-    free(pl->unknown);
-    free(pl->source);
-    free(pl->border);
-}
-
-/* All arrays at their largest: every kept unknown lapsed, every present one new. */
-static rb_status plan_alloc(const rb_contact_reduced *r, int kept, plan *pl)
-{
-    const size_t size = (size_t)r->size + 1;
-
-    pl->unknown = calloc(size, sizeof *pl->unknown);
-    pl->source = rb_alloc_int(size);
-    pl->border = calloc(size + (size_t)kept, sizeof *pl->border);
-    return pl->unknown && pl->source && pl->border ? RB_OK : RB_ENOMEM;
-}
-
-/* Where both groups are unknown, friction of a slipping element follows its pressure. */
-static void present_unknowns(const rb_contact_problem *p, const int *zone,
-                             const rb_contact_reduced *r, traction *unknown)
-{
-    for (int k = 0; k < r->contacts; k++) {
-        const int i = r->contact[k];
-        *unknown++ = (traction){i, 1.0, rb_contact_reduced_friction(p, r, zone, i)};
-    }
-    for (int k = 0; k < r->sticks; k++)
-        *unknown++ = (traction){r->stick[k], 0.0, 1.0};
-}
 
 static int add_border(plan *pl, border b)
 {
@@ -223,7 +174,15 @@ static void make_plan(const rb_contact_problem *p, const int *zone,
 {
     const int tractions = r->contacts + r->sticks;
 
-    present_unknowns(p, zone, r, pl->unknown);
+    /* Where both groups are unknown, friction of a slipping element follows its pressure.
+     */
+    traction *unknown = pl->unknown;
+    for (int c = 0; c < r->contacts; c++) {
+        const int i = r->contact[c];
+        *unknown++ = (traction){i, 1.0, rb_contact_reduced_friction(p, r, zone, i)};
+    }
+    for (int c = 0; c < r->sticks; c++)
+        *unknown++ = (traction){r->stick[c], 0.0, 1.0};
     pl->count = pl->slight = 0;
     compare(k, 0, k->contacts, 0, r->contacts, pl);
     compare(k, k->contacts, k->size, r->contacts, tractions, pl);
@@ -289,7 +248,21 @@ static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r
 
     for (int b = 0; b < count; b++) {
         const border *row = &pl->border[b];
-        border_column(p, k, row, m->V + (size_t)b * (size_t)n);
+        /* Answer of A's equations to a border's unknown. */
+        double *column = m->V + (size_t)b * (size_t)n;
+        const int is_traction =
+            row->kind == TURNED || row->kind == NEW_CONTACT || row->kind == NEW_STICK;
+
+        for (int i = 0; i < k->contacts; i++)
+            column[i] = is_traction ? gap_of(p, k->unknown[i].at, row->unknown)
+                        : row->kind == APPROACH ? -1.0
+                                                : 0.0;
+        for (int i = k->contacts; i < k->size; i++)
+            column[i] = is_traction ? slip_of(p, k->unknown[i].at, row->unknown)
+                        : row->kind == CREEPAGE ? p->e_T[k->unknown[i].at] / p->e_T[0]
+                                                : 0.0;
+        if (row->kind == LAPSED)
+            column[row->place] = 1.0;
         for (int j = 0; j < n; j++)
             m->W[b + (size_t)j * (size_t)count] = border_row(p, r, row, k->unknown[j]);
         if (row->kind == LAPSED || row->kind == TURNED)
@@ -366,7 +339,13 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
     rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;
     kept_lu *k = lu == RB_LU_WHOLE ? &none : &factors->kept[r->unknowns - 1];
     plan pl = {0};
-    rb_status s = plan_alloc(r, k->size, &pl);
+    /* All arrays at their largest: every kept unknown lapsed, every present one new. */
+    const size_t size = (size_t)r->size + 1;
+
+    pl.unknown = calloc(size, sizeof *pl.unknown);
+    pl.source = rb_alloc_int(size);
+    pl.border = calloc(size + (size_t)k->size, sizeof *pl.border);
+    rb_status s = pl.unknown && pl.source && pl.border ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
         make_plan(p, zone, r, k, &pl);
@@ -379,6 +358,8 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
         s = solve_bordered(p, k, &pl, r);
     r->changes = k->size > 0 ? pl.changes : 0;
     r->slight = k->size > 0 ? pl.slight : 0;
-    plan_free(&pl);
+    free(pl.unknown);
+    free(pl.source);
+    free(pl.border);
     return s;
 }

@@ -133,37 +133,6 @@ static double rotate(least_squares *q, int j)
     return fabs(q->g[j + 1]);
 }
 
-/* x += P^-1 V y after `count` steps; the vector behind the basis is room. */
-static void add_correction(const solver *s, least_squares *q, int count, double *x)
-{
-    double *sum = s->basis[count];
-
-    for (int i = count - 1; i >= 0; i--) {
-        for (int l = i + 1; l < count; l++)
-            q->g[i] -= q->H[l][i] * q->g[l];
-        q->g[i] /= q->H[i][i];
-    }
-    memset(sum, 0, (size_t)s->size * sizeof *sum);
-    for (int i = 0; i < count; i++)
-        cblas_daxpy(s->size, q->g[i], s->basis[i], 1, sum, 1);
-    precondition(s, sum, s->work);
-    cblas_daxpy(s->size, 1.0, s->work, 1, x, 1);
-}
-
-/* v_0 = b - A x, normalised; returns its length. */
-static double begin_cycle(const solver *s, const double *b, const double *x, double *v)
-{
-    const int size = s->size;
-
-    s->l->multiply(s->l->of, x, v);
-    for (int i = 0; i < size; i++)
-        v[i] = b[i] - v[i];
-    const double length = cblas_dnrm2(size, v, 1);
-    if (length > 0.0)
-        cblas_dscal(size, 1.0 / length, v, 1);
-    return length;
-}
-
 /* One cycle from x; *residual: of x before it. */
 static rb_status cycle(const solver *s, const double *b, double tolerance,
                        least_squares *q, double *x, double *residual)
@@ -173,7 +142,16 @@ static rb_status cycle(const solver *s, const double *b, double tolerance,
 
     if (!v)
         return RB_ENOMEM;
-    q->g[0] = *residual = begin_cycle(s, b, x, v);
+    /* v_0 = b - A x, normalised. */
+    const int size = s->size;
+
+    s->l->multiply(s->l->of, x, v);
+    for (int i = 0; i < size; i++)
+        v[i] = b[i] - v[i];
+    const double length = cblas_dnrm2(size, v, 1);
+    if (length > 0.0)
+        cblas_dscal(size, 1.0 / length, v, 1);
+    q->g[0] = *residual = length;
     for (double rest = *residual; count < BASIS && rest > tolerance; count++) {
         double *next = basis_vector(s, count + 1);
         if (!next)
@@ -183,8 +161,21 @@ static rb_status cycle(const solver *s, const double *b, double tolerance,
         const int goes_on = orthogonalise(s, count, q->H[count]);
         rest = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
     }
-    if (count > 0)
-        add_correction(s, q, count, x);
+    if (count > 0) {
+        /* x += P^-1 V y; the vector behind the basis is scratch. */
+        double *sum = s->basis[count];
+
+        for (int i = count - 1; i >= 0; i--) {
+            for (int l = i + 1; l < count; l++)
+                q->g[i] -= q->H[l][i] * q->g[l];
+            q->g[i] /= q->H[i][i];
+        }
+        memset(sum, 0, (size_t)s->size * sizeof *sum);
+        for (int i = 0; i < count; i++)
+            cblas_daxpy(s->size, q->g[i], s->basis[i], 1, sum, 1);
+        precondition(s, sum, s->work);
+        cblas_daxpy(s->size, 1.0, s->work, 1, x, 1);
+    }
     return RB_OK;
 }
 

@@ -94,12 +94,6 @@ static double xi_direction(const rb_contact_lcp *lcp)
     return lcp->xi0 > 0.0 ? -1.0 : 1.0;
 }
 
-/* d_T + xi e_T with xi = xi0 where it is an unknown. */
-static double slip_offset(const rb_contact_problem *p, const rb_contact_lcp *lcp, int i)
-{
-    return p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i];
-}
-
 /* An equation of the border (K6): sign (a_N'r_N + a_T'r_T - value) = 0. */
 typedef struct {
     int row;
@@ -107,17 +101,6 @@ typedef struct {
     const double *a_N, *a_T;
     double value;
 } border_row;
-
-static border_row load_row(const rb_contact_problem *p)
-{
-    return (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load};
-}
-
-static border_row force_row(const rb_contact_problem *p, const rb_contact_lcp *lcp)
-{
-    return (border_row){xi_column(p), -xi_direction(lcp), lcp->control_N, lcp->control_T,
-                        p->force};
-}
 
 /* ---- Pivoted form (K5) ------------------------------------------------------------- */
 
@@ -156,15 +139,19 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     add_diagonal(n, -1.0, gamma + 2 * n, ld);
     for (int i = 0; i < n; i++) {
         lcp->b[i] = p->d_N[i];
-        lcp->b[n + i] = o * slip_offset(p, lcp, i);
+        lcp->b[n + i] = o * (p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i]);
     }
     if (p->force_given)
         cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1,
                     lcp->M + (size_t)xi_column(p) * ld + n, 1);
     if (p->load_given)
-        pivoted_border(p, load_row(p), lcp);
+        pivoted_border(
+            p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
     if (p->force_given)
-        pivoted_border(p, force_row(p, lcp), lcp);
+        pivoted_border(p,
+                       (border_row){xi_column(p), -xi_direction(lcp), lcp->control_N,
+                                    lcp->control_T, p->force},
+                       lcp);
 }
 
 /* ---- A layer that yields (Y1) ------------------------------------------------------ */
@@ -193,21 +180,6 @@ static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
         for (int sign = 0; sign < 2; sign++)
             lcp->b[yield_index(p, j, sign)] += p->yield[j];
     }
-}
-
-/* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
-static void pivoted_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    const size_t n = (size_t)p->n, ld = (size_t)lcp->size;
-
-    for (size_t i = 0; i < n; i++)
-        for (int sign = 0; sign < 2; sign++) {
-            const double o = sign ? -1.0 : 1.0;
-            const size_t k = (size_t)yield_index(p, (int)i, sign);
-            lcp->M[n + i + k * ld] = -o;
-            lcp->M[k + (n + i) * ld] = o;
-            lcp->M[k + i * ld] = -o * p->bound[i];
-        }
 }
 
 /* ---- Kwak's form (K4) -------------------------------------------------------------- */
@@ -277,22 +249,6 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 
 /* ---- Both -------------------------------------------------------------------------- */
 
-/* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
- * below the first touch, also for a half-plane whose datum is close to the surface. */
-static void set_approach(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    double lowest = p->d_N[0];
-
-    for (int i = 1; i < p->n; i++)
-        lowest = fmin(lowest, p->d_N[i]);
-    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
-    for (int i = 0; i < p->n; i++) {
-        lcp->b[i] -= lcp->delta0;
-        if (p->load_given)
-            lcp->M[i + (size_t)delta_column(p) * lcp->size] = -1.0;
-    }
-}
-
 static void fill(int n, double value, double *x)
 {
     for (int i = 0; i < n; i++)
@@ -324,15 +280,6 @@ static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
     }
 }
 
-static void apply_scales(rb_contact_lcp *lcp)
-{
-    for (int j = 0; j < lcp->size; j++)
-        for (int i = 0; i < lcp->size; i++)
-            lcp->M[i + (size_t)j * lcp->size] *= lcp->z_scale[j] / lcp->w_scale[i];
-    for (int i = 0; i < lcp->size; i++)
-        lcp->b[i] /= lcp->w_scale[i];
-}
-
 rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
                                 rb_contact_lcp_form form, int mirrored, double xi0,
                                 rb_contact_lcp *lcp, rb_message *why)
@@ -347,7 +294,17 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
         lcp->xi0 = xi0;
         pivoted_form(problem, lcp);
         if (problem->yield) {
-            pivoted_yield(problem, lcp);
+            /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
+            const size_t n = (size_t)problem->n, ld = (size_t)lcp->size;
+
+            for (size_t i = 0; i < n; i++)
+                for (int sign = 0; sign < 2; sign++) {
+                    const double o = sign ? -1.0 : 1.0;
+                    const size_t k = (size_t)yield_index(problem, (int)i, sign);
+                    lcp->M[n + i + k * ld] = -o;
+                    lcp->M[k + (n + i) * ld] = o;
+                    lcp->M[k + i * ld] = -o * problem->bound[i];
+                }
             add_yield_stress(problem, lcp);
         }
         if (form == RB_LCP_KWAK)
@@ -358,9 +315,26 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
         return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
                        rb_status_text(s));
     }
-    set_approach(problem, lcp);
+    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
+     * below the first touch, also for a half-plane whose datum is close to the surface.
+     */
+    double lowest = problem->d_N[0];
+
+    for (int i = 1; i < problem->n; i++)
+        lowest = fmin(lowest, problem->d_N[i]);
+    lcp->delta0 =
+        problem->load_given ? lowest - 10.0 * problem->gap_length : problem->delta;
+    for (int i = 0; i < problem->n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (problem->load_given)
+            lcp->M[i + (size_t)delta_column(problem) * lcp->size] = -1.0;
+    }
     set_lcp_scales(problem, lcp);
-    apply_scales(lcp);
+    for (int j = 0; j < lcp->size; j++)
+        for (int i = 0; i < lcp->size; i++)
+            lcp->M[i + (size_t)j * lcp->size] *= lcp->z_scale[j] / lcp->w_scale[i];
+    for (int i = 0; i < lcp->size; i++)
+        lcp->b[i] /= lcp->w_scale[i];
     return RB_OK;
 }
 
@@ -413,27 +387,6 @@ static const char *pivoted_name(const rb_contact_lcp *lcp, int is_z, int block)
     return names[lcp->mirrored][is_z][block];
 }
 
-static void contact_name(const rb_contact_lcp *lcp, int n, int is_z, int k,
-                         char name[RB_CONTACT_VARIABLE])
-{
-    if (k < n) {
-        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
-    } else if (k >= 3 * n) {
-        const int kwak = lcp->form == RB_LCP_KWAK, place = k - 3 * n;
-        const int minus = kwak ? place % 2 : place / n != lcp->mirrored;
-        snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "plastic" : "yield",
-                 minus ? '-' : '+', (kwak ? place / 2 : place % n) + 1);
-    } else if (lcp->form == RB_LCP_KWAK) {
-        const int i = (k - n) / 2, minus = (k - n) % 2;
-        snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
-                 minus ? '-' : '+', i + 1);
-    } else {
-        const int block = (k - n) / n;
-        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
-                 (k - n) % n + 1);
-    }
-}
-
 const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
                                     char name[RB_CONTACT_VARIABLE])
 {
@@ -441,9 +394,24 @@ const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variab
     const int contact = (lcp->yields ? 5 : 3) * n;
     if (variable == 2 * size)
         snprintf(name, RB_CONTACT_VARIABLE, "z0");
-    else if (k < contact)
-        contact_name(lcp, n, is_z, k, name);
-    else
+    else if (k < contact) {
+        if (k < n) {
+            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
+        } else if (k >= 3 * n) {
+            const int kwak = lcp->form == RB_LCP_KWAK, place = k - 3 * n;
+            const int minus = kwak ? place % 2 : place / n != lcp->mirrored;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "plastic" : "yield",
+                     minus ? '-' : '+', (kwak ? place / 2 : place % n) + 1);
+        } else if (lcp->form == RB_LCP_KWAK) {
+            const int i = (k - n) / 2, minus = (k - n) % 2;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
+                     minus ? '-' : '+', i + 1);
+        } else {
+            const int block = (k - n) / n;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
+                     (k - n) % n + 1);
+        }
+    } else
         snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
                  k - contact + 1);
     return name;

@@ -70,9 +70,13 @@ static int stick_count(int n, const int *zone)
     return sticks;
 }
 
-/* Of several stuck elements that all want to slide, the one that wants it least. */
-static int least_excess(const rb_contact_problem *p, const rb_contact_state *state)
+/* A given force fixes xi only while something sticks. */
+static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
+                     int *zone)
 {
+    if (stick_count(p->n, zone) > 0)
+        return;
+    /* Of several stuck elements that all want to slide, the one that wants it least. */
     int held = -1;
     double least = INFINITY;
 
@@ -83,53 +87,24 @@ static int least_excess(const rb_contact_problem *p, const rb_contact_state *sta
             held = i;
         }
     }
-    return held;
-}
+    if (held >= 0 && stick_count(p->n, state->zone) == 1) {
+        /* A single stuck element that must carry too much friction of sign o: the
+         * creepage has to move until the next element that slides against o comes to
+         * rest. */
+        const double o = state->q[held] > 0.0 ? 1.0 : -1.0;
+        int next = held;
+        double slowest = INFINITY;
 
-/* A single stuck element that must carry too much friction of sign o: the creepage has to
- * move until the next element that slides against o comes to rest. */
-static int next_to_rest(const rb_contact_problem *p, const rb_contact_state *state,
-                        int stuck)
-{
-    const double o = state->q[stuck] > 0.0 ? 1.0 : -1.0;
-    int held = stuck;
-    double least = INFINITY;
-
-    for (int i = 0; i < p->n; i++)
-        if (state->p[i] > 0.0 && rb_contact_slope(state->zone[i]) * o < 0.0 &&
-            fabs(state->lambda[i] / p->e_T[i]) < least) {
-            least = fabs(state->lambda[i] / p->e_T[i]);
-            held = i;
-        }
-    return held;
-}
-
-/* A given force fixes xi only while something sticks. */
-static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
-                     int *zone)
-{
-    if (stick_count(p->n, zone) > 0)
-        return;
-    int held = least_excess(p, state);
-    if (held >= 0 && stick_count(p->n, state->zone) == 1)
-        held = next_to_rest(p, state, held);
+        for (int i = 0; i < p->n; i++)
+            if (state->p[i] > 0.0 && rb_contact_slope(state->zone[i]) * o < 0.0 &&
+                fabs(state->lambda[i] / p->e_T[i]) < slowest) {
+                slowest = fabs(state->lambda[i] / p->e_T[i]);
+                next = i;
+            }
+        held = next;
+    }
     if (held >= 0)
         zone[held] = RB_ZONE_STICK;
-}
-
-/* Into zone; returns how many changed. */
-static int correct_zones(const rb_contact_problem *p, rb_contact_unknowns unknowns,
-                         const rb_contact_state *state, const double *gap, int *zone)
-{
-    int changes = 0;
-
-    for (int i = 0; i < p->n; i++)
-        zone[i] = corrected_zone(p, unknowns, state, gap, i);
-    if (p->force_given && (unknowns & RB_TANGENTIAL))
-        hold_one(p, state, zone);
-    for (int i = 0; i < p->n; i++)
-        changes += zone[i] != state->zone[i];
-    return changes;
 }
 
 static int seen_before(int count, const uint64_t *seen, uint64_t hash)
@@ -144,23 +119,6 @@ typedef struct {
     double *gap;
     int *zone, *best; /* corrected ones; those with the fewest corrections so far */
 } workspace;
-
-/* After steps that went round in circles: from the nearest zones found the path leads on
- * where both groups are unknown, unless the state of the last step lacks no more than
- * rounding. */
-static rb_status leave_circle(rb_contact_problem *p, rb_contact_unknowns unknowns,
-                              const workspace *ws, rb_contact_state *state)
-{
-    rb_contact_violation violation;
-
-    if (unknowns != RB_BOTH)
-        return RB_MAXITER;
-    const rb_status s = rb_contact_residual(p, state, &violation);
-    if (s != RB_OK || violation.scaled <= p->rounding)
-        return s == RB_OK ? RB_MAXITER : s;
-    memcpy(state->zone, ws->best, (size_t)p->n * sizeof(int));
-    return rb_contact_follow_path(p, state);
-}
 
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
  * back, which ends every cycle, or the corrections no longer become fewer, and no path
@@ -183,7 +141,14 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
         rb_contact_kinematics(p, state, ws->gap, state->lambda);
         if (p->trace)
             p->trace(state, p->trace_context);
-        const int changes = correct_zones(p, unknowns, state, ws->gap, ws->zone);
+        int changes = 0;
+
+        for (int i = 0; i < p->n; i++)
+            ws->zone[i] = corrected_zone(p, unknowns, state, ws->gap, i);
+        if (p->force_given && (unknowns & RB_TANGENTIAL))
+            hold_one(p, state, ws->zone);
+        for (int i = 0; i < p->n; i++)
+            changes += ws->zone[i] != state->zone[i];
         if (changes == 0)
             return RB_OK;
         waited = unknowns == RB_BOTH && changes >= least ? waited + 1 : 0;
@@ -193,18 +158,18 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
         }
         memcpy(state->zone, ws->zone, bytes);
     }
-    return leave_circle(p, unknowns, ws, state);
-}
+    /* After steps that went round in circles: from the nearest zones found the path leads
+     * on where both groups are unknown, unless the state of the last step lacks no more
+     * than rounding. */
+    rb_contact_violation violation;
 
-/* Everything in frictionless contact, to begin with. */
-static void cold_start(const rb_contact_problem *p, rb_contact_state *state)
-{
-    memset(state->p, 0, (size_t)p->n * sizeof(double));
-    memset(state->q, 0, (size_t)p->n * sizeof(double));
-    state->delta = p->delta;
-    state->xi = p->force_given ? 0.0 : p->xi;
-    for (int i = 0; i < p->n; i++)
-        state->zone[i] = RB_ZONE_STICK;
+    if (unknowns != RB_BOTH)
+        return RB_MAXITER;
+    const rb_status s = rb_contact_residual(p, state, &violation);
+    if (s != RB_OK || violation.scaled <= p->rounding)
+        return s == RB_OK ? RB_MAXITER : s;
+    memcpy(state->zone, ws->best, (size_t)p->n * sizeof(int));
+    return rb_contact_follow_path(p, state);
 }
 
 /* Normal problem with the friction held, tangential problem with the pressure held, in
@@ -247,7 +212,13 @@ static void forget(const rb_contact_problem *p)
 static rb_status from_nothing(rb_contact_problem *p, workspace *ws,
                               rb_contact_state *state)
 {
-    cold_start(p, state);
+    /* Everything in frictionless contact, to begin with. */
+    memset(state->p, 0, (size_t)p->n * sizeof(double));
+    memset(state->q, 0, (size_t)p->n * sizeof(double));
+    state->delta = p->delta;
+    state->xi = p->force_given ? 0.0 : p->xi;
+    for (int i = 0; i < p->n; i++)
+        state->zone[i] = RB_ZONE_STICK;
     forget(p);
     const int coupled = is_coupled(p);
     const rb_status s = alternate(p, coupled ? STAGGERED_ROUNDS : 1, ws, state);
@@ -257,8 +228,9 @@ static rb_status from_nothing(rb_contact_problem *p, workspace *ws,
     return iterate(p, RB_BOTH, ws, state);
 }
 
-/* Zones and tractions of the same problem on half as many elements; its steps count. */
-static rb_status start_from_half(const rb_contact_problem *p, rb_contact_state *state)
+/* From the zones and tractions of the same problem on half as many elements; its steps
+ * count. */
+static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
     rb_contact_problem half;
     rb_contact_state coarse = {0};
@@ -274,12 +246,6 @@ static rb_status start_from_half(const rb_contact_problem *p, rb_contact_state *
     state->iterations += coarse.iterations;
     rb_contact_state_free(&coarse);
     rb_contact_problem_free(&half);
-    return s;
-}
-
-static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
-{
-    const rb_status s = start_from_half(p, state);
     return s == RB_OK ? from_zones(p, ws, state) : s;
 }
 

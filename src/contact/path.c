@@ -97,52 +97,6 @@ static rb_status solve_both(path *k)
 
 /* ---- The start --------------------------------------------------------------------- */
 
-/* A state that obeys the laws of its zones: what violates them changes its sign, of each
- * element by a factor of its own, so that they do not reach their bounds all at once. */
-static void obey(const rb_contact_problem *problem, const int *zone, point *x)
-{
-    static const double golden = 0.6180339887498949;
-
-    for (int i = 0; i < problem->n; i++) {
-        const double factor = 0.5 + 0.5 * fmod(golden * i, 1.0);
-        const double slope = rb_contact_slope(zone[i]);
-        x->p[i] *= x->p[i] < 0.0 ? -factor : 1.0;
-        x->gap[i] *= x->gap[i] < 0.0 ? -factor : 1.0;
-        x->slip[i] *= slope * x->slip[i] > 0.0 ? -factor : 1.0;
-        const double limit = problem->bound[i] * x->p[i];
-        if (zone[i] != RB_ZONE_STICK)
-            x->q[i] = slope * limit;
-        else if (fabs(x->q[i]) > limit)
-            x->q[i] = copysign(factor * limit, x->q[i]);
-    }
-}
-
-/* What the problem lacks for this state to be the solution of its zones. */
-static void set_addition(path *k, const point *x)
-{
-    rb_contact_problem *p = k->problem;
-    rb_contact_state *state = k->state;
-    const size_t bytes = (size_t)p->n * sizeof(double);
-    double *control_N = k->whole.p, *control_T = k->whole.q; /* scratch */
-
-    memcpy(state->p, x->p, bytes);
-    memcpy(state->q, x->q, bytes);
-    rb_contact_kinematics(p, state, k->more_N, k->more_T);
-    for (int i = 0; i < p->n; i++) {
-        const int open = state->zone[i] == RB_ZONE_SEPARATED,
-                  sticks = state->zone[i] == RB_ZONE_STICK;
-        k->more_N[i] = (open ? x->gap[i] : 0.0) - k->more_N[i];
-        k->more_T[i] = (sticks ? 0.0 : x->slip[i]) - k->more_T[i];
-    }
-    if (p->load_given)
-        k->more_load = rb_contact_load(p, state) - p->load;
-    if (p->force_given) {
-        rb_contact_force_row(p, control_N, control_T);
-        k->more_force = cblas_ddot(p->n, control_N, 1, state->p, 1) +
-                        cblas_ddot(p->n, control_T, 1, state->q, 1) - p->force;
-    }
-}
-
 /* ---- Bends ------------------------------------------------------------------------- */
 
 /* In contact and sliding: the pressure, and the slip against the friction. */
@@ -209,23 +163,48 @@ static int cross(path *k, const bend *at)
     return begins;
 }
 
-/* Where the margin that begins at the bend grows, the path goes on. */
-static void turn(path *k, int element, int begins)
-{
-    double whole[MARGINS], none[MARGINS];
-
-    margins_of(k, &k->whole, element, whole);
-    margins_of(k, &k->none, element, none);
-    k->way = whole[begins] > none[begins] ? 1.0 : -1.0;
-}
-
 static rb_status follow(path *k)
 {
     rb_status s = solve_for(k, 0.0, &k->none);
 
     if (s == RB_OK) {
-        obey(k->problem, k->state->zone, &k->none);
-        set_addition(k, &k->none);
+        /* What violates the laws of its zones changes its sign */
+        static const double golden = 0.6180339887498949;
+
+        for (int i = 0; i < k->problem->n; i++) {
+            const double factor = 0.5 + 0.5 * fmod(golden * i, 1.0);
+            const double slope = rb_contact_slope(k->state->zone[i]);
+            k->none.p[i] *= k->none.p[i] < 0.0 ? -factor : 1.0;
+            k->none.gap[i] *= k->none.gap[i] < 0.0 ? -factor : 1.0;
+            k->none.slip[i] *= slope * k->none.slip[i] > 0.0 ? -factor : 1.0;
+            const double limit = k->problem->bound[i] * k->none.p[i];
+            if (k->state->zone[i] != RB_ZONE_STICK)
+                k->none.q[i] = slope * limit;
+            else if (fabs(k->none.q[i]) > limit)
+                k->none.q[i] = copysign(factor * limit, k->none.q[i]);
+        }
+        /* What the problem lacks for this state to be the solution of its zones. */
+        rb_contact_problem *p = k->problem;
+        rb_contact_state *state = k->state;
+        const size_t bytes = (size_t)p->n * sizeof(double);
+        double *control_N = k->whole.p, *control_T = k->whole.q; /* scratch */
+
+        memcpy(state->p, k->none.p, bytes);
+        memcpy(state->q, k->none.q, bytes);
+        rb_contact_kinematics(p, state, k->more_N, k->more_T);
+        for (int i = 0; i < p->n; i++) {
+            const int open = state->zone[i] == RB_ZONE_SEPARATED,
+                      sticks = state->zone[i] == RB_ZONE_STICK;
+            k->more_N[i] = (open ? k->none.gap[i] : 0.0) - k->more_N[i];
+            k->more_T[i] = (sticks ? 0.0 : k->none.slip[i]) - k->more_T[i];
+        }
+        if (p->load_given)
+            k->more_load = rb_contact_load(p, state) - p->load;
+        if (p->force_given) {
+            rb_contact_force_row(p, control_N, control_T);
+            k->more_force = cblas_ddot(p->n, control_N, 1, state->p, 1) +
+                            cblas_ddot(p->n, control_T, 1, state->q, 1) - p->force;
+        }
         s = solve_both(k);
     }
     for (int count = 0; s == RB_OK && count < MOST_BENDS; count++) {
@@ -236,7 +215,12 @@ static rb_status follow(path *k)
             return RB_RAY;
         const int begins = cross(k, &at);
         s = solve_both(k);
-        turn(k, at.element, begins);
+        /* Where the margin that begins at the bend grows, the path goes on. */
+        double whole[MARGINS], none[MARGINS];
+
+        margins_of(k, &k->whole, at.element, whole);
+        margins_of(k, &k->none, at.element, none);
+        k->way = whole[begins] > none[begins] ? 1.0 : -1.0;
     }
     return s == RB_OK ? RB_MAXITER : s;
 }

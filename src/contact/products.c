@@ -47,25 +47,6 @@ static void products_add(rb_contact_operator *op, const double *p, const double 
     cblas_daxpy(n, 1.0, added_slip, 1, slip, 1);
 }
 
-/* On equal elements the middle one stands for all; k->r is zero to begin with. */
-static void set_response(products *k)
-{
-    const int n = k->base.n, j = n / 2;
-    rb_contact_response *unit = &k->base.response;
-    const double *gap, *slip;
-
-    k->r[j] = 1.0;
-    k->by.apply(k->by.context, k->r, &gap, &slip);
-    unit->gap = fabs(gap[j]);
-    unit->coupled_slip = rb_norm_1((size_t)n, slip, 1);
-    unit->coupled = unit->coupled_slip != 0.0;
-    unit->reach = rb_norm_1((size_t)n, gap, 1) / unit->gap;
-    k->r[j] = 0.0;
-    k->r[n + j] = 1.0;
-    k->by.apply(k->by.context, k->r, &gap, &slip);
-    unit->slip = fabs(slip[j]);
-}
-
 /* ---- The system: tractions, and delta and xi at its border ------------------------- */
 
 typedef struct {
@@ -253,7 +234,21 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *by,
         products_free(&k->base);
         return RB_ENOMEM;
     }
-    set_response(k);
+    /* On equal elements the middle one stands for all; k->r is zero to begin with. */
+    const int j = n / 2;
+    rb_contact_response *unit = &k->base.response;
+    const double *gap, *slip;
+
+    k->r[j] = 1.0;
+    k->by.apply(k->by.context, k->r, &gap, &slip);
+    unit->gap = fabs(gap[j]);
+    unit->coupled_slip = rb_norm_1((size_t)n, slip, 1);
+    unit->coupled = unit->coupled_slip != 0.0;
+    unit->reach = rb_norm_1((size_t)n, gap, 1) / unit->gap;
+    k->r[j] = 0.0;
+    k->r[n + j] = 1.0;
+    k->by.apply(k->by.context, k->r, &gap, &slip);
+    unit->slip = fabs(slip[j]);
     *op = &k->base;
     return RB_OK;
 }

@@ -16,21 +16,6 @@ void rb_contact_reduced_free(rb_contact_reduced *r)
     free(r->x);
 }
 
-static void set_start(const rb_contact_problem *p, const rb_contact_state *state,
-                      rb_contact_reduced *r)
-{
-    int k = 0;
-
-    for (int c = 0; c < r->contacts; c++)
-        r->start[k++] = state->p[r->contact[c]] / p->stress;
-    for (int c = 0; c < r->sticks; c++)
-        r->start[k++] = state->q[r->stick[c]] / p->stress;
-    if (r->load) /* unknown to begin with: NAN */
-        r->start[k++] = isfinite(state->delta) ? state->delta / p->gap_length : 0.0;
-    if (r->force)
-        r->start[k] = state->xi * p->e_T[0] / p->slip_length;
-}
-
 rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
                                    rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r)
@@ -63,7 +48,16 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
     r->x = rb_alloc((size_t)r->size, 1);
     if (!r->start || !r->x)
         return RB_ENOMEM;
-    set_start(p, state, r);
+    int k = 0;
+
+    for (int c = 0; c < r->contacts; c++)
+        r->start[k++] = state->p[r->contact[c]] / p->stress;
+    for (int c = 0; c < r->sticks; c++)
+        r->start[k++] = state->q[r->stick[c]] / p->stress;
+    if (r->load) /* unknown to begin with: NAN */
+        r->start[k++] = isfinite(state->delta) ? state->delta / p->gap_length : 0.0;
+    if (r->force)
+        r->start[k] = state->xi * p->e_T[0] / p->slip_length;
     rb_contact_force_row(p, r->control_N, r->control_T);
     return RB_OK;
 }

@@ -53,55 +53,10 @@ static double friction_violation(double lambda, double gamma_plus, double gamma_
     return fmax(fabs(plus), fabs(minus));
 }
 
-/* Given load and force, relative to themselves. */
-static double control_violation(const rb_contact_problem *p,
-                                const rb_contact_state *state)
-{
-    double worst = 0.0;
-
-    if (p->load_given)
-        worst = fabs(rb_contact_load(p, state) - p->load) / p->load;
-    if (p->force_given) {
-        const double most = rb_contact_capacity(p, state);
-        const double wanted =
-            p->force + p->force_ratio * most - p->axle * rb_contact_moment(p, state);
-        worst = fmax(worst, fabs(rb_contact_force(p, state) - wanted) / most);
-    }
-    return worst;
-}
-
 /* How the elements have moved; n each. */
 typedef struct {
     double *gap, *lambda, *yielded;
 } motion;
-
-/* The four values of one element, each kept where it is the largest so far. */
-static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
-                        const motion *m, int i, rb_contact_violation *v)
-{
-    const double tangential = rb_contact_friction_scale(problem),
-                 length = problem->slip_length, limit = problem->bound[i] * state->p[i];
-    const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
-    const double contact =
-        fabs(fmin(m->gap[i] / problem->gap_length, state->p[i] / problem->stress));
-    double coulomb =
-        friction_violation((m->lambda[i] - state->plastic[i]) / length,
-                           gamma_plus / tangential, gamma_minus / tangential);
-
-    if (problem->yield) {
-        const double yield = rb_contact_yield_stress(problem, i, m->yielded[i]);
-        coulomb = fmax(coulomb, friction_violation(state->plastic[i] / length,
-                                                   (yield + state->q[i]) / tangential,
-                                                   (yield - state->q[i]) / tangential));
-        v->friction = fmax(v->friction, fabs(state->q[i]) - yield);
-    }
-    v->scaled = fmax(v->scaled, fmax(contact, coulomb));
-    v->gap = fmax(v->gap, contact * problem->gap_length);
-    v->slip = fmax(v->slip, coulomb * problem->slip_length);
-    v->friction = fmax(v->friction, -fmin(gamma_plus, gamma_minus));
-    if (isnan(state->p[i]) || isnan(state->q[i]))
-        v->scaled = INFINITY;
-}
 
 rb_status rb_contact_residual(const rb_contact_problem *problem,
                               const rb_contact_state *state, rb_contact_violation *v)
@@ -115,9 +70,45 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
     memset(v, 0, sizeof *v);
     rb_contact_kinematics(problem, state, m.gap, m.lambda);
     rb_contact_yielded(problem, state->plastic, m.yielded);
-    v->scaled = control_violation(problem, state);
-    for (int i = 0; i < n; i++)
-        add_element(problem, state, &m, i, v);
+    /* Given load and force, relative to themselves. */
+    double worst = 0.0;
+
+    if (problem->load_given)
+        worst = fabs(rb_contact_load(problem, state) - problem->load) / problem->load;
+    if (problem->force_given) {
+        const double most = rb_contact_capacity(problem, state);
+        const double wanted = problem->force + problem->force_ratio * most -
+                              problem->axle * rb_contact_moment(problem, state);
+        worst = fmax(worst, fabs(rb_contact_force(problem, state) - wanted) / most);
+    }
+    v->scaled = worst;
+    for (int i = 0; i < n; i++) {
+        /* The four values of one element, each kept where it is the largest so far. */
+        const double tangential = rb_contact_friction_scale(problem),
+                     length = problem->slip_length,
+                     limit = problem->bound[i] * state->p[i];
+        const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
+        const double contact =
+            fabs(fmin(m.gap[i] / problem->gap_length, state->p[i] / problem->stress));
+        double coulomb =
+            friction_violation((m.lambda[i] - state->plastic[i]) / length,
+                               gamma_plus / tangential, gamma_minus / tangential);
+
+        if (problem->yield) {
+            const double yield = rb_contact_yield_stress(problem, i, m.yielded[i]);
+            coulomb =
+                fmax(coulomb, friction_violation(state->plastic[i] / length,
+                                                 (yield + state->q[i]) / tangential,
+                                                 (yield - state->q[i]) / tangential));
+            v->friction = fmax(v->friction, fabs(state->q[i]) - yield);
+        }
+        v->scaled = fmax(v->scaled, fmax(contact, coulomb));
+        v->gap = fmax(v->gap, contact * problem->gap_length);
+        v->slip = fmax(v->slip, coulomb * problem->slip_length);
+        v->friction = fmax(v->friction, -fmin(gamma_plus, gamma_minus));
+        if (isnan(state->p[i]) || isnan(state->q[i]))
+            v->scaled = INFINITY;
+    }
     if (!isfinite(state->delta) || !isfinite(state->xi))
         v->scaled = INFINITY;
     free(gap);

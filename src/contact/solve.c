@@ -57,18 +57,6 @@ static rb_status polish(rb_contact_problem *problem, rb_contact_state *state)
     return s == RB_SINGULAR ? RB_OK : s;
 }
 
-/* A cone solver leaves rounding where its elements are separated: no traction there.
- * What is more than rounding stays, and the residual tells it. */
-static void clear_rounding(const rb_contact_problem *problem, rb_contact_state *state)
-{
-    const double most = ROUNDING * problem->stress;
-
-    for (int i = 0; i < problem->n; i++)
-        if (state->zone[i] == RB_ZONE_SEPARATED && fabs(state->p[i]) <= most &&
-            fabs(state->q[i]) <= most)
-            state->p[i] = state->q[i] = 0.0;
-}
-
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do. */
 static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
@@ -79,7 +67,14 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
     if (s == RB_OK) {
         rb_contact_kinematics(problem, state, gap, state->lambda);
         rb_contact_classify(problem, ROUNDING, state);
-        clear_rounding(problem, state);
+        /* A cone solver leaves rounding where its elements are separated: no traction
+         * there. What is more than rounding stays, and the residual tells it. */
+        const double most = ROUNDING * problem->stress;
+
+        for (int i = 0; i < problem->n; i++)
+            if (state->zone[i] == RB_ZONE_SEPARATED && fabs(state->p[i]) <= most &&
+                fabs(state->q[i]) <= most)
+                state->p[i] = state->q[i] = 0.0;
         s = measure(problem, state);
     }
     if (s == RB_OK && !exact) {
@@ -127,11 +122,6 @@ enum { ATTEMPTS = sizeof order_of_attempts / sizeof *order_of_attempts };
  * method allows by itself (0), evenly covered. */
 enum { ROUNDS = 3 };
 
-static int most_pivots(int round, int size)
-{
-    return round + 1 < ROUNDS ? (round ? 15 : 5) * size + 100 : 0;
-}
-
 /* The covering vector; NULL: ones. */
 static rb_status cover_rows(const rb_contact_lcp *lcp, covering kind, double **cover)
 {
@@ -153,35 +143,22 @@ rb_contact_options rb_contact_defaults(void)
         .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
 }
 
-/* Direction in which A's surface slides, of the given creepage or against the force. */
-static int slides_backwards(const rb_contact_problem *problem)
-{
-    if (problem->force_given)
-        return problem->force + problem->force_ratio > 0.0;
-    double sum = 0.0;
-    for (int i = 0; i < problem->n; i++)
-        sum += problem->d_T[i] + problem->xi * problem->e_T[i];
-    return sum < 0.0;
-}
-
 /* Kwak's form alone where the case asks for it.  Returns the first one to try. */
 static int plan_forms(const rb_contact_problem *problem,
                       const rb_contact_options *options, attempt at[FORMS])
 {
-    const int backwards = slides_backwards(problem);
+    double sum = 0.0;
+
+    for (int i = 0; i < problem->n; i++)
+        sum += problem->d_T[i] + problem->xi * problem->e_T[i];
+    const int backwards =
+        problem->force_given ? problem->force + problem->force_ratio > 0.0 : sum < 0.0;
     const double xi0 = (backwards ? -1.0 : 1.0) * options->sliding;
 
     at[OWN] = (attempt){0, RB_LCP_PIVOTED, backwards, xi0};
     at[MIRRORED] = (attempt){1, RB_LCP_PIVOTED, !backwards, xi0};
     at[KWAK] = (attempt){2, RB_LCP_KWAK, 0, xi0};
     return options->lcp_form == RB_LCP_KWAK ? KWAK : OWN;
-}
-
-/* 0: the attempt has ended for good, or is not for this form or round. */
-static int is_due(int k, int round, int first_form, const int *unfinished)
-{
-    return order_of_attempts[k].form >= first_form && (round == 0 || unfinished[k]) &&
-           (round + 1 < ROUNDS || order_of_attempts[k].cover == EVEN);
 }
 
 /* Attempt by attempt until one has a solution: its LCP, the path, and the state that the
@@ -203,7 +180,8 @@ static rb_status solve_lemke(rb_contact_problem *problem,
         rb_contact_lcp lcp = {0};
         rb_lcp_info info = {0};
         double *cover = NULL;
-        if (!is_due(k, round, first, unfinished))
+        if (!(order_of_attempts[k].form >= first && (round == 0 || unfinished[k]) &&
+              (round + 1 < ROUNDS || order_of_attempts[k].cover == EVEN)))
             continue;
         s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
         double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
@@ -211,7 +189,8 @@ static rb_status solve_lemke(rb_contact_problem *problem,
             s = z ? cover_rows(&lcp, order_of_attempts[k].cover, &cover) : RB_ENOMEM;
         if (s == RB_OK) {
             pivoting.cover = cover;
-            pivoting.max_iters = most_pivots(round, lcp.size);
+            pivoting.max_iters =
+                round + 1 < ROUNDS ? (round ? 15 : 5) * lcp.size + 100 : 0;
             pivoting.trace = options->trace;
             pivoting.trace_context = options->trace_context;
             pivoting.trace_tableau = options->trace_tableau;
@@ -332,20 +311,6 @@ static void copy_start(int n, const rb_contact_state *from, rb_contact_state *to
     to->xi = from->xi;
 }
 
-/* A first share, a half or less, for which Newton's steps end without a start. */
-static rb_status start_by_friction(rb_contact_problem *problem,
-                                   const rb_contact_options *options, friction *of,
-                                   rb_contact_state *state)
-{
-    rb_status s = RB_MAXITER;
-
-    for (int k = 0; k < MOST_HALVINGS && s > 0; k++) {
-        take_share(of, of->share *= 0.5, problem);
-        s = proven(solve_newton(problem, options, 0, state), problem, options, state);
-    }
-    return s;
-}
-
 /* Newton's steps that go round in circles end from the zones of a problem with nearly the
  * same friction.  From a small share the zones are followed to all of it, in steps that
  * are halved where Newton fails and doubled where three in a row succeed. */
@@ -389,7 +354,13 @@ static rb_status solve_by_friction(rb_contact_problem *problem,
         s = RB_ENOMEM;
     if (s == RB_OK) {
         memcpy(of.bound, problem->bound, n * sizeof *of.bound);
-        s = start_by_friction(problem, options, &of, state);
+        /* A first share, a half or less, for which Newton's steps end without a start. */
+        s = RB_MAXITER;
+
+        for (int k = 0; k < MOST_HALVINGS && s > 0; k++) {
+            take_share(&of, of.share *= 0.5, problem);
+            s = proven(solve_newton(problem, options, 0, state), problem, options, state);
+        }
         if (s == RB_OK)
             s = follow_friction(problem, options, &of, &good, state);
         problem->mu = of.mu;
@@ -408,26 +379,6 @@ static rb_status solve_by_friction(rb_contact_problem *problem,
 typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
 enum { METHODS = 3 };
 
-static int fallback_order(const rb_contact_problem *problem,
-                          const rb_contact_options *options, int warm,
-                          method order[METHODS])
-{
-    const int has_matrix = rb_contact_operator_matrix(problem->op).F != NULL;
-    const int newton_first =
-        !has_matrix || options->solver == RB_SOLVER_NEWTON ||
-        (options->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
-    int count = 0;
-
-    if (newton_first && warm)
-        order[count++] = NEWTON_WARM;
-    else if (!newton_first)
-        order[count++] = LEMKE;
-    order[count++] = NEWTON_COLD;
-    if (has_matrix)
-        order[count++] = LEMKE;
-    return count;
-}
-
 static rb_status solve_yielding(rb_contact_problem *problem,
                                 const rb_contact_options *options, int warm,
                                 rb_contact_state *state, rb_message *why);
@@ -441,7 +392,19 @@ static rb_status solve_given(rb_contact_problem *problem,
 
     if (problem->yield)
         return solve_yielding(problem, options, warm, state, why);
-    const int count = fallback_order(problem, options, warm, order);
+    const int has_matrix = rb_contact_operator_matrix(problem->op).F != NULL;
+    const int newton_first =
+        !has_matrix || options->solver == RB_SOLVER_NEWTON ||
+        (options->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
+    int count = 0;
+
+    if (newton_first && warm)
+        order[count++] = NEWTON_WARM;
+    else if (!newton_first)
+        order[count++] = LEMKE;
+    order[count++] = NEWTON_COLD;
+    if (has_matrix)
+        order[count++] = LEMKE;
     rb_status s = RB_RAY;
 
     for (int k = 0; k < count && s >= 0; k++) {

@@ -103,18 +103,6 @@ static void laws_of_state(const rb_contact_state *state, laws *k)
     }
 }
 
-/* From zones alone, such as an elastic solution or a neighbouring one has them. */
-static void laws_of_zones(const rb_contact_state *state, laws *k)
-{
-    static const law of[] = {SEPARATED, STICK, SLIP, SLIP, YIELD, YIELD};
-    static const double sign[] = {0.0, 0.0, -1.0, 1.0, -1.0, 1.0};
-
-    for (int i = 0; i < k->p->n; i++) {
-        k->law[i] = of[state->zone[i]];
-        k->sign[i] = sign[state->zone[i]];
-    }
-}
-
 static void zones_of_laws(const laws *k, rb_contact_state *state)
 {
     for (int i = 0; i < k->p->n; i++) {
@@ -129,18 +117,6 @@ static void zones_of_laws(const laws *k, rb_contact_state *state)
 }
 
 /* ---- The linear problem of the laws ------------------------------------------------ */
-
-static void number_unknowns(laws *k)
-{
-    const rb_contact_problem *p = k->p;
-
-    k->inner = 0;
-    for (int i = 0; i < p->n; i++)
-        k->at_p[i] = k->law[i] != SEPARATED ? k->inner++ : -1;
-    for (int i = 0; i < p->n; i++)
-        k->at_q[i] = k->law[i] == STICK || k->law[i] == YIELD ? k->inner++ : -1;
-    k->size = k->inner + p->load_given + p->force_given;
-}
 
 /* Friction of element i per unit of its pressure. */
 static double friction_of(const laws *k, int i)
@@ -289,43 +265,6 @@ static void precondition(const void *of_laws, const double *b, double *x)
     }
 }
 
-/* Column by column from the matrices. */
-static void assemble(const laws *k, double *A)
-{
-    const rb_contact_problem *p = k->p;
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const size_t n = (size_t)p->n, bytes = n * sizeof(double), size = (size_t)k->size;
-    const int length = p->n;
-    motion m = k->room;
-
-    memset(m.p, 0, 2 * bytes);
-    for (int i = 0; i < length; i++)
-        for (int tangential = 0; tangential < 2; tangential++) {
-            const int column = tangential ? k->at_q[i] : k->at_p[i];
-            const size_t from = (size_t)i + (size_t)tangential * n;
-            const double share = tangential ? 0.0 : friction_of(k, i);
-            if (column < 0)
-                continue;
-            (tangential ? m.q : m.p)[i] = p->stress;
-            memset(m.gap, 0, 2 * bytes);
-            cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
-            cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
-            if (share != 0.0) {
-                m.q[i] = share * p->stress;
-                cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1, m.gap,
-                            1);
-                cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
-            }
-            inner_rows(k, &m, 0, A + (size_t)column * size);
-            control_rows(k, &m, 0, A + (size_t)column * size + k->inner);
-            m.p[i] = m.q[i] = 0.0;
-        }
-    for (size_t c = (size_t)k->inner; c < size; c++) {
-        memset(A + c * size, 0, size * sizeof *A);
-        border_column(k, (int)c - k->inner, A + c * size);
-    }
-}
-
 /* x: the right side, then the solution. */
 static rb_status solve_by_matrix(const laws *k, double *x)
 {
@@ -335,7 +274,39 @@ static rb_status solve_by_matrix(const laws *k, double *x)
     rb_status s = A && pivots ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
-        assemble(k, A);
+        /* Column by column from the matrices. */
+        const rb_contact_problem *p = k->p;
+        const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+        const size_t n = (size_t)p->n, bytes = n * sizeof(double);
+        const int length = p->n;
+        motion m = k->room;
+
+        memset(m.p, 0, 2 * bytes);
+        for (int i = 0; i < length; i++)
+            for (int tangential = 0; tangential < 2; tangential++) {
+                const int column = tangential ? k->at_q[i] : k->at_p[i];
+                const size_t from = (size_t)i + (size_t)tangential * n;
+                const double share = tangential ? 0.0 : friction_of(k, i);
+                if (column < 0)
+                    continue;
+                (tangential ? m.q : m.p)[i] = p->stress;
+                memset(m.gap, 0, 2 * bytes);
+                cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
+                cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
+                if (share != 0.0) {
+                    m.q[i] = share * p->stress;
+                    cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1,
+                                m.gap, 1);
+                    cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
+                }
+                inner_rows(k, &m, 0, A + (size_t)column * size);
+                control_rows(k, &m, 0, A + (size_t)column * size + k->inner);
+                m.p[i] = m.q[i] = 0.0;
+            }
+        for (size_t c = (size_t)k->inner; c < size; c++) {
+            memset(A + c * size, 0, size * sizeof *A);
+            border_column(k, (int)c - k->inner, A + c * size);
+        }
         if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x,
                                k->size) != 0)
             s = RB_SINGULAR;
@@ -378,34 +349,18 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
     return s;
 }
 
-/* Plastic slips from the slips, upstream first. */
-static void set_plastic(const laws *k, rb_contact_state *state)
-{
-    const rb_contact_problem *p = k->p;
-    double next = 0.0, second = 0.0;
-
-    for (int i = p->n - 1; i >= 0; i--) {
-        const double before = p->recall[0] * next + p->recall[1] * second;
-        double own = 0.0;
-        if (k->law[i] == YIELD || k->law[i] == SOFTENED)
-            own = -k->sign[i] * state->lambda[i];
-        else if (k->law[i] == SLIP_AND_YIELD)
-            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) /
-                  p->own;
-        state->plastic[i] = -k->sign[i] * own;
-        k->yielded[i] = before + p->own * own;
-        second = next;
-        next = k->yielded[i];
-    }
-}
-
 /* p, q, delta, xi, lambda, plastic of the state.  RB_SINGULAR, RB_ENOMEM. */
 static rb_status solve_laws(laws *k, rb_contact_state *state)
 {
     const rb_contact_problem *p = k->p;
     motion m = k->room;
 
-    number_unknowns(k);
+    k->inner = 0;
+    for (int i = 0; i < p->n; i++)
+        k->at_p[i] = k->law[i] != SEPARATED ? k->inner++ : -1;
+    for (int i = 0; i < p->n; i++)
+        k->at_q[i] = k->law[i] == STICK || k->law[i] == YIELD ? k->inner++ : -1;
+    k->size = k->inner + p->load_given + p->force_given;
     double *x = rb_alloc((size_t)k->size, 1);
     rb_status s = x ? RB_OK : RB_ENOMEM;
 
@@ -432,7 +387,23 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
         state->delta = p->load_given ? p->gap_length * *border++ : p->delta;
         state->xi = p->force_given ? p->slip_length / p->e_T[0] * *border : p->xi;
         rb_contact_kinematics(p, state, k->gap, state->lambda);
-        set_plastic(k, state);
+        /* Plastic slips from the slips, upstream first. */
+        double next = 0.0, second = 0.0;
+
+        for (int i = p->n - 1; i >= 0; i--) {
+            const double before = p->recall[0] * next + p->recall[1] * second;
+            double own = 0.0;
+            if (k->law[i] == YIELD || k->law[i] == SOFTENED)
+                own = -k->sign[i] * state->lambda[i];
+            else if (k->law[i] == SLIP_AND_YIELD)
+                own =
+                    ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) /
+                    p->own;
+            state->plastic[i] = -k->sign[i] * own;
+            k->yielded[i] = before + p->own * own;
+            second = next;
+            next = k->yielded[i];
+        }
     }
     free(x);
     return s;
@@ -547,13 +518,6 @@ static int correct(laws *k, const rb_contact_state *state, int single)
     return changes;
 }
 
-static uint64_t fingerprint(const laws *k)
-{
-    const size_t n = (size_t)k->p->n;
-    return rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law), k->sign,
-                   n * sizeof *k->sign);
-}
-
 /* Solves and corrects until the laws stay; where they come back, one element at a time.
  * RB_MAXITER, RB_SINGULAR, RB_ENOMEM. */
 static rb_status iterate(laws *k, rb_contact_state *state)
@@ -562,7 +526,9 @@ static rb_status iterate(laws *k, rb_contact_state *state)
     int single = 0;
 
     for (int round = 0; round < ROUNDS + SINGLE_ROUNDS; round++) {
-        const uint64_t now = fingerprint(k);
+        const size_t n = (size_t)k->p->n;
+        const uint64_t now = rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law),
+                                     k->sign, n * sizeof *k->sign);
         for (int j = 0; j < round && !single; j++)
             single = seen[j] == now;
         single = single || round >= ROUNDS;
@@ -643,7 +609,14 @@ rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows,
 
     if (s != RB_OK)
         return s;
-    laws_of_zones(state, &k);
+    /* From zones alone, such as an elastic solution or a neighbouring one has them. */
+    static const law of[] = {SEPARATED, STICK, SLIP, SLIP, YIELD, YIELD};
+    static const double sign[] = {0.0, 0.0, -1.0, 1.0, -1.0, 1.0};
+
+    for (int i = 0; i < k.p->n; i++) {
+        k.law[i] = of[state->zone[i]];
+        k.sign[i] = sign[state->zone[i]];
+    }
     s = follows ? follow(p, &k, excess, state) : iterate(&k, state);
     if (s >= 0)
         zones_of_laws(&k, state);
