@@ -97,7 +97,7 @@ TEST(any_pivots_give_the_tableau_of_the_basis)
     lcp_tableau t, anew;
     double a[N];
     make_tableau(&t);
-    assert_true(t.depth < t.room && t.room < 150);
+    assert_true(t.depth < t.capacity && t.capacity < 150);
     CHECK_STATUS(rb_lcp_tableau_create(&data_, &anew), RB_OK);
     for (int k = 1; k <= 150; k++) {
         pivot_somewhere(&t, a);

@@ -185,16 +185,16 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
  * Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
 
-/* The value as it is written in a case file.  Returns `room`, or the text itself for a
+/* The value as it is written in a case file.  Returns `buffer`, or the text itself for a
  * text option. */
-const char *rb_option_text(const rb_option *option, const void *target, char room[64]);
+const char *rb_option_text(const rb_option *option, const void *target, char buffer[64]);
 
 /* Name of the file that is the value of the option; NULL: none. */
 const char *rb_option_path(const rb_option *option, const void *target);
 /* Writes the source of an option for messages: "--load", "case.ini:3: load".  Returns
- * room. */
+ * buffer. */
 const char *rb_option_source(const rb_option *option, int given, const char *path,
-                             char *room, size_t size);
+                             char *buffer, size_t size);
 
 /* 1: the whole text is one finite number. */
 int rb_option_number(const char *text, double *value);

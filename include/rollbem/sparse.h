@@ -18,9 +18,9 @@ typedef struct {
  * row and column are summed.  Start with {.rows = m, .cols = n}. */
 typedef struct {
     int rows, cols;
-    int nz, room;     /* entries stored; entries that the arrays can hold */
-    int *row, *col;   /* room; owned */
-    double *x;        /* room; owned */
+    int nz, capacity; /* entries stored; entries that the arrays can hold */
+    int *row, *col;   /* capacity; owned */
+    double *x;        /* capacity; owned */
     rb_status status; /* RB_ENOMEM after an entry did not fit into memory, or after more
                          than INT_MAX entries, which an rb_sparse cannot hold */
 } rb_triplets;

@@ -82,18 +82,6 @@ static const rb_rolling_result *find_result(const rb_rolling_results *table,
     return NULL;
 }
 
-static api_array *table_column(rb_api *a, const rb_rolling_results *table,
-                               const void *owner, int rows, const char *name,
-                               const char *column)
-{
-    const rb_rolling_result *r = find_result(table, column);
-    const int is_there = r && rows > 0 && rb_rolling_has_column(r, owner);
-    api_array *made = is_there ? rb_api_make_array(a, name, rows, 1) : NULL;
-    for (int i = 0; made && i < rows; i++)
-        made->at[i] = rb_rolling_entry(r, owner, i);
-    return made;
-}
-
 /* ---- A case ------------------------------------------------------------------------ */
 
 int rb_api_ended(rb_api *a, rb_status s)
@@ -329,11 +317,11 @@ static const char *write_default(const rb_option *o, const void *values, char *t
                                  int size)
 {
     rb_case *c = values ? NULL : rb_case_create(RB_CASE_SINGLE);
-    char room[64];
+    char buffer[64];
     if (!values && !c)
         return NULL;
     written(o->unset ? o->unset
-                     : rb_option_text(o, values ? values : rb_case_resolved(c), room),
+                     : rb_option_text(o, values ? values : rb_case_resolved(c), buffer),
             text, size);
     rb_case_free(c);
     return text;
@@ -430,10 +418,10 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size)
 {
     const rb_option *o = rb_case_option(name);
-    char room[64];
+    char buffer[64];
     if (!o)
         return NULL;
-    return written(rb_option_text(o, rb_case_resolved(a->words), room), text, size);
+    return written(rb_option_text(o, rb_case_resolved(a->words), buffer), text, size);
 }
 
 const char *rb_api_word(const rb_api *a, const char *name)
@@ -606,8 +594,13 @@ static api_array *series_array(rb_api *a, const char *name)
     size_t n, k = 0;
     while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
         k++;
-    return table_column(a, series[k].table, series[k].owner, series[k].rows, name,
-                        name + n);
+    const rb_rolling_result *row = find_result(series[k].table, name + n);
+    const int is_there =
+        row && series[k].rows > 0 && rb_rolling_has_column(row, series[k].owner);
+    api_array *made = is_there ? rb_api_make_array(a, name, series[k].rows, 1) : NULL;
+    for (int i = 0; made && i < series[k].rows; i++)
+        made->at[i] = rb_rolling_entry(row, series[k].owner, i);
+    return made;
 }
 
 /* Of result `name` with respect to all inputs, the two sides of each beside each other.

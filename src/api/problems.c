@@ -218,22 +218,6 @@ static int tick(int seen, void *context)
     return st->a->stopped;
 }
 
-/* The crack of case k, with the m options whose texts begin at `values`. */
-static rb_status set_crack(study *st, int k, int m, const char *const *names,
-                           const char *const *values)
-{
-    rb_api *of = st->cases[k];
-    rb_message why = {""};
-    st->crack[k] = rb_case_crack_defaults();
-    rb_status s = rb_api_set_crack(of, m, names, values, &st->crack[k], &why);
-    if (s == RB_OK)
-        s = rb_case_crack_check(rb_case_resolved(of->words), &st->crack[k], &why);
-    if (s == RB_OK && !isnan(st->crack[k].paris))
-        s = rb_fail(&why, RB_EINVAL,
-                    "--paris: a study has the K of cracks of given lengths");
-    return s == RB_OK ? s : rb_fail(&st->a->why, s, "case %d: %.580s", k + 1, why.text);
-}
-
 /* names NULL: without cracks. */
 static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
                  const char *const *values, int workers)
@@ -260,8 +244,21 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                         "case %d: error: these studies have no error bars; rollbem sweep "
                         "has",
                         k + 1);
-        else if (names)
-            s = set_crack(&st, k, m, names, values + (size_t)k * (size_t)m);
+        else if (names) {
+            /* The crack of case k, with the m options whose texts begin at `values`. */
+            rb_api *of = st.cases[k];
+            rb_message why = {""};
+            st.crack[k] = rb_case_crack_defaults();
+            rb_status u = rb_api_set_crack(of, m, names, values + (size_t)k * (size_t)m,
+                                           &st.crack[k], &why);
+            if (u == RB_OK)
+                u = rb_case_crack_check(rb_case_resolved(of->words), &st.crack[k], &why);
+            if (u == RB_OK && !isnan(st.crack[k].paris))
+                u = rb_fail(&why, RB_EINVAL,
+                            "--paris: a study has the K of cracks of given lengths");
+            s = u == RB_OK ? u
+                           : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
+        }
     if (s == RB_OK && n > 0) {
         const int cracks = names != NULL;
         const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,

@@ -108,30 +108,30 @@ rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
 /* The status is set for good when there is no room: entries would be missing. */
 rb_status rb_triplets_reserve(rb_triplets *t, size_t more)
 {
-    const size_t wanted = (size_t)t->nz + more, twice = 2 * (size_t)t->room;
-    if (t->status != RB_OK || wanted <= (size_t)t->room)
+    const size_t wanted = (size_t)t->nz + more, twice = 2 * (size_t)t->capacity;
+    if (t->status != RB_OK || wanted <= (size_t)t->capacity)
         return t->status;
     if (wanted > INT_MAX)
         return t->status = RB_ENOMEM;
-    const size_t room = wanted > twice ? wanted : twice < INT_MAX ? twice : INT_MAX;
-    int *row = realloc(t->row, room * sizeof *row);
+    const size_t capacity = wanted > twice ? wanted : twice < INT_MAX ? twice : INT_MAX;
+    int *row = realloc(t->row, capacity * sizeof *row);
     if (row)
         t->row = row;
-    int *col = realloc(t->col, room * sizeof *col);
+    int *col = realloc(t->col, capacity * sizeof *col);
     if (col)
         t->col = col;
-    double *x = realloc(t->x, room * sizeof *x);
+    double *x = realloc(t->x, capacity * sizeof *x);
     if (x)
         t->x = x;
     if (!row || !col || !x)
         return t->status = RB_ENOMEM;
-    t->room = (int)room;
+    t->capacity = (int)capacity;
     return RB_OK;
 }
 
 void rb_triplets_add(rb_triplets *t, int row, int col, double x)
 {
-    if (t->nz == t->room && rb_triplets_reserve(t, t->nz ? 1 : 16) != RB_OK)
+    if (t->nz == t->capacity && rb_triplets_reserve(t, t->nz ? 1 : 16) != RB_OK)
         return;
     t->row[t->nz] = row;
     t->col[t->nz] = col;

@@ -67,29 +67,6 @@ static double complex symbol(const double stencil[4], double complex e)
     return stencil[0] * conj(e) + stencil[1] + stencil[2] * e + stencil[3] * e * e;
 }
 
-/* Of F_NN, and of A F_TT; own: what the interface adds to either.  The mean, which the
- * datum of the body decides and for which the symbol vanishes, gets numbers that do no
- * harm. */
-static void set_inverses(const double stencil[4], const double local[4], double scale,
-                         const double own[2], rb_bem_circulant *c)
-{
-    const int size = c->fourier.size;
-
-    for (int k = 1; k <= size / 2; k++) {
-        const double theta = 2.0 * M_PI * k / size, body = scale * log_kernel(theta);
-        const double complex e = cexp(I * theta);
-        const double complex x =
-            1.0 / ((body * symbol(stencil, e) + own[1] * symbol(local, e)) * size);
-        c->inverse[k] = 1.0 / ((body + own[0]) * size);
-        c->difference[k][0] = creal(x);
-        c->difference[k][1] = cimag(x);
-        c->tangential[k] = body + own[1];
-    }
-    c->tangential[0] = 4.0 * c->tangential[1];
-    c->inverse[0] = 0.25 * c->inverse[1];
-    c->difference[0][0] = 0.5 * c->inverse[0];
-}
-
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
                                   const double local[4], rb_bem_circulant **circulant)
 {
@@ -112,7 +89,24 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
     }
     const double *all = f->compliance;
     const double own[2] = {all ? all[f->n / 2] : 0.0, all ? all[f->n + f->n / 2] : 0.0};
-    set_inverses(stencil, local, scale, own, c);
+    /* Of F_NN, and of A F_TT; own: what the interface adds to either.  The mean, which
+     * the datum of the body decides and for which the symbol vanishes, gets numbers that
+     * do no harm. */
+    const int size = c->fourier.size;
+
+    for (int k = 1; k <= size / 2; k++) {
+        const double theta = 2.0 * M_PI * k / size, body = scale * log_kernel(theta);
+        const double complex e = cexp(I * theta);
+        const double complex x =
+            1.0 / ((body * symbol(stencil, e) + own[1] * symbol(local, e)) * size);
+        c->inverse[k] = 1.0 / ((body + own[0]) * size);
+        c->difference[k][0] = creal(x);
+        c->difference[k][1] = cimag(x);
+        c->tangential[k] = body + own[1];
+    }
+    c->tangential[0] = 4.0 * c->tangential[1];
+    c->inverse[0] = 0.25 * c->inverse[1];
+    c->difference[0][0] = 0.5 * c->inverse[0];
     *circulant = c;
     return RB_OK;
 }

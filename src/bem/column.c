@@ -15,21 +15,6 @@ void rb_points_free(rb_points *points)
     *points = (rb_points){0};
 }
 
-/* Centre and radius of a circle about one block of points. */
-static void enclose(const double *x, const double *y, double circle[3])
-{
-    double cx = 0.0, cy = 0.0, r = 0.0;
-    for (int i = 0; i < BLOCK; i++) {
-        cx += x[i] / BLOCK;
-        cy += y[i] / BLOCK;
-    }
-    for (int i = 0; i < BLOCK; i++)
-        r = fmax(r, hypot(x[i] - cx, y[i] - cy));
-    circle[0] = cx;
-    circle[1] = cy;
-    circle[2] = r;
-}
-
 rb_status rb_points_make(int n, const double *x, const double *y, rb_points *points)
 {
     const size_t blocks = ((size_t)n + BLOCK - 1) / BLOCK, padded = blocks * BLOCK;
@@ -42,8 +27,22 @@ rb_status rb_points_make(int n, const double *x, const double *y, rb_points *poi
         points->x[i] = x[i < (size_t)n ? i : (size_t)n - 1];
         points->y[i] = y[i < (size_t)n ? i : (size_t)n - 1];
     }
-    for (size_t b = 0; b < blocks; b++)
-        enclose(points->x + b * BLOCK, points->y + b * BLOCK, points->circle + 3 * b);
+    for (size_t b = 0; b < blocks; b++) {
+        /* Centre and radius of a circle about one block of points. */
+        const double *px = points->x + b * BLOCK;
+        const double *py = points->y + b * BLOCK;
+        double *circle = points->circle + 3 * b;
+        double cx = 0.0, cy = 0.0, r = 0.0;
+        for (int i = 0; i < BLOCK; i++) {
+            cx += px[i] / BLOCK;
+            cy += py[i] / BLOCK;
+        }
+        for (int i = 0; i < BLOCK; i++)
+            r = fmax(r, hypot(px[i] - cx, py[i] - cy));
+        circle[0] = cx;
+        circle[1] = cy;
+        circle[2] = r;
+    }
     return RB_OK;
 }
 

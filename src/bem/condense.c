@@ -225,14 +225,6 @@ typedef struct {
     double *T;  /* kept x others */
 } split;
 
-static void split_free(split *p)
-{
-    free(p->element);
-    free(p->sample);
-    free(p->order);
-    free(p->T);
-}
-
 static double distance_from(double complex middle, const rb_bem_mesh *mesh, int k)
 {
     return cabs(rb_strip_midpoint(mesh, k) - middle);
@@ -375,7 +367,10 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
     if (status == RB_OK)
         status = add_far(p, given, &parts, X);
     rb_given_free(given);
-    split_free(&parts);
+    free(parts.element);
+    free(parts.sample);
+    free(parts.order);
+    free(parts.T);
     return status;
 }
 

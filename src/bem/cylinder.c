@@ -198,28 +198,6 @@ static graded_side interface_side(const rb_bem_cylinder *cylinder, double from, 
     return side;
 }
 
-/* Ten elements to the thickness of the wall under the contact, or fewer, but four, where
- * the contact's own are eight times as long. */
-static interface_layout lay_out_interface(const rb_bem_cylinder *cylinder, int n_c,
-                                          const double *ends)
-{
-    const double R = cylinder->radius, inner = inner_radius(cylinder);
-    const double left = asin(ends[0] / R), right = asin(ends[n_c] / R);
-    const double fine = fmin(0.1 * thickness(cylinder) / inner, largest_angle),
-                 coarse = fmax(0.25 * thickness(cylinder) / inner, smallest_feature),
-                 longest =
-                     fmin(coarse / refinement(cylinder), (right - left) / (8 * n_c)),
-                 size = fmax(fine / refinement(cylinder), longest);
-    const double half = fmax(0.5 * (right - left), size), centre = 0.5 * (left + right);
-    interface_layout in = {.low = centre - half,
-                           .high = centre + half,
-                           .middle_n = (int)ceil(2.0 * half / size)};
-    const double h = 2.0 * half / in.middle_n;
-    in.right = interface_side(cylinder, in.high, h);
-    in.left = interface_side(cylinder, -in.low, h);
-    return in;
-}
-
 static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const double *ends)
 {
     const double R = cylinder->radius;
@@ -238,7 +216,23 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         count_elements(&layout.left, 0);
     }
     if (is_thin(cylinder)) {
-        layout.interface = lay_out_interface(cylinder, n_c, ends);
+        /* Ten elements to the thickness of the wall under the contact, or fewer, but
+         * four, where the contact's own are eight times as long. */
+        const double inner = inner_radius(cylinder);
+        const double low = asin(ends[0] / R), high = asin(ends[n_c] / R);
+        const double fine = fmin(0.1 * thickness(cylinder) / inner, largest_angle),
+                     coarse = fmax(0.25 * thickness(cylinder) / inner, smallest_feature),
+                     longest =
+                         fmin(coarse / refinement(cylinder), (high - low) / (8 * n_c)),
+                     size = fmax(fine / refinement(cylinder), longest);
+        const double half = fmax(0.5 * (high - low), size), centre = 0.5 * (low + high);
+        interface_layout in = {.low = centre - half,
+                               .high = centre + half,
+                               .middle_n = (int)ceil(2.0 * half / size)};
+        const double h = 2.0 * half / in.middle_n;
+        in.right = interface_side(cylinder, in.high, h);
+        in.left = interface_side(cylinder, -in.low, h);
+        layout.interface = in;
         layout.hub_n = layout.interface.middle_n + layout.interface.right.free_n +
                        layout.interface.left.free_n;
     } else if (cylinder->support == RB_BEM_HUB) {

@@ -30,7 +30,7 @@ rb_status rb_elimination_keep(int kept, rb_elimination *e);
 rb_status rb_elimination_run(rb_elimination *e, double *D);
 void rb_elimination_free(rb_elimination *e);
 
-/* From the leaves to the root: b by rows, y by columns, n x q; room: m x q. */
+/* From the leaves to the root: b by rows, y by columns, n x q; scratch: m x q. */
 void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, double *y,
                        double *scratch);
 /* And back: y becomes the unknowns. */

@@ -26,19 +26,6 @@ static int good_size(int least)
     }
 }
 
-static void choose_threads(int size)
-{
-    static int prepared;
-
-    if (!prepared)
-        prepared = fftw_init_threads();
-#ifdef _OPENMP
-    fftw_plan_with_nthreads(size >= THREADS_FROM ? rb_blas_loop_threads() : 1);
-#else
-    (void)size;
-#endif
-}
-
 double *rb_fourier_alloc(const rb_fourier *f)
 {
     return fftw_alloc_real((size_t)f->size + 2);
@@ -56,7 +43,15 @@ int rb_fourier_make(int least, rb_fourier *f)
 
     if (work) {
         pthread_mutex_lock(&planner);
-        choose_threads(f->size);
+        static int prepared;
+
+        if (!prepared)
+            prepared = fftw_init_threads();
+#ifdef _OPENMP
+        fftw_plan_with_nthreads(f->size >= THREADS_FROM ? rb_blas_loop_threads() : 1);
+#else
+        (void)f->size;
+#endif
         f->forward = fftw_plan_dft_r2c_1d(f->size, work, transform, FFTW_ESTIMATE);
         f->backward = fftw_plan_dft_c2r_1d(f->size, transform, work, FFTW_ESTIMATE);
         pthread_mutex_unlock(&planner);

@@ -9,20 +9,16 @@
  * one dense system. */
 enum { LEAF = 32, TOP = 2 };
 
-static void cluster_free(rb_hierarchical_cluster *c)
-{
-    rb_elimination_free(&c->e);
-    free(c->order);
-    free(c->D);
-    *c = (rb_hierarchical_cluster){0};
-}
-
 void rb_hierarchical_free(rb_hierarchical *h)
 {
     if (!h)
         return;
-    for (int i = 0; h->cluster && i < rb_hierarchical_clusters(h); i++)
-        cluster_free(&h->cluster[i]);
+    for (int i = 0; h->cluster && i < rb_hierarchical_clusters(h); i++) {
+        rb_elimination_free(&h->cluster[i].e);
+        free(h->cluster[i].order);
+        free(h->cluster[i].D);
+        h->cluster[i] = (rb_hierarchical_cluster){0};
+    }
     free(h->cluster);
     free(h->order);
     rb_mixed_free(&h->matrix);

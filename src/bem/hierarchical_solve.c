@@ -22,16 +22,16 @@ static void permute(const rb_hierarchical *h, int q, const double *from, double 
             }
 }
 
-/* y = A^-1 b in the clusters' order, dofs x q; b is used up.  room: of largest_cluster
+/* y = A^-1 b in the clusters' order, dofs x q; b is used up.  scratch: of largest_cluster
  * x q. */
 static void solve_ordered(const rb_hierarchical *h, int q, double *b, double *y,
-                          double *room)
+                          double *scratch)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
     for (int i = rb_hierarchical_clusters(h) - 1; i >= 0; i--)
-        rb_elimination_up(&h->cluster[i].e, dofs, q, b, y, room);
+        rb_elimination_up(&h->cluster[i].e, dofs, q, b, y, scratch);
     for (int i = 1; i < rb_hierarchical_clusters(h); i++)
-        rb_elimination_down(&h->cluster[i].e, dofs, q, y, room);
+        rb_elimination_down(&h->cluster[i].e, dofs, q, y, scratch);
 }
 
 static size_t largest_cluster(const rb_hierarchical *h)
@@ -133,10 +133,10 @@ static int choose_samples(const rb_hierarchical *h, const double *x, int *row)
 rb_status rb_hierarchical_verify(const rb_hierarchical *h)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
-    double *b = rb_alloc(dofs, 3), *room = rb_alloc(largest_cluster(h), 1);
+    double *b = rb_alloc(dofs, 3), *scratch = rb_alloc(largest_cluster(h), 1);
     double left = INFINITY;
     int row[2 * SAMPLES];
-    rb_status s = b && room ? RB_OK : RB_ENOMEM;
+    rb_status s = b && scratch ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
         double *x = b + dofs, *used = x + dofs;
@@ -145,11 +145,11 @@ rb_status rb_hierarchical_verify(const rb_hierarchical *h)
             state = 1664525 * state + 1013904223;
             used[i] = b[i] = state / 4294967296.0 - 0.5;
         }
-        solve_ordered(h, 1, used, x, room);
+        solve_ordered(h, 1, used, x, scratch);
         s = sample_residual(h, choose_samples(h, x, row), row, b, x, &left);
     }
     free(b);
-    free(room);
+    free(scratch);
     const double most = fmin(fmax(1e4 * h->tolerance, 1e-4), 1e-3);
     return s == RB_OK && !(left < most) ? RB_SINGULAR : s;
 }

@@ -23,10 +23,18 @@ typedef struct {
     double complex c, d, a, b;
 } wave;
 
-/* Transforms of the tractions, which are linear between the nodes, times the weight. */
-static void load_wave(const rb_bem_edge_load *load, double weight, double complex p_s[2],
-                      wave *w)
+static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, double al,
+                     double weight, wave *w)
 {
+    const double sh = sinh(al), ch = cosh(al), decay = exp(-al);
+    double complex p_s[2];
+    rb_bem_layer_wave bond;
+
+    w->k = al / body->thickness;
+    rb_bem_layer_wave_at(body, al, &bond);
+    /* Transforms of the tractions, which are linear between the nodes, times the weight.
+     */
+    const double share = weight / (M_PI * body->thickness);
     double complex p = 0.0, q = 0.0;
     for (int j = 0; j + 1 < load->n; j++) {
         const double h = load->x[j + 1] - load->x[j], t = 0.5 * w->k * h;
@@ -42,20 +50,8 @@ static void load_wave(const rb_bem_edge_load *load, double weight, double comple
         q += shift * (even * 0.5 * (load->q[j] + load->q[j + 1]) -
                       I * odd * (load->q[j + 1] - load->q[j]));
     }
-    p_s[0] = weight * p;      /* f(0): -s_yy of the surface */
-    p_s[1] = -I * weight * q; /* f'(0): s_xy = -i f' is -q there */
-}
-
-static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, double al,
-                     double weight, wave *w)
-{
-    const double sh = sinh(al), ch = cosh(al), decay = exp(-al);
-    double complex p_s[2];
-    rb_bem_layer_wave bond;
-
-    w->k = al / body->thickness;
-    rb_bem_layer_wave_at(body, al, &bond);
-    load_wave(load, weight / (M_PI * body->thickness), p_s, w);
+    p_s[0] = share * p;      /* f(0): -s_yy of the surface */
+    p_s[1] = -I * share * q; /* f'(0): s_xy = -i f' is -q there */
     w->c = p_s[0] * bond.c[0] + p_s[1] * bond.c[1];
     w->d = p_s[0] * bond.d[0] + p_s[1] * bond.d[1];
     /* f and f' of the layer go on in the base */

@@ -67,7 +67,7 @@ static int find(double X, double *t)
  * degrees, the exponential fades within a few radians; the poles of Z are at least 60
  * degrees up (a stiff plate on a soft base). */
 typedef struct {
-    int n, room;
+    int n, capacity;
     double unit;                /* x_0 */
     double complex *sigma;      /* n */
     double complex (*Z)[3];     /* n: times the weight over sigma */
@@ -114,14 +114,14 @@ static rb_status make_waves(const rb_bem_surface *body, double x_0, waves *w)
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
     double Z_0[3], to = ldexp(width, -halvings);
 
-    *w = (waves){.room = GAUSS * (halvings + (int)(last / width)), .unit = x_0};
-    w->sigma = malloc((size_t)w->room * sizeof *w->sigma);
-    w->Z = malloc((size_t)w->room * sizeof *w->Z);
+    *w = (waves){.capacity = GAUSS * (halvings + (int)(last / width)), .unit = x_0};
+    w->sigma = malloc((size_t)w->capacity * sizeof *w->sigma);
+    w->Z = malloc((size_t)w->capacity * sizeof *w->Z);
     const rb_status s = rule && w->sigma && w->Z ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
         rb_bem_layer_longest_waves(body, Z_0);
         add_panel(body, 0.0, to, ray, Z_0, rule, w);
-        while (w->n < w->room) {
+        while (w->n < w->capacity) {
             const double from = to;
             to += fmin(from, width);
             add_panel(body, from, to, ray, Z_0, rule, w);

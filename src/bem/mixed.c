@@ -138,15 +138,6 @@ static void scatter(const rb_mixed_rows *r, const double *from, double *to, size
         to[(size_t)i * step] = from[r->at[i]];
 }
 
-static void add_term(const rb_mixed *a, const rb_mixed_rows *r, int column, double *to,
-                     size_t step)
-{
-    if (a->contours.count && a->contours.contour[column / 2] >= 0)
-        for (int i = 0; i < r->own; i++)
-            to[(size_t)i * step] +=
-                rb_held_contours_term(&a->contours, r->row[i], column);
-}
-
 /* The point on element j, or -1. */
 static int point_on(const rb_mixed_rows *r, int j)
 {
@@ -182,7 +173,10 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
         for (; c < end; c++) {
             double *to = out.x + (size_t)c * out.column_step;
             scatter(r, buffer + (size_t)(column[c] % 2) * rows, to, out.row_step);
-            add_term(a, r, column[c], to, out.row_step);
+            if (a->contours.count && a->contours.contour[column[c] / 2] >= 0)
+                for (int i = 0; i < r->own; i++)
+                    to[(size_t)i * out.row_step] +=
+                        rb_held_contours_term(&a->contours, r->row[i], column[c]);
         }
     }
     free(buffer);

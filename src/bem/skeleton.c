@@ -31,8 +31,8 @@ enum { WIDE = 96 };
 rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 {
     const int n = s->columns, most = s->rows < n ? s->rows : n, block = 64;
-    const lapack_int room = 2 * n + (n + 1) * block;
-    double *work = rb_alloc((size_t)room, 1);
+    const lapack_int lwork = 2 * n + (n + 1) * block;
+    double *work = rb_alloc((size_t)lwork, 1);
 
     if (!work)
         return RB_ENOMEM;
@@ -40,13 +40,13 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
      * and then does so on fewer rows. */
     if (!(n < WIDE || s->rows < n)) {
         LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work,
-                            room);
+                            lwork);
         s->rows = n;
         LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1,
                             s->ld);
     }
     LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale,
-                        work, room);
+                        work, lwork);
     free(work);
     const double least = tolerance * fabs(s->K[0]);
     while (s->rank < most && fabs(s->K[(size_t)s->rank * (size_t)(s->ld + 1)]) > least)

@@ -204,29 +204,23 @@ static rb_status assemble(rb_bem_system *s)
     return status;
 }
 
-static double norm_one(int n, const double *A, int ld)
-{
-    double norm = 0.0;
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
-    reduction(max                                                                        \
-              : norm) if (0.25 * n * n > rb_pairs_for_threads)
-    for (int j = 0; j < n; j++) {
-        const double *column = A + (size_t)j * (size_t)ld;
-        double sum = 0.0;
-        for (int i = 0; i < n; i++)
-            sum += fabs(column[i]);
-        norm = fmax(norm, sum);
-    }
-    return norm;
-}
-
 /* Its condition is not known. */
 static rb_status factor(rb_bem_system *s, rb_message *why)
 {
     if (s->A) {
         /* A singular system is one whose condition leaves no digit. */
         const lapack_int n = s->dofs;
-        const double norm = norm_one(n, s->A, s->ld);
+        double norm = 0.0;
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    reduction(max                                                                        \
+              : norm) if (0.25 * n * n > rb_pairs_for_threads)
+        for (int j = 0; j < n; j++) {
+            const double *column = s->A + (size_t)j * (size_t)s->ld;
+            double sum = 0.0;
+            for (int i = 0; i < n; i++)
+                sum += fabs(column[i]);
+            norm = fmax(norm, sum);
+        }
         double *work = rb_alloc((size_t)n, 4);
         lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
         rb_status status = RB_ENOMEM;

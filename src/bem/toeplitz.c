@@ -133,30 +133,6 @@ static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
     transform_back(o, o->base[k] * sum_of(o->n, r), o->work[0], w);
 }
 
-/* Mode k of both, p and q, for real transforms of t and imaginary ones of s. */
-static void couple_symmetric(const toeplitz *o, int k, double *p, double *q)
-{
-    const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
-    const double p0 = p[0], p1 = p[1], q0 = q[0], q1 = q[1];
-
-    p[0] = t_N * p0 - s * q1;
-    p[1] = t_N * p1 + s * q0;
-    q[0] = t_T * q0 + s * p1;
-    q[1] = t_T * q1 - s * p0;
-}
-
-static void couple(const toeplitz *o, int k, double *p, double *q)
-{
-    const double *t_N = o->t_hat[N] + 2 * k, *t_T = o->t_hat[T] + 2 * k,
-                 *s = o->s_hat + 2 * k;
-    const double p0 = p[0], p1 = p[1], q0 = q[0], q1 = q[1];
-
-    p[0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
-    p[1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
-    q[0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
-    q[1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
-}
-
 /* Both at once. */
 static void apply_coupled(const toeplitz *o, const double *r, double *w)
 {
@@ -165,10 +141,26 @@ static void apply_coupled(const toeplitz *o, const double *r, double *w)
     fftw_complex *q = rb_fourier_forward(f, o->n, r + o->n, o->work[T]);
 
     for (int k = 0; k <= f->size / 2; k++)
-        if (o->symmetric)
-            couple_symmetric(o, k, p[k], q[k]);
-        else
-            couple(o, k, p[k], q[k]);
+        if (o->symmetric) {
+            /* Mode k of both, p and q, for real transforms of t and imaginary ones of s.
+             */
+            const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
+            const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
+
+            p[k][0] = t_N * p0 - s * q1;
+            p[k][1] = t_N * p1 + s * q0;
+            q[k][0] = t_T * q0 + s * p1;
+            q[k][1] = t_T * q1 - s * p0;
+        } else {
+            const double *t_N = o->t_hat[N] + 2 * k, *t_T = o->t_hat[T] + 2 * k,
+                         *s = o->s_hat + 2 * k;
+            const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
+
+            p[k][0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
+            p[k][1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
+            q[k][0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
+            q[k][1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
+        }
     transform_back(o, o->base[N] * sum_of(o->n, r), o->work[N], w);
     transform_back(o, o->base[T] * sum_of(o->n, r + o->n), o->work[T], w + o->n + 1);
 }

@@ -21,32 +21,22 @@ typedef double complex cplx;
 
 /* ---- Waves ------------------------------------------------------------------------- */
 
-/* What the inner contour rests on, over its own 2 G: an elastic core, or nothing that
- * yields. */
-static rb_ring_compliance of_core(const rb_bem_wheel *w, double m)
-{
-    const rb_ring_compliance rigid = {0.0, 0.0, 0.0, 0.0};
-
-    return w->hub > 0.0 ? rb_ring_across(m, w->core.poisson, w->hub, w->inner, rigid)
-                        : rigid;
-}
-
-/* The wheel over its 2 G, memory making its material `softer` than the glassy one, but
- * not its core. */
-static rb_ring_compliance of_wheel(const rb_bem_wheel *w, double m, cplx softer)
-{
-    rb_ring_compliance K = of_core(w, m);
-    const cplx over = w->hub > 0.0 ? w->material.shear / w->core.shear / softer : 0.0;
-
-    K = (rb_ring_compliance){over * K.uu, over * K.uv, over * K.vu, over * K.vv};
-    return rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
-}
-
 /* What the inner contour changes of the disc, and the waves 0 and 1, which the disc in
  * closed form does not have. */
 static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
 {
-    const rb_ring_compliance wheel = of_wheel(w, m, softer);
+    const rb_ring_compliance rigid = {0.0, 0.0, 0.0, 0.0};
+    /* What the inner contour rests on, over its own 2 G: an elastic core, or nothing that
+     * yields.  Memory makes the wheel's material `softer` than the glassy one, but not
+     * its core. */
+    rb_ring_compliance K =
+        w->hub > 0.0 ? rb_ring_across(m, w->core.poisson, w->hub, w->inner, rigid)
+                     : rigid;
+    const cplx over = w->hub > 0.0 ? w->material.shear / w->core.shear / softer : 0.0;
+
+    K = (rb_ring_compliance){over * K.uu, over * K.uv, over * K.vu, over * K.vv};
+    const rb_ring_compliance wheel =
+        rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
     rb_ring_compliance disc = {0.0, 0.0, 0.0, 0.0};
     const double twice = m > 0.0 ? 2.0 : 1.0;
 
@@ -147,15 +137,6 @@ typedef struct {
     gsl_spline *spline[3];
     gsl_interp_accel *near;
 } table;
-
-static void table_free(table *t)
-{
-    free(t->x);
-    free(t->N);
-    for (int k = 0; k < 3; k++)
-        gsl_spline_free(t->spline[k]);
-    gsl_interp_accel_free(t->near);
-}
 
 /* Equal steps to +-reach, growing ones from there to +-pi. */
 static rb_status table_alloc(double reach, double step, table *t)
@@ -480,22 +461,6 @@ static rb_status check_wheel(const rb_bem_wheel *w, rb_message *why)
     return s;
 }
 
-/* Waves 0 and 1, of a cover that next to nothing holds, would drown all others. */
-static rb_status check_held(const rb_bem_wheel *w, rb_message *why)
-{
-    for (int m = 0; m < 2; m++) {
-        cplx c[3];
-        glassy_waves(w, m, c);
-        for (int k = 0; k < 3; k++)
-            if (!(cabs(c[k]) < 1e12))
-                return rb_fail(why, RB_SINGULAR,
-                               "wheel: the flexibility is singular, the core hardly "
-                               "holds the cover (shear moduli %g and %g)",
-                               w->core.shear, w->material.shear);
-    }
-    return RB_OK;
-}
-
 rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
                          rb_message *why)
 {
@@ -505,7 +470,20 @@ rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
     if (s == RB_OK && !(-ends[0] < wheel->radius && ends[n_c + 1] < wheel->radius))
         s = rb_fail(why, RB_EINVAL, "wheel of radius %g: contact from %g to %g is wider",
                     wheel->radius, ends[0], ends[n_c + 1]);
-    return s == RB_OK ? check_held(wheel, why) : s;
+    /* Waves 0 and 1, of a cover that next to nothing holds, would drown all others. */
+    if (s != RB_OK)
+        return s;
+    for (int m = 0; m < 2; m++) {
+        cplx c[3];
+        glassy_waves(wheel, m, c);
+        for (int k = 0; k < 3; k++)
+            if (!(cabs(c[k]) < 1e12))
+                return rb_fail(why, RB_SINGULAR,
+                               "wheel: the flexibility is singular, the core hardly "
+                               "holds the cover (shear moduli %g and %g)",
+                               wheel->core.shear, wheel->material.shear);
+    }
+    return RB_OK;
 }
 
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
@@ -601,7 +579,11 @@ rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normal
         s = make_inner(wheel, &c, memory_waves, NULL, &inner);
     if (s == RB_OK)
         s = add_matrix(wheel, normals, &c, &inner, &t, f->data);
-    table_free(&t);
+    free(t.x);
+    free(t.N);
+    for (int k = 0; k < 3; k++)
+        gsl_spline_free(t.spline[k]);
+    gsl_interp_accel_free(t.near);
     rb_ring_table_free(&inner);
     circumference_free(&c);
     return s == RB_OK ? s

@@ -63,25 +63,6 @@ static void products_free(void *data)
 
 /* ---- Products ---------------------------------------------------------------------- */
 
-/* Frames of the obstacle into those of the surface. */
-static void tractions_on_arcs(const products *o, const double *r, double *N, double *T)
-{
-    const double *cosine = o->place, *sine = o->place + o->m;
-    double before[2] = {0.0, 0.0};
-
-    for (int j = 0; j <= o->n; j++) {
-        double now[2] = {j < o->n ? r[j] : 0.0, j < o->n ? r[o->n + j] : 0.0};
-        if (o->normals == RB_BEM_NORMALS_OBSTACLE) {
-            const double p = now[0], q = now[1];
-            now[0] = cosine[j] * p - sine[j] * q;
-            now[1] = sine[j] * p + cosine[j] * q;
-        }
-        N[j] = now[0] - before[0];
-        T[j] = now[1] - before[1];
-        memcpy(before, now, sizeof now);
-    }
-}
-
 static fftw_complex *transform_of(const products *o, const double *charge, double *work)
 {
     memset(work, 0, (size_t)(o->fourier.size + 2) * sizeof *work);
@@ -97,7 +78,20 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
     const double *cosine = o->place, *sine = o->place + o->m;
     double *N = o->charge, *T = o->charge + o->n + 1;
 
-    tractions_on_arcs(o, r, N, T);
+    /* Frames of the obstacle into those of the surface. */
+    double before[2] = {0.0, 0.0};
+
+    for (int j = 0; j <= o->n; j++) {
+        double now[2] = {j < o->n ? r[j] : 0.0, j < o->n ? r[o->n + j] : 0.0};
+        if (o->normals == RB_BEM_NORMALS_OBSTACLE) {
+            const double p = now[0], q = now[1];
+            now[0] = cosine[j] * p - sine[j] * q;
+            now[1] = sine[j] * p + cosine[j] * q;
+        }
+        N[j] = now[0] - before[0];
+        T[j] = now[1] - before[1];
+        memcpy(before, now, sizeof now);
+    }
     fftw_complex *a = transform_of(o, N, o->work[0]), *b = transform_of(o, T, o->work[1]);
     for (int k = 0; k <= o->fourier.size / 2; k++) {
         const double *n = o->kernel[0][k], *t = o->kernel[1][k], *c = o->kernel[2][k];
@@ -219,23 +213,6 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
     return RB_OK;
 }
 
-/* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
-static void transform_kernel(products *o, const rb_ring_answer *on_steps)
-{
-    const int size = o->fourier.size;
-
-    for (int c = 0; c < 3; c++) {
-        double *x = o->work[0];
-        memset(x, 0, (size_t)(size + 2) * sizeof *x);
-        for (int k = 1 - o->steps; k < o->steps; k++) {
-            const rb_ring_answer *at = on_steps + o->steps + k;
-            x[k < 0 ? size + k : k] = (c == 0 ? at->N : c == 1 ? at->T : at->C) / size;
-        }
-        fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
-        memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
-    }
-}
-
 static rb_status set_tables(products *o, const double *angles, double step)
 {
     const double *middle = angles, *end = angles + o->m;
@@ -261,7 +238,22 @@ static rb_status set_tables(products *o, const double *angles, double step)
         }
         for (int k = -o->steps; k <= o->steps; k++)
             on_steps[o->steps + k] = rb_wheel_kernel_at(&kernel, k * step);
-        transform_kernel(o, on_steps);
+        /* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
+        const int size = o->fourier.size;
+
+        for (int c = 0; c < 3; c++) {
+            double *x = o->work[0];
+            memset(x, 0, (size_t)(size + 2) * sizeof *x);
+            for (int k = 1 - o->steps; k < o->steps; k++) {
+                const rb_ring_answer *at = on_steps + o->steps + k;
+                x[k < 0 ? size + k : k] = (c == 0   ? at->N
+                                           : c == 1 ? at->T
+                                                    : at->C) /
+                                          size;
+            }
+            fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
+            memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
+        }
         s = correct_near(o, &kernel, on_steps, end, middle, step);
         rb_wheel_kernel_free(&kernel);
     }

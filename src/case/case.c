@@ -230,10 +230,10 @@ int rb_case_given(const rb_case *c, const char *name)
 static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason,
                         rb_message *why)
 {
-    char room[400];
+    char buffer[400];
     const int by = c->given[o - rb_case_table];
     return rb_fail(why, by > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
-                   rb_option_source(o, by, c->path, room, sizeof room), reason);
+                   rb_option_source(o, by, c->path, buffer, sizeof buffer), reason);
 }
 
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
@@ -347,20 +347,6 @@ int rb_case_is_copied_to_b(const char *option)
     return 0;
 }
 
-static void copy_to_b(rb_case *c)
-{
-    char *rc = (char *)&c->resolved.rc;
-    const rb_rolling_body *b = &c->resolved.rc.b;
-    /* a base belongs to a layer, a core to a cover: the table has these first */
-    for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
-        if (!rb_case_given(c, copies[k].of_b) &&
-            (strncmp(copies[k].of_b, "base", 4) != 0 || b->layer > 0.0) &&
-            (strncmp(copies[k].of_b, "core", 4) != 0 || b->cover > 0.0))
-            memcpy(rc + copies[k].to, rc + copies[k].from, sizeof(double));
-    if (!rb_case_given(c, "relaxation-time-b") && !rb_case_given(c, "relaxation-ratio-b"))
-        c->resolved.memory_b = c->resolved.memory_a;
-}
-
 static rb_status resolve_body_b(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
@@ -375,8 +361,19 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
                               "body B is rigid without --similar or --young-b", why);
         return RB_OK;
     }
-    if (s->similar)
-        copy_to_b(c);
+    if (s->similar) {
+        const rb_rolling_body *b = &c->resolved.rc.b;
+        /* a base belongs to a layer, a core to a cover: the table has these first */
+        for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
+            if (!rb_case_given(c, copies[k].of_b) &&
+                (strncmp(copies[k].of_b, "base", 4) != 0 || b->layer > 0.0) &&
+                (strncmp(copies[k].of_b, "core", 4) != 0 || b->cover > 0.0))
+                memcpy((char *)rc + copies[k].to, (char *)rc + copies[k].from,
+                       sizeof(double));
+        if (!rb_case_given(c, "relaxation-time-b") &&
+            !rb_case_given(c, "relaxation-ratio-b"))
+            c->resolved.memory_b = c->resolved.memory_a;
+    }
     rc->b.young = s->similar ? rc->a.young : s->young_b;
     rc->b.poisson = s->similar || isnan(s->poisson_b) ? rc->a.poisson : s->poisson_b;
     rc->b.radius = s->radius_b;

@@ -168,28 +168,6 @@ static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
     }
 }
 
-/* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
-static void set_loading(const rb_io_contact_case *in, double width, double sign,
-                        rb_rolling_case *rc)
-{
-    static const rb_rolling_formulation formulations[] = {RB_STATIC, RB_STATIC,
-                                                          RB_TRANSIENT, RB_STEADY};
-    const double tangential = sign * in->tangential;
-    rc->formulation = formulations[in->digit.T];
-    if (in->digit.N == 1)
-        rc->load = in->normal / width;
-    else
-        rc->approach = in->normal;
-    if (in->digit.T == 0)
-        rc->shift = 0.0;
-    else if (in->digit.F > 0)
-        rc->force_ratio = tangential;
-    else if (in->digit.T >= 2)
-        rc->creep = tangential;
-    else
-        rc->shift = tangential;
-}
-
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
 {
     memset(c, 0, sizeof *c);
@@ -217,7 +195,23 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
         c->centre = in->base == 2 ? in->centre : 0.0 - 0.5 * in->b[3] / in->b[0];
     }
     set_friction(in, c);
-    set_loading(in, c->width, c->sign, &c->rc);
+    /* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
+    static const rb_rolling_formulation formulations[] = {RB_STATIC, RB_STATIC,
+                                                          RB_TRANSIENT, RB_STEADY};
+    const double tangential = c->sign * in->tangential;
+    c->rc.formulation = formulations[in->digit.T];
+    if (in->digit.N == 1)
+        c->rc.load = in->normal / c->width;
+    else
+        c->rc.approach = in->normal;
+    if (in->digit.T == 0)
+        c->rc.shift = 0.0;
+    else if (in->digit.F > 0)
+        c->rc.force_ratio = tangential;
+    else if (in->digit.T >= 2)
+        c->rc.creep = tangential;
+    else
+        c->rc.shift = tangential;
     /* M = 4: a layer of compliance LAYTHK/GG3 and yields at TAU_C0, which neither 0 nor
      * more than 1e10 does. */
     if (in->digit.M == 4) {

@@ -204,14 +204,6 @@ typedef struct {
     rb_rolling_states states; /* of a sequence of steps */
 } load_track;
 
-static void track_free(load_track *t)
-{
-    free(t->x);
-    free(t->load);
-    free(t->ends);
-    rb_rolling_states_free(&t->states);
-}
-
 /* A run that starts again on a wider zone calls this with step 0 again. */
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
                      int step, int steps, void *context)
@@ -414,7 +406,10 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         note_end_of_growth(c->units, r);
     }
     rb_crack_free(crack);
-    track_free(&t);
+    free(t.x);
+    free(t.load);
+    free(t.ends);
+    rb_rolling_states_free(&t.states);
     return s;
 }
 

@@ -315,17 +315,6 @@ static void within(const rb_case_parameter *of, double *x)
               of->high - (of->high_open ? inside : 0.0));
 }
 
-/* A bound that the sum of squares presses against holds a parameter. */
-static int is_held(const problem *p, const double *theta, int j)
-{
-    const rb_case_parameter *of = &p->fit->parameter[j];
-    const double down = dot(p->points, column(p, j), p->f);
-    const double near = 1e-8 * of->scale;
-
-    return (theta[j] <= of->low + near && down > 0.0) ||
-           (theta[j] >= of->high - near && down < 0.0);
-}
-
 /* What GSL's solver asks at x, in the scales of the parameters; known: f and J of x. */
 typedef struct {
     problem *p;
@@ -382,7 +371,13 @@ static int rows(const gsl_vector *x, void *context, gsl_matrix *J)
     if (at->status != RB_OK || !(at->chi2 < INFINITY))
         return GSL_EFAILED;
     for (int j = 0; j < p->n; j++) {
-        const int held = is_held(p, at->theta, j);
+        /* A bound that the sum of squares presses against holds a parameter. */
+        const rb_case_parameter *of = &p->fit->parameter[j];
+        const double down = dot(p->points, column(p, j), p->f);
+        const double near = 1e-8 * of->scale;
+
+        const int held = (at->theta[j] <= of->low + near && down > 0.0) ||
+                         (at->theta[j] >= of->high - near && down < 0.0);
         for (int k = 0; k < p->points; k++)
             gsl_matrix_set(J, (size_t)k, (size_t)j,
                            held ? 0.0
@@ -599,17 +594,6 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* |Q/P| of a point, as well as it is known before the fit. */
-static double ratio_of(const problem *p, int k)
-{
-    const rb_resolved_case *c = &p->c->resolved;
-    const double P = p->data->load ? p->data->load[k] : c->derived.load;
-
-    return fabs(p->data->force[k]) * (p->data->measure == RB_CASE_FORCE         ? 1.0 / P
-                                      : p->data->measure == RB_CASE_FORCE_RATIO ? c->rc.mu
-                                                                                : 1.0);
-}
-
 /* What the data themselves say: the largest force, the last one, the first slope, where
  * the force is 0. */
 static double start_of(const problem *p, const char *name)
@@ -623,7 +607,15 @@ static double start_of(const problem *p, const char *name)
     for (int j = 0; j < p->n; j++)
         falls |= strcmp(p->fit->parameter[j].name, "mu-fall") == 0;
     for (int k = 0; k < p->points; k++) {
-        const double xi = fabs(d->creep[k]), f = ratio_of(p, k);
+        /* |Q/P| of a point, as well as it is known before the fit. */
+        const rb_resolved_case *c = &p->c->resolved;
+        const double P = p->data->load ? p->data->load[k] : c->derived.load;
+
+        const double xi = fabs(d->creep[k]),
+                     f = fabs(p->data->force[k]) *
+                         (p->data->measure == RB_CASE_FORCE         ? 1.0 / P
+                          : p->data->measure == RB_CASE_FORCE_RATIO ? c->rc.mu
+                                                                    : 1.0);
         most = fmax(most, f);
         if (xi >= far) {
             far = xi;

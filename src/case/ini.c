@@ -81,21 +81,6 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
                                                                             : RB_EFORMAT;
 }
 
-/* The file's numbers are in its own units, whatever an argument wants to see. */
-static rb_status set_units(const ini_state *st, const rb_option_set *set, int i,
-                           const char *value)
-{
-    const int before = set->given[i];
-    const rb_units shown = st->c->words.units;
-    const rb_status s = set_value(st, set, i, value);
-    st->c->file_units = st->c->words.units;
-    if (before == RB_GIVEN_ARGUMENT) {
-        st->c->words.units = shown;
-        set->given[i] = before;
-    }
-    return s;
-}
-
 static rb_status set_key(const ini_state *st, const char *section, const char *name,
                          const char *value)
 {
@@ -116,8 +101,18 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
         return rb_fail(st->why, RB_EFORMAT,
                        "%s:%d: key '%s' was given before, in line %d", st->path, st->line,
                        name, before);
-    if (strcmp(name, "units") == 0)
-        return set_units(st, set, i, value);
+    if (strcmp(name, "units") == 0) {
+        /* The file's numbers are in its own units, whatever an argument wants to see. */
+        const int former = set->given[i];
+        const rb_units shown = st->c->words.units;
+        const rb_status s = set_value(st, set, i, value);
+        st->c->file_units = st->c->words.units;
+        if (former == RB_GIVEN_ARGUMENT) {
+            st->c->words.units = shown;
+            set->given[i] = former;
+        }
+        return s;
+    }
     return before == RB_GIVEN_ARGUMENT ? RB_OK : set_value(st, set, i, value);
 }
 

@@ -217,7 +217,7 @@ static const char *choice_name(const rb_option *o, const char *target)
     return o->path ? *(const char *const *)(target + o->path) : "";
 }
 
-const char *rb_option_text(const rb_option *o, const void *target, char room[64])
+const char *rb_option_text(const rb_option *o, const void *target, char buffer[64])
 {
     const void *place = (const char *)target + o->offset;
     switch (o->kind) {
@@ -227,12 +227,12 @@ const char *rb_option_text(const rb_option *o, const void *target, char room[64]
             return o->word;
         if (isnan(v))
             return "";
-        rb_format(room, 64, "%.15g", v);
-        return room;
+        rb_format(buffer, 64, "%.15g", v);
+        return buffer;
     }
     case RB_OPTION_INTEGER:
-        snprintf(room, 64, "%d", *(const int *)place);
-        return room;
+        snprintf(buffer, 64, "%d", *(const int *)place);
+        return buffer;
     case RB_OPTION_CHOICE:
         return choice_name(o, target);
     case RB_OPTION_FLAG:

@@ -97,15 +97,6 @@ typedef struct {
     double tau[TAUS], *rho;
 } comparison;
 
-static void comparison_free(comparison *c)
-{
-    free(c->solver);
-    free(c->names);
-    free(c->file);
-    free(c->result);
-    free(c->rho);
-}
-
 /* ---- Which solvers ----------------------------------------------------------------- */
 
 static cli_exit add_solver(comparison *c, const char *name)
@@ -358,7 +349,11 @@ int cli_compare(int argc, char **argv)
         code = choose_solvers(&c);
     if (code == CLI_CONTINUE)
         code = compare_files(&c, args.operands, args.operand);
-    comparison_free(&c);
+    free(c.solver);
+    free(c.names);
+    free(c.file);
+    free(c.result);
+    free(c.rho);
     cli_args_free(&args);
     return code;
 }

@@ -9,11 +9,11 @@
 #include <string.h>
 
 /* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name. */
-static const char *command_of(const cli_spec *spec, char room[24])
+static const char *command_of(const cli_spec *spec, char buffer[24])
 {
-    if (sscanf(spec->synopsis, "rollbem %23[a-z]", room) != 1)
-        room[0] = '\0';
-    return room;
+    if (sscanf(spec->synopsis, "rollbem %23[a-z]", buffer) != 1)
+        buffer[0] = '\0';
+    return buffer;
 }
 
 static int is_option(const rb_option *o)

@@ -33,32 +33,11 @@ void cli_option_metavar(const rb_option *o, char *text, size_t size)
     }
 }
 
-/* Words of text from column on, broken before WIDTH. */
-static void print_wrapped(const char *text, int column, int indent)
-{
-    int at = column;
-    while (*text) {
-        const int n = (int)strcspn(text, " \n");
-        if (at > indent && at + 1 + n > WIDTH) {
-            printf("\n%*s", indent, "");
-            at = indent;
-        } else if (at > column) {
-            putchar(' ');
-            at++;
-        }
-        printf("%.*s", n, text);
-        at += n;
-        text += n;
-        text += strspn(text, " \n");
-    }
-    putchar('\n');
-}
-
 void cli_option_text(const rb_option *o, const void *target, char *text, size_t size)
 {
-    char room[64], expected[200];
+    char buffer[64], expected[200];
     const int numeric = o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER;
-    const char *shown = o->unset ? o->unset : rb_option_text(o, target, room);
+    const char *shown = o->unset ? o->unset : rb_option_text(o, target, buffer);
     const char *range = "";
     if (numeric) {
         const char *whole = rb_option_expected(o, expected, sizeof expected);
@@ -79,7 +58,23 @@ void cli_print_entry(const char *name, const char *text)
         printf("\n%*s", NAME_COLUMN, "");
     else
         printf("%*s", NAME_COLUMN - n, "");
-    print_wrapped(text, NAME_COLUMN, NAME_COLUMN);
+    /* Words of text from column on, broken before WIDTH. */
+    int at = NAME_COLUMN;
+    while (*text) {
+        const int length = (int)strcspn(text, " \n");
+        if (at > NAME_COLUMN && at + 1 + length > WIDTH) {
+            printf("\n%*s", NAME_COLUMN, "");
+            at = NAME_COLUMN;
+        } else if (at > NAME_COLUMN) {
+            putchar(' ');
+            at++;
+        }
+        printf("%.*s", length, text);
+        at += length;
+        text += length;
+        text += strspn(text, " \n");
+    }
+    putchar('\n');
 }
 
 FILE *cli_open_pager(void)

@@ -296,20 +296,6 @@ static rb_status write_problem(const wall_run *run, int rank, int step, rb_messa
     return s;
 }
 
-static cli_exit write_problems(const wall_run *run)
-{
-    int chosen[75];
-    rb_message why = {""};
-    const int solved = run->steps - 1; /* the first step, under the weight, is none */
-    const int count = run->o->problems < solved ? run->o->problems : solved;
-    rb_status s = rb_io_make_folder(run->o->output, &why);
-    if (s == RB_OK && count > 0)
-        s = rb_fem_wall_select(run->wall, count, chosen);
-    for (int k = 0; s == RB_OK && k < count; k++)
-        s = write_problem(run, k + 1, chosen[k], &why);
-    return s == RB_OK ? CLI_OK : cli_say(s, &why);
-}
-
 static int is_interrupted(void *context)
 {
     (void)context;
@@ -339,7 +325,28 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
     return s == RB_OK ? CLI_OK : cli_say(s, &why);
 }
 
-static rb_fem_wall_options wall_options(const example_options *o)
+static cli_exit finish_wall(const wall_run *run)
+{
+    const example_options *o = run->o;
+    cli_exit code = cli_write_file(NULL, write_wall, run);
+    if (code == CLI_OK)
+        code = cli_draw_file(&o->pictures, "plot", o->plot, draw_wall, run);
+    if (code == CLI_OK && o->output) {
+        int chosen[75];
+        rb_message why = {""};
+        const int solved = run->steps - 1; /* the first step, under the weight, is none */
+        const int count = run->o->problems < solved ? run->o->problems : solved;
+        rb_status s = rb_io_make_folder(run->o->output, &why);
+        if (s == RB_OK && count > 0)
+            s = rb_fem_wall_select(run->wall, count, chosen);
+        for (int k = 0; s == RB_OK && k < count; k++)
+            s = write_problem(run, k + 1, chosen[k], &why);
+        code = s == RB_OK ? CLI_OK : cli_say(s, &why);
+    }
+    return code;
+}
+
+static cli_exit run_wall(const example_options *o)
 {
     static const int fine[2][3] = {{4, 3, 3}, {8, 6, 3}},
                      coarse[2][3] = {{3, 2, 3}, {4, 3, 3}};
@@ -351,42 +358,21 @@ static rb_fem_wall_options wall_options(const example_options *o)
     w.rigid = o->rigid;
     w.dt = o->step;
     w.stopped = is_interrupted;
-    return w;
-}
-
-static cli_exit finish_wall(const wall_run *run)
-{
-    const example_options *o = run->o;
-    cli_exit code = cli_write_file(NULL, write_wall, run);
-    if (code == CLI_OK)
-        code = cli_draw_file(&o->pictures, "plot", o->plot, draw_wall, run);
-    if (code == CLI_OK && o->output)
-        code = write_problems(run);
-    return code;
-}
-
-static void introduce(const rb_fem_wall *wall)
-{
-    const int contacts = rb_fem_wall_contacts(wall);
-    int rank;
-    fprintf(stderr, "wall: %d contact points, %d degrees of freedom", contacts,
-            rb_fem_wall_dofs(wall));
-    if (rb_fem_wall_rank(wall, &rank) == RB_OK)
-        fprintf(stderr, ", H has rank %d: %d times hyperstatic", rank,
-                3 * contacts - rank);
-    fputs("\n", stderr);
-}
-
-static cli_exit run_wall(const example_options *o)
-{
-    const rb_fem_wall_options w = wall_options(o);
     wall_run run = {.o = o};
     rb_message why = {""};
     const rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
-    if (!o->quiet)
-        introduce(run.wall);
+    if (!o->quiet) {
+        const int contacts = rb_fem_wall_contacts(run.wall);
+        int rank;
+        fprintf(stderr, "wall: %d contact points, %d degrees of freedom", contacts,
+                rb_fem_wall_dofs(run.wall));
+        if (rb_fem_wall_rank(run.wall, &rank) == RB_OK)
+            fprintf(stderr, ", H has rank %d: %d times hyperstatic", rank,
+                    3 * contacts - rank);
+        fputs("\n", stderr);
+    }
     run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
     cli_exit code =
         run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");

@@ -143,12 +143,12 @@ static int is_json(const lcp_options *o)
 
 /* ---- Trace ------------------------------------------------------------------------ */
 
-static const char *variable(int n, int v, char room[24])
+static const char *variable(int n, int v, char buffer[24])
 {
     if (v == 2 * n)
         return "z0";
-    snprintf(room, 24, "%c(%d)", v < n ? 'w' : 'z', v % n + 1);
-    return room;
+    snprintf(buffer, 24, "%c(%d)", v < n ? 'w' : 'z', v % n + 1);
+    return buffer;
 }
 
 static void trace(const rb_lcp_pivot *p, void *context)

@@ -70,12 +70,6 @@ typedef struct {
     json_t *limits;     /* what it does not take */
 } built_page;
 
-static void free_page(built_page *p)
-{
-    free(p->text);
-    json_decref(p->limits);
-}
-
 /* The caller frees it, also after a refusal. */
 static cli_exit read_page(const char *given, built_page *p)
 {
@@ -121,7 +115,7 @@ static cli_exit refuse_beyond(rb_case *c, const json_t *limits)
     const json_t *left_out = json_object_get(limits, "left_out");
     const json_t *largest = json_object_get(limits, "largest");
     const rb_option_set set = rb_case_options(c);
-    char room[64];
+    char buffer[64];
     for (int k = 0; k < set.n; k++) {
         const char *name = set.options[k].name;
         if (set.options[k].kind == RB_OPTION_GROUP || !rb_case_given(c, name))
@@ -133,7 +127,7 @@ static cli_exit refuse_beyond(rb_case *c, const json_t *limits)
                                 name);
         }
         const json_t *most = json_object_get(largest, name);
-        const char *text = rb_option_text(&set.options[k], set.target, room);
+        const char *text = rb_option_text(&set.options[k], set.target, buffer);
         if (most && strtod(text, NULL) > json_number_value(most))
             return cli_fail(CLI_USAGE,
                             "--%s: the page goes up to %g, use the program for %s", name,
@@ -171,13 +165,13 @@ static cli_exit fill_page(rb_case *c, const page_options *o)
         /* The options that are given, name by name, as text of a case file. */
         const rb_option_set set = rb_case_options(c);
         json_t *all = json_object();
-        char room[64];
+        char buffer[64];
         for (int k = 0; k < set.n; k++)
             if (set.options[k].kind != RB_OPTION_GROUP &&
                 rb_case_given(c, set.options[k].name))
                 rb_report_json_set(
                     &all, set.options[k].name,
-                    json_string(rb_option_text(&set.options[k], set.target, room)));
+                    json_string(rb_option_text(&set.options[k], set.target, buffer)));
         char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
         const filled_page p = {page.text, page.place, carried};
         code = carried ? cli_write_file(o->output, write_page, &p)
@@ -185,7 +179,8 @@ static cli_exit fill_page(rb_case *c, const page_options *o)
         free(carried);
         json_decref(all);
     }
-    free_page(&page);
+    free(page.text);
+    json_decref(page.limits);
     return code;
 }
 

@@ -52,18 +52,6 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
     return s;
 }
 
-/* A run that starts again on a wider zone has other steps. */
-static void remove_snapshots(watch *w)
-{
-    for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
-        char *path = name_snapshot(w->steps->snapshots, step, &w->steps->style);
-        if (path)
-            remove(path);
-        free(path);
-    }
-    w->written = 0;
-}
-
 /* Of this step; a run that starts again may have other elements. */
 static rb_status keep_state(const rb_rolling_model *model, int step, int steps,
                             rb_rolling_states *states, rb_message *why)
@@ -104,8 +92,16 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
             }
         }
     }
-    if (step == 0 && w->written > 0)
-        remove_snapshots(w);
+    if (step == 0 && w->written > 0) {
+        /* A run that starts again on a wider zone has other steps. */
+        for (int k = w->steps->every; k <= w->written; k += w->steps->every) {
+            char *path = name_snapshot(w->steps->snapshots, k, &w->steps->style);
+            if (path)
+                remove(path);
+            free(path);
+        }
+        w->written = 0;
+    }
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps)) {
         rb_rolling_solution solution = {0};
         rb_status s = rb_rolling_model_solution(model, &solution, w->why);

@@ -68,11 +68,11 @@ static int bodies_vary(const study *st)
 }
 
 /* "error_max_pressure" of an error bar. */
-static const char *name_of(const study_result *result, char room[STUDY_HEADING])
+static const char *name_of(const study_result *result, char buffer[STUDY_HEADING])
 {
-    snprintf(room, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
+    snprintf(buffer, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
              result->r->name);
-    return room;
+    return buffer;
 }
 
 typedef rb_status see_picture(const rb_report_study *picture, const void *context,

@@ -105,18 +105,6 @@ static const char notes[] = CLI_CASE_NOTES
     "           --vary-1 'crack-length 0.5:2:7' --vary-2 'crack-angle 20:70:11' \\\n"
     "           --map K.png --show K_II_max\n";
 
-static void study_free(study *st)
-{
-    for (int k = 0; k < VARIED_MAX; k++)
-        free(st->owned[k]);
-    rb_io_table_free(&st->table);
-    free(st->drawn);
-    free(st->sampled);
-    rb_case_slopes_free(&st->slopes);
-    json_decref(st->list);
-    rb_case_free(st->one);
-}
-
 /* ---- Rows -------------------------------------------------------------------------- */
 
 /* Of every input and of the columns: tells whether a file holds rows of this study. */
@@ -129,10 +117,10 @@ static cli_exit find_fingerprint(study *st)
         return cli_say(s, &why);
     hash = rb_hash(hash, RB_VERSION, sizeof RB_VERSION);
     for (int k = 0; k < st->cracks->n && st->has_crack; k++) {
-        char room[64];
+        char buffer[64];
         const rb_option *o = &st->cracks->options[k];
         const char *text =
-            o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, room);
+            o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, buffer);
         hash = rb_hash(hash, text, strlen(text));
     }
     for (int k = 0; k < st->columns; k++) {
@@ -169,16 +157,6 @@ typedef struct {
     int of[2];
 } study_tables;
 
-static study_tables tables_of(const study *st)
-{
-    return st->has_crack
-               ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
-                                {OF_CRACK, OF_SOLUTION}}
-               : (study_tables){
-                     {&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
-                     {OF_SOLUTION, OF_STRESS}};
-}
-
 /* The contact of a crack has no error bars of its own. */
 static int has_error_bar(const study *st, const study_result *of)
 {
@@ -197,7 +175,12 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     const int bar = strncmp(name, "error_", 6) == 0;
     const char *own = bar ? name + 6 : name;
     rb_guess guess = {.word = own};
-    const study_tables from = tables_of(st);
+    const study_tables from =
+        st->has_crack
+            ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
+                             {OF_CRACK, OF_SOLUTION}}
+            : (study_tables){{&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
+                             {OF_SOLUTION, OF_STRESS}};
     if (bar && !rb_case_resolved(st->base)->error)
         return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
     for (int t = 0; t < 2; t++)
@@ -221,27 +204,6 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
 }
 
-/* The next of --results, whose name ends at *at. */
-static cli_exit choose_next(study *st, const char **at)
-{
-    char name[STUDY_HEADING];
-    const size_t n = strcspn(*at, ","), most = sizeof name - 1;
-    snprintf(name, sizeof name, "%.*s", (int)(n < most ? n : most), *at);
-    *at += n + ((*at)[n] == ',');
-    return choose_by_name(st, "results", name);
-}
-
-/* Not every body's stress is known; what else is wrong is known with the first case. */
-static cli_exit check_stress(const study *st)
-{
-    rb_message why = {""};
-    const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
-    for (int k = 0; k < st->results; k++)
-        if (st->result[k].of == OF_STRESS && s != RB_OK)
-            return cli_case_refused(st->one, s, &why);
-    return CLI_CONTINUE;
-}
-
 /* Those of the crack, or those that the cases have and no option names, then those of
  * --results and --show, then the error bars of all. */
 static cli_exit choose_results(study *st)
@@ -257,8 +219,14 @@ static cli_exit choose_results(study *st)
         if (rb_rolling_has_result(r, &one->rc) &&
             !is_given(st, rb_rolling_heading(r, one->units, heading)))
             choose(st, (study_result){r, OF_SOLUTION, 0});
-    for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
-        code = choose_next(st, &at);
+    for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;) {
+        /* The next of --results, whose name ends at *at. */
+        char name[STUDY_HEADING];
+        const size_t n = strcspn(at, ","), most = sizeof name - 1;
+        snprintf(name, sizeof name, "%.*s", (int)(n < most ? n : most), at);
+        at += n + (at[n] == ',');
+        code = choose_by_name(st, "results", name);
+    }
     if (code == CLI_CONTINUE && cli_study_has_pictures(st)) {
         const char *shown = cli_study_shown(st);
         code = is_given(st, shown)
@@ -280,7 +248,16 @@ static cli_exit choose_results(study *st)
                                   &why) != RB_OK)
             code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     }
-    return code == CLI_CONTINUE ? check_stress(st) : code;
+    /* Not every body's stress is known; what else is wrong is known with the first case.
+     */
+    if (code != CLI_CONTINUE)
+        return code;
+    rb_message why = {""};
+    const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
+    for (int k = 0; k < st->results; k++)
+        if (st->result[k].of == OF_STRESS && s != RB_OK)
+            return cli_case_refused(st->one, s, &why);
+    return CLI_CONTINUE;
 }
 
 /* Columns: the number of the case, what varies, the status, the results, derivatives. */
@@ -879,7 +856,14 @@ int cli_sweep(int argc, char **argv)
     }
     code = solve(&st, prepare(&spec, argc, argv, c, &args, &st));
     cli_pool_end();
-    study_free(&st);
+    for (int k = 0; k < VARIED_MAX; k++)
+        free(st.owned[k]);
+    rb_io_table_free(&st.table);
+    free(st.drawn);
+    free(st.sampled);
+    rb_case_slopes_free(&st.slopes);
+    json_decref(st.list);
+    rb_case_free(st.one);
     cli_args_free(&args);
     rb_case_free(c);
     return code;

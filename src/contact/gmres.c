@@ -19,22 +19,22 @@ typedef struct {
     int size;
     double *image[BORDERS];          /* A~^-1 B; owned */
     double schur[BORDERS * BORDERS]; /* -C A~^-1 B */
-    double **basis;                  /* of the room, as work */
+    double **basis;                  /* of the scratch, as work */
     double *work;
-    size_t room;
+    size_t length; /* of a vector */
 } solver;
 
-static rb_status make_solver(const rb_contact_linear *l, rb_contact_gmres_room *room,
-                             solver *s)
+static rb_status make_solver(const rb_contact_linear *l,
+                             rb_contact_gmres_scratch *scratch, solver *s)
 {
-    if (!room->work)
-        room->work = rb_alloc(room->size, 1);
+    if (!scratch->work)
+        scratch->work = rb_alloc(scratch->size, 1);
     *s = (solver){.l = l,
                   .size = l->inner + l->borders,
-                  .basis = room->basis,
-                  .work = room->work,
-                  .room = room->size};
-    if (!room->work)
+                  .basis = scratch->basis,
+                  .work = scratch->work,
+                  .length = scratch->size};
+    if (!scratch->work)
         return RB_ENOMEM;
     for (int k = 0; k < l->borders; k++) {
         s->image[k] = rb_alloc((size_t)s->size, 1);
@@ -92,7 +92,7 @@ static double *basis_vector(const solver *s, int j)
 {
     double **v = &s->basis[j];
     if (!*v)
-        *v = malloc(s->room * sizeof **v);
+        *v = malloc(s->length * sizeof **v);
     return *v;
 }
 
@@ -179,12 +179,12 @@ static rb_status cycle(const solver *s, const double *b, double tolerance,
     return RB_OK;
 }
 
-rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_room *room,
-                           const double *b, double *x)
+rb_status rb_contact_gmres(const rb_contact_linear *linear,
+                           rb_contact_gmres_scratch *scratch, const double *b, double *x)
 {
     solver s;
     least_squares *q = malloc(sizeof *q);
-    rb_status status = make_solver(linear, room, &s);
+    rb_status status = make_solver(linear, scratch, &s);
     const double rounding = 2.0 * DBL_EPSILON * cblas_dnrm2(s.size, b, 1);
     const double tolerance = fmax(TOLERANCE, rounding);
     double before = INFINITY, residual = INFINITY;
@@ -203,9 +203,9 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_roo
     return status;
 }
 
-void rb_contact_gmres_free(rb_contact_gmres_room *room)
+void rb_contact_gmres_free(rb_contact_gmres_scratch *scratch)
 {
     for (int j = 0; j <= BASIS; j++)
-        free(room->basis[j]);
-    free(room->work);
+        free(scratch->basis[j]);
+    free(scratch->work);
 }

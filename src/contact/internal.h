@@ -87,13 +87,13 @@ typedef struct {
     size_t size;                         /* largest number of unknowns */
     double *basis[RB_CONTACT_BASIS + 1]; /* allocated on demand; owned, like work */
     double *work;
-} rb_contact_gmres_room;
-void rb_contact_gmres_free(rb_contact_gmres_room *room);
+} rb_contact_gmres_scratch;
+void rb_contact_gmres_free(rb_contact_gmres_scratch *scratch);
 
 /* GMRES with start x.  RB_OK also if the residual no longer decreases: either it is at
  * rounding level, or the residual of the whole problem shows the error.  RB_ENOMEM. */
-rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_room *room,
-                           const double *b, double *x);
+rb_status rb_contact_gmres(const rb_contact_linear *linear,
+                           rb_contact_gmres_scratch *scratch, const double *b, double *x);
 
 /* ---- operator.c: what every kind has ----------------------------------------------- */
 

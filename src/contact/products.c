@@ -14,7 +14,7 @@ typedef struct {
     rb_contact_products by;
     double *r;    /* 2n: tractions of one product; owned, as the rest */
     double *line; /* n: what is preconditioned */
-    rb_contact_gmres_room room;
+    rb_contact_gmres_scratch scratch;
 } products;
 
 static products *of(const rb_contact_problem *p)
@@ -27,7 +27,7 @@ static void products_free(rb_contact_operator *op)
     products *k = (products *)op;
 
     k->by.free(k->by.context);
-    rb_contact_gmres_free(&k->room);
+    rb_contact_gmres_free(&k->scratch);
     free(k->r);
     free(k->line);
     free(k);
@@ -55,7 +55,7 @@ typedef struct {
     const int *zone;
 } system_of;
 
-/* Tractions of the unknowns into the room for products. */
+/* Tractions of the unknowns into the scratch for products. */
 static void scatter(const system_of *s, const double *x)
 {
     const rb_contact_problem *p = s->p;
@@ -184,7 +184,7 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
     rb_contact_reduced_clear(p, r, state);
     rb_contact_reduced_right_side(p, state, r);
     if (r->size > 0) {
-        s = rb_contact_gmres(&linear, &of(p)->room, r->x, r->start);
+        s = rb_contact_gmres(&linear, &of(p)->scratch, r->x, r->start);
         if (s == RB_OK)
             memcpy(r->x, r->start, (size_t)r->size * sizeof *r->x);
     }
@@ -194,7 +194,7 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
 static rb_status products_gmres(rb_contact_operator *op, const rb_contact_linear *linear,
                                 const double *b, double *x)
 {
-    return rb_contact_gmres(linear, &((products *)op)->room, b, x);
+    return rb_contact_gmres(linear, &((products *)op)->scratch, b, x);
 }
 
 static void products_precondition(rb_contact_operator *op, rb_contact_inverse of,
@@ -229,7 +229,7 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *by,
     k->by = *by;
     k->r = rb_alloc((size_t)n, 2);
     k->line = rb_alloc((size_t)n, 1);
-    k->room.size = 2 * (size_t)n + 2;
+    k->scratch.size = 2 * (size_t)n + 2;
     if (!k->r || !k->line) {
         products_free(&k->base);
         return RB_ENOMEM;

@@ -34,7 +34,7 @@ typedef struct {
     int *at_p, *at_q;                /* n: number of the unknown, or -1 */
     int inner, size;                 /* unknowns: pressures and frictions; delta, xi */
     double *gap, *yielded, *control; /* n, n, 2n: the row of the given force */
-    motion room;
+    motion scratch;
     rb_contact_operator *by; /* whose products solve; NULL: the matrices; borrowed */
 } laws;
 
@@ -44,7 +44,7 @@ static void laws_free(laws *k)
     free(k->sign);
     free(k->at_p);
     free(k->gap);
-    free(k->room.p);
+    free(k->scratch.p);
 }
 
 static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
@@ -56,17 +56,17 @@ static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
                 .sign = rb_alloc(n, 1),
                 .at_p = calloc(2 * n, sizeof(int)),
                 .gap = rb_alloc(n, 4),
-                .room = {.p = rb_alloc(n, 4)}};
-    if (!k->law || !k->sign || !k->at_p || !k->gap || !k->room.p) {
+                .scratch = {.p = rb_alloc(n, 4)}};
+    if (!k->law || !k->sign || !k->at_p || !k->gap || !k->scratch.p) {
         laws_free(k);
         return RB_ENOMEM;
     }
     k->at_q = k->at_p + n;
     k->yielded = k->gap + n;
     k->control = k->yielded + n;
-    k->room.q = k->room.p + n;
-    k->room.gap = k->room.q + n;
-    k->room.lambda = k->room.gap + n;
+    k->scratch.q = k->scratch.p + n;
+    k->scratch.gap = k->scratch.q + n;
+    k->scratch.lambda = k->scratch.gap + n;
     if (p->force_given)
         rb_contact_force_row(p, k->control, k->control + n);
     return RB_OK;
@@ -167,7 +167,7 @@ static void control_rows(const laws *k, const motion *m, int constants, double *
              rb_contact_force_scale(p);
 }
 
-/* Tractions of the unknowns x, which the motion has room for; no motion. */
+/* Tractions of the unknowns x, which the motion has scratch for; no motion. */
 static void set_tractions(const laws *k, const double *x, motion *m)
 {
     const rb_contact_problem *p = k->p;
@@ -197,7 +197,7 @@ static void add_borders(const laws *k, const double *border, motion *m)
 static void multiply(const void *of_laws, const double *x, double *y)
 {
     const laws *k = of_laws;
-    motion m = k->room;
+    motion m = k->scratch;
 
     set_tractions(k, x, &m);
     rb_contact_operator_add(k->by, m.p, m.q, m.gap, m.lambda);
@@ -209,7 +209,7 @@ static void multiply(const void *of_laws, const double *x, double *y)
 static void border_rows(const void *of_laws, const double *x, double *y)
 {
     const laws *k = of_laws;
-    motion m = k->room;
+    motion m = k->scratch;
 
     set_tractions(k, x, &m);
     control_rows(k, &m, 0, y);
@@ -220,7 +220,7 @@ static void border_column(const void *of_laws, int column, double *y)
     const laws *k = of_laws;
     const size_t bytes = (size_t)k->p->n * sizeof(double);
     double border[2] = {0.0, 0.0};
-    motion m = k->room;
+    motion m = k->scratch;
 
     border[column] = 1.0;
     memset(m.p, 0, 4 * bytes);
@@ -236,7 +236,7 @@ static void precondition(const void *of_laws, const double *b, double *x)
     const rb_contact_problem *p = k->p;
     const rb_contact_kind *kind = k->by->kind;
     const double friction = rb_contact_friction_scale(p);
-    double *line = k->room.p;
+    double *line = k->scratch.p;
     const size_t bytes = (size_t)p->n * sizeof *line;
 
     memset(line, 0, bytes);
@@ -279,7 +279,7 @@ static rb_status solve_by_matrix(const laws *k, double *x)
         const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
         const size_t n = (size_t)p->n, bytes = n * sizeof(double);
         const int length = p->n;
-        motion m = k->room;
+        motion m = k->scratch;
 
         memset(m.p, 0, 2 * bytes);
         for (int i = 0; i < length; i++)
@@ -353,7 +353,7 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
 static rb_status solve_laws(laws *k, rb_contact_state *state)
 {
     const rb_contact_problem *p = k->p;
-    motion m = k->room;
+    motion m = k->scratch;
 
     k->inner = 0;
     for (int i = 0; i < p->n; i++)

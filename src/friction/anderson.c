@@ -33,24 +33,6 @@ void rb_friction_anderson_free(rb_friction_anderson *a)
     *a = (rb_friction_anderson){0};
 }
 
-/* The differences to the step before take the oldest place; gram: df' df. */
-static void push(rb_friction_anderson *a, const double *start, const double *r,
-                 const double *u)
-{
-    const size_t m = (size_t)a->m, at = (size_t)a->next * m;
-    for (size_t k = 0; k < m; k++) {
-        a->df[at + k] = r[k] - start[k] - a->f[k];
-        a->dr[at + k] = r[k] - a->r[k];
-        a->du[at + k] = u[k] - a->u[k];
-    }
-    if (a->used < DEPTH)
-        a->used++;
-    for (int i = 0; i < a->used; i++)
-        a->gram[i][a->next] = a->gram[a->next][i] =
-            rb_friction_dot(m, a->df + (size_t)i * m, a->df + at);
-    a->next = (a->next + 1) % DEPTH;
-}
-
 /* x: the solution of gram x = x, by Cholesky; 0 where it has no pivot left. */
 static int solve_normal_equations(const rb_friction_anderson *a, double *x)
 {
@@ -79,25 +61,6 @@ static int solve_normal_equations(const rb_friction_anderson *a, double *x)
     return 1;
 }
 
-static void extrapolate(rb_friction_anderson *a, double *r, double *u)
-{
-    const size_t m = (size_t)a->m;
-    double weight[DEPTH];
-    for (int i = 0; i < a->used; i++)
-        weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
-    if (!solve_normal_equations(a, weight)) {
-        a->used = a->next = 0;
-        return;
-    }
-    for (int i = 0; i < a->used; i++) {
-        const double *dr = a->dr + (size_t)i * m, *du = a->du + (size_t)i * m;
-        for (size_t k = 0; k < m; k++) {
-            r[k] -= weight[i] * dr[k];
-            u[k] -= weight[i] * du[k];
-        }
-    }
-}
-
 void rb_friction_anderson_forget(rb_friction_anderson *a)
 {
     a->used = a->next = a->known = 0;
@@ -114,14 +77,41 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
         rb_friction_anderson_forget(a);
         return;
     }
-    if (a->known)
-        push(a, start, r, u);
+    if (a->known) {
+        /* The differences to the step before take the oldest place; gram: df' df. */
+        const size_t at = (size_t)a->next * m;
+        for (size_t k = 0; k < m; k++) {
+            a->df[at + k] = r[k] - start[k] - a->f[k];
+            a->dr[at + k] = r[k] - a->r[k];
+            a->du[at + k] = u[k] - a->u[k];
+        }
+        if (a->used < DEPTH)
+            a->used++;
+        for (int i = 0; i < a->used; i++)
+            a->gram[i][a->next] = a->gram[a->next][i] =
+                rb_friction_dot(m, a->df + (size_t)i * m, a->df + at);
+        a->next = (a->next + 1) % DEPTH;
+    }
     for (size_t k = 0; k < m; k++)
         a->f[k] = r[k] - start[k];
     memcpy(a->r, r, bytes);
     memcpy(a->u, u, bytes);
     a->size = size;
     a->known = 1;
-    if (a->used)
-        extrapolate(a, r, u);
+    if (a->used) {
+        double weight[DEPTH];
+        for (int i = 0; i < a->used; i++)
+            weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
+        if (!solve_normal_equations(a, weight)) {
+            a->used = a->next = 0;
+            return;
+        }
+        for (int i = 0; i < a->used; i++) {
+            const double *dr = a->dr + (size_t)i * m, *du = a->du + (size_t)i * m;
+            for (size_t k = 0; k < m; k++) {
+                r[k] -= weight[i] * dr[k];
+                u[k] -= weight[i] * du[k];
+            }
+        }
+    }
 }

@@ -180,13 +180,6 @@ static void end_stage(member *a)
     a->stage++;
 }
 
-static void portfolio_free(portfolio *p)
-{
-    for (int k = 0; k < p->members; k++)
-        end_stage(&p->member[k]);
-    free(p->memory);
-}
-
 /* ---- Stages ------------------------------------------------------------------------ */
 
 /* Dense tableaus beyond this take longer than what comes after. */
@@ -376,7 +369,9 @@ static rb_status run_auto(rb_friction_task *task, int variant)
     p.memory = NULL;
     s = play(&p, plans, &winner);
     conclude(&p, winner, task);
-    portfolio_free(&p);
+    for (int k = 0; k < p.members; k++)
+        end_stage(&p.member[k]);
+    free(p.memory);
     return s;
 }
 

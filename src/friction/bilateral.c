@@ -126,29 +126,6 @@ typedef struct {
     double *v0;
 } motions;
 
-static void free_motions(motions *m)
-{
-    rb_sparse_free(&m->rows);
-    free(m->v0);
-}
-
-/* touched: the degrees of freedom that constraints move, number: the place among them or
- * -1. */
-static int list_touched(const rb_sparse *G, int *touched, int *number)
-{
-    int count = 0;
-    for (int i = 0; i < G->rows; i++)
-        number[i] = -1;
-    for (int k = 0; k < G->p[G->cols]; k++)
-        number[G->i[k]] = 0;
-    for (int i = 0; i < G->rows; i++)
-        if (number[i] == 0) {
-            number[i] = count;
-            touched[count++] = i;
-        }
-    return count;
-}
-
 /* Every motion that is not solved for is one of y. */
 static rb_status form_motions(const equations *e, const int *touched, int n, motions *m)
 {
@@ -228,7 +205,19 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
     int *touched = rb_alloc_int(2 * (size_t)n);
     s = RB_ENOMEM;
     if (touched) {
-        const int count = list_touched(G, touched, touched + n);
+        /* touched: the degrees of freedom that constraints move, number: the place among
+         * them or -1. */
+        int *number = touched + n;
+        int count = 0;
+        for (int i = 0; i < G->rows; i++)
+            number[i] = -1;
+        for (int k = 0; k < G->p[G->cols]; k++)
+            number[G->i[k]] = 0;
+        for (int i = 0; i < G->rows; i++)
+            if (number[i] == 0) {
+                number[i] = count;
+                touched[count++] = i;
+            }
         s = make_equations(G->cols, count, count + 1, &e);
     }
     if (s == RB_OK) {
@@ -250,7 +239,8 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         s = form_motions(&e, touched, n, &m);
     if (s == RB_OK)
         s = reduce(global, &m);
-    free_motions(&m);
+    rb_sparse_free(&m.rows);
+    free(m.v0);
     free_equations(&e);
     free(touched);
     return s;

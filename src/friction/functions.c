@@ -176,19 +176,6 @@ static void root_of_squares(int d, const double *x, const double *y, double leas
     }
 }
 
-static void scalar_fischer_burmeister(int d, double rho, const double *r, const double *u,
-                                      const rb_friction_linearised *at)
-{
-    const double y = rho * u[0], w = hypot(r[0], y);
-    identity(d, 1.0, at->A);
-    identity(d, 0.0, at->B);
-    for (int a = 1; a < d; a++)
-        at->F[a] = r[a];
-    at->F[0] = r[0] + y - w;
-    at->A[0] = 1.0 - (w > 0.0 ? r[0] / w : M_SQRT1_2);
-    at->B[0] = rho * (1.0 - (w > 0.0 ? y / w : M_SQRT1_2));
-}
-
 /* x + y - (x^2 + y^2)^(1/2), x = (mu r_N, r_T), y = rho (uhat_N, mu u_T), both in the
  * Lorentz cone */
 void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *r,
@@ -198,7 +185,14 @@ void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *
     const double mu = cone->mu, rho = common_rho(cone);
     double *F = at->F, *A = at->A, *B = at->B;
     if (mu == 0.0) { /* the Lorentz cone loses r_N */
-        scalar_fischer_burmeister(d, rho, r, u, at);
+        const double y = rho * u[0], w = hypot(r[0], y);
+        identity(d, 1.0, at->A);
+        identity(d, 0.0, at->B);
+        for (int a = 1; a < d; a++)
+            at->F[a] = r[a];
+        at->F[0] = r[0] + y - w;
+        at->A[0] = 1.0 - (w > 0.0 ? r[0] / w : M_SQRT1_2);
+        at->B[0] = rho * (1.0 - (w > 0.0 ? y / w : M_SQRT1_2));
         return;
     }
     double uhat[3], G[9], x[3], y[3], w[3], L[9] = {0}, P[9], inverse[9], size = 0.0;

@@ -179,28 +179,6 @@ static double look(sweeper *s, int refresh)
 #define STALL_SWEEPS 100
 #define REST 100
 
-static void keep_state(const sweeper *s, double change)
-{
-    const size_t m = (size_t)s->task->m;
-    acceleration *a = s->faster;
-    a->least = change;
-    a->since = s->k;
-    memcpy(a->kept, s->task->r, m * sizeof(double));
-    memcpy(a->kept + m, s->task->u, m * sizeof(double));
-}
-
-static void rest_from_acceleration(const sweeper *s)
-{
-    const size_t m = (size_t)s->task->m;
-    acceleration *a = s->faster;
-    memcpy(s->task->r, a->kept, m * sizeof(double));
-    memcpy(s->task->u, a->kept + m, m * sizeof(double));
-    rb_friction_anderson_forget(&a->anderson);
-    a->plain = a->rest;
-    a->rest *= 2;
-    a->fresh = 1;
-}
-
 static rb_status start_acceleration(sweeper *s)
 {
     const size_t m = (size_t)s->task->m;
@@ -223,10 +201,20 @@ static rb_status accelerate(sweeper *s, double change)
     acceleration *a = s->faster;
     if (a->plain > 0 && --a->plain > 0)
         return RB_OK;
-    if (a->fresh || change < FALL * a->least)
-        keep_state(s, change);
-    else if (s->k - a->since >= STALL_SWEEPS) {
-        rest_from_acceleration(s);
+    if (a->fresh || change < FALL * a->least) {
+        const size_t m = (size_t)s->task->m;
+        a->least = change;
+        a->since = s->k;
+        memcpy(a->kept, s->task->r, m * sizeof(double));
+        memcpy(a->kept + m, s->task->u, m * sizeof(double));
+    } else if (s->k - a->since >= STALL_SWEEPS) {
+        const size_t m = (size_t)s->task->m;
+        memcpy(s->task->r, a->kept, m * sizeof(double));
+        memcpy(s->task->u, a->kept + m, m * sizeof(double));
+        rb_friction_anderson_forget(&a->anderson);
+        a->plain = a->rest;
+        a->rest *= 2;
+        a->fresh = 1;
         return RB_OK;
     }
     if (!a->fresh) {

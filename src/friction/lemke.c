@@ -54,20 +54,6 @@ typedef struct {
     int *pivots;
 } lemke;
 
-static void lemke_free(lemke *s)
-{
-    free(s->W);
-    free(s->E);
-    free(s->q);
-    free(s->M);
-    free(s->b);
-    free(s->basis);
-    free(s->z);
-    free(s->w);
-    free(s->cover);
-    free(s->pivots);
-}
-
 static rb_status lemke_alloc(rb_friction_task *task, lemke *s)
 {
     const size_t m = (size_t)task->m, n = 3 * (size_t)task->contacts;
@@ -226,26 +212,6 @@ static rb_status form(lemke *s, const attempt *a)
     return rb_lapack_status(info);
 }
 
-/* r and u from z and w */
-static void unfold(lemke *s, const attempt *a)
-{
-    rb_friction_task *t = s->task;
-    const int nc = s->nc, n = s->n;
-    rb_lcp_residual(&(rb_lcp_problem){n, s->M, n, s->b}, s->z, s->w);
-    const double *force = a->kind == FORCE ? s->z : s->w;
-    const double *displacement = a->kind == FORCE ? s->w : s->z;
-    const double *u_minus = a->kind == STIFFNESS ? s->z : force;
-    const double sign = a->mirror ? -1.0 : 1.0;
-    for (int c = 0; c < nc; c++) {
-        const double mu = t->problem->mu[c], rn = fmax(0.0, force[c]);
-        const double s_plus = fmin(fmax(0.0, force[nc + c]), 2.0 * mu * rn);
-        t->r[2 * c] = rn;
-        t->r[2 * c + 1] = sign * (s_plus - mu * rn);
-        t->u[2 * c] = displacement[c] / s->unit;
-        t->u[2 * c + 1] = sign * (displacement[nc + c] - u_minus[2 * nc + c]) / s->unit;
-    }
-}
-
 /* Pivots of one attempt: solvable problems take n to 3 n. */
 #define MOST_PIVOTS(n) (10 * (n) + 1000)
 /* Of the first one, which is followed by a form that is safe. */
@@ -283,7 +249,21 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         mirror(s);
     if (st != RB_OK)
         return st;
-    unfold(s, a);
+    /* r and u from z and w */
+    const int nc = s->nc, n = s->n;
+    rb_lcp_residual(&(rb_lcp_problem){n, s->M, n, s->b}, s->z, s->w);
+    const double *force = a->kind == FORCE ? s->z : s->w;
+    const double *displacement = a->kind == FORCE ? s->w : s->z;
+    const double *u_minus = a->kind == STIFFNESS ? s->z : force;
+    const double sign = a->mirror ? -1.0 : 1.0;
+    for (int c = 0; c < nc; c++) {
+        const double mu = t->problem->mu[c], rn = fmax(0.0, force[c]);
+        const double s_plus = fmin(fmax(0.0, force[nc + c]), 2.0 * mu * rn);
+        t->r[2 * c] = rn;
+        t->r[2 * c + 1] = sign * (s_plus - mu * rn);
+        t->u[2 * c] = displacement[c] / s->unit;
+        t->u[2 * c + 1] = sign * (displacement[nc + c] - u_minus[2 * nc + c]) / s->unit;
+    }
     if (t->n)
         st = rb_friction_measure_displacement(t->measure, t->r, t->u, t->v);
     if (st == RB_OK && !rb_friction_task_accepts(t, rb_friction_task_error(t)))
@@ -336,7 +316,16 @@ static rb_status run_lemke(rb_friction_task *task, int variant)
         if (st == RB_INTERRUPTED)
             break;
     }
-    lemke_free(&s);
+    free(s.W);
+    free(s.E);
+    free(s.q);
+    free(s.M);
+    free(s.b);
+    free(s.basis);
+    free(s.z);
+    free(s.w);
+    free(s.cover);
+    free(s.pivots);
     return st > 0 ? first : st;
 }
 

@@ -140,37 +140,6 @@ void rb_friction_measure_free(rb_friction_measure *measure)
     *measure = (rb_friction_measure){0};
 }
 
-/* v -= K_k^-1 (K v - H r - f); correction: ||H' (what was subtracted)||.  Where K is
- * regular v itself does not matter: twice, so that rounding of a bad start does not. */
-static rb_status balance(rb_friction_measure *measure, const double *r, double *v,
-                         double *u, double *correction)
-{
-    const rb_friction_problem *p = measure->problem;
-    const int n = p->dofs, m = p->dimension * p->contacts;
-    double *dv = measure->dv;
-    rb_status s = RB_OK;
-    *correction = 0.0;
-    for (int pass = 0; s == RB_OK && pass < (measure->spring > 0.0 ? 1 : 2); pass++) {
-        for (int i = 0; i < n; i++)
-            measure->e[i] = p->f[i];
-        rb_sparse_apply(1.0, &p->H, r, 1.0, measure->e);
-        rb_sparse_apply(-1.0, &p->K, v, 1.0, measure->e);
-        s = rb_sparse_cholesky_solve(measure->factor, measure->e, dv);
-        for (int i = 0; s == RB_OK && i < n; i++)
-            v[i] += dv[i];
-    }
-    if (s == RB_OK && measure->spring > 0.0) {
-        rb_sparse_apply_transposed(1.0, &p->H, dv, 0.0, u);
-        *correction = rb_friction_norm((size_t)m, u);
-    }
-    if (s == RB_OK) {
-        for (int k = 0; k < m; k++)
-            u[k] = p->w[k];
-        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, u);
-    }
-    return s;
-}
-
 static double relative(const rb_friction_measure *measure, double size)
 {
     const double error = size / measure->scale;
@@ -186,9 +155,33 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
     *scaled = INFINITY;
     if (paper)
         *paper = INFINITY;
-    if (p->form == RB_FRICTION_GLOBAL)
-        s = balance(measure, r, v, u, &correction);
-    else {
+    if (p->form == RB_FRICTION_GLOBAL) {
+        /* v -= K_k^-1 (K v - H r - f); correction: ||H' (what was subtracted)||.  Where K
+         * is regular v itself does not matter: twice, so that rounding of a bad start
+         * does not. */
+        const int n = p->dofs, m = p->dimension * p->contacts;
+        double *dv = measure->dv;
+        s = RB_OK;
+        correction = 0.0;
+        for (int pass = 0; s == RB_OK && pass < (measure->spring > 0.0 ? 1 : 2); pass++) {
+            for (int i = 0; i < n; i++)
+                measure->e[i] = p->f[i];
+            rb_sparse_apply(1.0, &p->H, r, 1.0, measure->e);
+            rb_sparse_apply(-1.0, &p->K, v, 1.0, measure->e);
+            s = rb_sparse_cholesky_solve(measure->factor, measure->e, dv);
+            for (int i = 0; s == RB_OK && i < n; i++)
+                v[i] += dv[i];
+        }
+        if (s == RB_OK && measure->spring > 0.0) {
+            rb_sparse_apply_transposed(1.0, &p->H, dv, 0.0, u);
+            correction = rb_friction_norm((size_t)m, u);
+        }
+        if (s == RB_OK) {
+            for (int k = 0; k < m; k++)
+                u[k] = p->w[k];
+            rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, u);
+        }
+    } else {
         /* Contacts that are open have no force, and cost nothing. */
         const int m = p->dimension * p->contacts,
                   dense = p->form == RB_FRICTION_LOCAL_DENSE;

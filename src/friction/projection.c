@@ -65,37 +65,6 @@ static void project_all(const projector *s, const double *uhat, double *p)
     t->info->flops += 12.0 * t->m;
 }
 
-/* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the step
- * passes, and grows where it passed easily.  Below the normal numbers it shrinks no more:
- * a problem with velocities beyond 1e300 has no step that passes. */
-static double advance(projector *s)
-{
-    rb_friction_task *t = s->task;
-    double step, ratio;
-    for (;;) {
-        project_all(s, s->uhat, s->p);
-        uhat_at(s, s->p, s->up);
-        step = rb_friction_distance((size_t)t->m, s->p, t->r);
-        ratio = step > 0.0
-                    ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
-                    : 0.0;
-        if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
-            break;
-        s->rho *= RB_FRICTION_UPK_SHRINK;
-    }
-    if (s->extragradient) {
-        project_all(s, s->up, s->p);
-        step = rb_friction_distance((size_t)t->m, s->p, t->r);
-        uhat_at(s, s->p, s->up);
-    }
-    memcpy(t->r, s->p, (size_t)t->m * sizeof(double));
-    memcpy(s->uhat, s->up, (size_t)t->m * sizeof(double));
-    if (step > 0.0 && ratio < RB_FRICTION_UPK_LEAST)
-        s->rho /= RB_FRICTION_UPK_SHRINK;
-    const double norm = rb_friction_norm((size_t)t->m, t->r);
-    return norm > 0.0 ? step / norm : step;
-}
-
 static rb_status assess(projector *s, double change)
 {
     rb_friction_task *t = s->task;
@@ -118,7 +87,34 @@ static rb_status go_on_projecting(void *state)
     rb_status st = s->begun ? RB_MAXITER : assess(s, INFINITY);
     s->begun = 1;
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_goes_on(t)) {
-        const double change = advance(s);
+        /* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the
+         * step passes, and grows where it passed easily.  Below the normal numbers it
+         * shrinks no more: a problem with velocities beyond 1e300 has no step that
+         * passes. */
+        double step, ratio;
+        for (;;) {
+            project_all(s, s->uhat, s->p);
+            uhat_at(s, s->p, s->up);
+            step = rb_friction_distance((size_t)t->m, s->p, t->r);
+            ratio =
+                step > 0.0
+                    ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
+                    : 0.0;
+            if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
+                break;
+            s->rho *= RB_FRICTION_UPK_SHRINK;
+        }
+        if (s->extragradient) {
+            project_all(s, s->up, s->p);
+            step = rb_friction_distance((size_t)t->m, s->p, t->r);
+            uhat_at(s, s->p, s->up);
+        }
+        memcpy(t->r, s->p, (size_t)t->m * sizeof(double));
+        memcpy(s->uhat, s->up, (size_t)t->m * sizeof(double));
+        if (step > 0.0 && ratio < RB_FRICTION_UPK_LEAST)
+            s->rho /= RB_FRICTION_UPK_SHRINK;
+        const double norm = rb_friction_norm((size_t)t->m, t->r);
+        const double change = norm > 0.0 ? step / norm : step;
         s->k++;
         t->info->iters++;
         if (rb_friction_task_late(t))

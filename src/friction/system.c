@@ -110,29 +110,6 @@ int rb_friction_system_is_dense(int order, double fill)
 
 /* ---- Steps ------------------------------------------------------------------------- */
 
-/* The contact equations B H' dv + A dr; K and -H stay. */
-static void fill_global(rb_friction_system *s, const double *A, const double *B)
-{
-    const rb_sparse *h = &s->problem->H;
-    const int d = s->d, n = s->n;
-    double *place = s->x; /* dense column under construction, zeroed as it is read */
-    for (int i = 0; i < n + s->m; i++)
-        place[i] = 0.0;
-    for (int j = 0; j < s->m; j++) {
-        const int c = j / d, a = j % d;
-        for (int b = 0; b < d; b++) {
-            const double factor = B[c * d * d + a + b * d];
-            for (int k = h->p[c * d + b]; k < h->p[c * d + b + 1]; k++)
-                place[h->i[k]] += factor * h->x[k];
-            place[n + c * d + b] = A[c * d * d + a + b * d];
-        }
-        for (int k = s->j.p[n + j]; k < s->j.p[n + j + 1]; k++) {
-            s->j.x[k] = place[s->j.i[k]];
-            place[s->j.i[k]] = 0.0;
-        }
-    }
-}
-
 rb_status rb_friction_system_dense(rb_friction_system *s, size_t order)
 {
     if (order > s->order) {
@@ -176,7 +153,25 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
                              const double *e)
 {
     const int n = s->n, order = n + s->m;
-    fill_global(s, at->A, at->B);
+    /* The contact equations B H' dv + A dr; K and -H stay. */
+    const rb_sparse *h = &s->problem->H;
+    const int d = s->d;
+    double *place = s->x; /* dense column under construction, zeroed as it is read */
+    for (int i = 0; i < n + s->m; i++)
+        place[i] = 0.0;
+    for (int j = 0; j < s->m; j++) {
+        const int c = j / d, a = j % d;
+        for (int b = 0; b < d; b++) {
+            const double factor = at->B[c * d * d + a + b * d];
+            for (int k = h->p[c * d + b]; k < h->p[c * d + b + 1]; k++)
+                place[h->i[k]] += factor * h->x[k];
+            place[n + c * d + b] = at->A[c * d * d + a + b * d];
+        }
+        for (int k = s->j.p[n + j]; k < s->j.p[n + j + 1]; k++) {
+            s->j.x[k] = place[s->j.i[k]];
+            place[s->j.i[k]] = 0.0;
+        }
+    }
     for (int i = 0; i < n; i++)
         s->rhs[i] = -e[i];
     for (int k = 0; k < s->m; k++)

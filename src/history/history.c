@@ -124,23 +124,6 @@ static void record(history_state *r, double distance)
     }
 }
 
-/* Follows how long the friction has not changed. */
-static void watch_steadiness(history_state *r, double c)
-{
-    const rb_contact_state *state = &r->model->state;
-    const rb_contact_problem *p = &r->model->problem;
-    const double bound =
-        rb_contact_friction_scale(p) * STEADY_RATE * c / r->history->half_width;
-    int moves = 0;
-
-    for (int i = 0; i < state->n; i++)
-        moves += fabs(state->q[i] - r->q[i]) > bound;
-    if (moves)
-        r->history->steady_from = -1;
-    else if (r->history->steady_from < 0)
-        r->history->steady_from = r->history->n;
-}
-
 /* The state that was found in this step, with the residual that it leaves. */
 static rb_status follow(history_state *r)
 {
@@ -276,8 +259,21 @@ static void end_step(history_state *r, rb_status s)
 {
     if (is_at_rest(r))
         r->shift += r->model->state.xi;
-    else if (s == RB_OK)
-        watch_steadiness(r, r->stride.c);
+    else if (s == RB_OK) {
+        /* Follows how long the friction has not changed. */
+        const rb_contact_state *state = &r->model->state;
+        const rb_contact_problem *p = &r->model->problem;
+        const double bound = rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c /
+                             r->history->half_width;
+        int moves = 0;
+
+        for (int i = 0; i < state->n; i++)
+            moves += fabs(state->q[i] - r->q[i]) > bound;
+        if (moves)
+            r->history->steady_from = -1;
+        else if (r->history->steady_from < 0)
+            r->history->steady_from = r->history->n;
+    }
     rb_rolling_particles_leave(&r->particles, &r->stride);
     record(r, r->to);
 }

@@ -220,9 +220,12 @@ static int see_increment(const rb_rolling_model *model, const rb_rolling_history
     return 0;
 }
 
-/* Loading, and one closed cycle to the other side and back, in static increments. */
-static double *cycle_program(const wear_state *r, rb_rolling_program *program)
+static rb_status fret(wear_state *r, double cycles, rb_message *why)
 {
+    rb_rolling_program program;
+    rb_rolling_history history = {0};
+    rb_rolling_model model = {0};
+    /* Loading, and one closed cycle to the other side and back, in static increments. */
     const int quarter = r->wear->increments, rows = 5 * quarter;
     const rb_rolling_case *rc = &r->rc;
     double *column = rb_alloc((size_t)rows, 1);
@@ -230,23 +233,14 @@ static double *cycle_program(const wear_state *r, rb_rolling_program *program)
                         : !isnan(rc->force_ratio) ? rc->force_ratio
                                                   : rb_rolling_wanted_shift(rc);
 
-    *program = (rb_rolling_program){.n = rows};
-    *(!isnan(rc->force)         ? &program->force
-      : !isnan(rc->force_ratio) ? &program->force_ratio
-                                : &program->shift) = column;
+    program = (rb_rolling_program){.n = rows};
+    *(!isnan(rc->force)         ? &program.force
+      : !isnan(rc->force_ratio) ? &program.force_ratio
+                                : &program.shift) = column;
     for (int k = 0; k < rows && column; k++) {
         const double t = (k + 1.0) / quarter; /* quarters of a cycle */
         column[k] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
     }
-    return column;
-}
-
-static rb_status fret(wear_state *r, double cycles, rb_message *why)
-{
-    rb_rolling_program program;
-    rb_rolling_history history = {0};
-    rb_rolling_model model = {0};
-    double *column = cycle_program(r, &program);
 
     r->work = 0.0;
     memset(r->path, 0, (size_t)r->n * sizeof *r->path);
@@ -261,21 +255,6 @@ static rb_status fret(wear_state *r, double cycles, rb_message *why)
     for (int i = 0; i < r->n; i++)
         r->compliance[i] = archard(r) * cycles * r->path[i];
     return s == RB_OK ? wear_off(r, why) : s;
-}
-
-/* Depth per turn: every point of the circumference passes the contact once. */
-static double depth_of_turn(const wear_state *r)
-{
-    const rb_rolling_model *model = &r->model;
-    const rb_contact_state *state = &model->state;
-    const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
-
-    return r->wear->coefficient *
-           (r->wear->law == RB_WEAR_ARCHARD
-                ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p,
-                                           h, e_T)
-                : rb_rolling_dissipated_power(model->rc, state->n, state->lambda,
-                                              state->q, h, e_T));
 }
 
 /* (W3) A round wheel stays round: R = R_before - turns dz(R); B turns R/|R_B| times as
@@ -294,7 +273,17 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         s = rb_rolling_model_create(&r->rc, &r->model, why);
         if (s != RB_OK)
             return s;
-        depth = depth_of_turn(r);
+        /* Depth per turn: every point of the circumference passes the contact once. */
+        const rb_rolling_model *model = &r->model;
+        const rb_contact_state *state = &model->state;
+        const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
+
+        depth = r->wear->coefficient *
+                (r->wear->law == RB_WEAR_ARCHARD
+                     ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda,
+                                                state->p, h, e_T)
+                     : rb_rolling_dissipated_power(model->rc, state->n, state->lambda,
+                                                   state->q, h, e_T));
         const double radius = before - turns * (1.0 - share) * depth,
                      moved = r->rc.a.radius;
         if (turns_b)
@@ -441,20 +430,6 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
     return rb_rolling_case_check(rc, why);
 }
 
-static void drop_columns_of_b(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                              rb_rolling_wear_history *h)
-{
-    if (wear->share == 0.0) {
-        free(h->worn_b);
-        free(h->max_depth_b);
-        h->worn_b = h->max_depth_b = NULL;
-    }
-    if (wear->share == 0.0 || !rc->elastic_b || !isfinite(rc->b.radius)) {
-        free(h->radius_b);
-        h->radius_b = NULL;
-    }
-}
-
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                               const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
@@ -472,8 +447,17 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1,
                                      history);
-    if (s == RB_OK)
-        drop_columns_of_b(rc, wear, history);
+    if (s == RB_OK) {
+        if (wear->share == 0.0) {
+            free(history->worn_b);
+            free(history->max_depth_b);
+            history->worn_b = history->max_depth_b = NULL;
+        }
+        if (wear->share == 0.0 || !rc->elastic_b || !isfinite(rc->b.radius)) {
+            free(history->radius_b);
+            history->radius_b = NULL;
+        }
+    }
     history->radius_before = rc->a.radius;
     history->radius_b_before = rc->b.radius;
     history->slides = wear->slides;

@@ -1,4 +1,5 @@
-/* Work in a process of its own, for libraries that may crash.  Private to the room io. */
+/* Work in a process of its own, for libraries that may crash.  Private to the folder io.
+ */
 #ifndef IO_CHILD_H
 #define IO_CHILD_H
 

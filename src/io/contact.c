@@ -208,15 +208,6 @@ static void read_material(reading *r, rb_io_contact_case *c)
     }
 }
 
-static void skip_heat(reading *r, const rb_io_contact_digits *d)
-{
-    double x[4] = {0};
-    for (int body = 0; body < 2 && d->H == 3; body++)
-        read_numbers(r, 4, x, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
-    if (d->H == 3 && d->M == 4 && r->status == RB_OK)
-        next_line(r);
-}
-
 /* from: left end of the first element, whichever way it is told. */
 static void read_grid(reading *r, rb_io_contact_case *c)
 {
@@ -332,7 +323,11 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
             if (module == 3 && now.digit.V == 0) { /* else friction stands elsewhere */
                 read_friction(&r, &now);
                 read_material(&r, &now);
-                skip_heat(&r, &now.digit);
+                double x[4] = {0};
+                for (int body = 0; body < 2 && now.digit.H == 3; body++)
+                    read_numbers(&r, 4, x, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
+                if (now.digit.H == 3 && now.digit.M == 4 && r.status == RB_OK)
+                    next_line(&r);
                 read_grid(&r, &now);
                 read_gap(&r, &now);
             }

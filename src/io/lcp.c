@@ -27,32 +27,6 @@ static size_t count_words(io_tokens *t)
 
 /* ---- Vectors ---------------------------------------------------------------------- */
 
-static void read_column(io_tokens *t, int n, const char *what, double **x)
-{
-    rb_io_matrix m;
-    rb_io_read_matrix_market(t, &m);
-    if (t->status == RB_OK && (m.rows != n || m.cols != 1))
-        rb_io_tokens_fail(t, "%s: expected a matrix of %d by 1, got %d by %d", what, n,
-                          m.rows, m.cols);
-    if (t->status == RB_OK && rb_io_matrix_to_dense(&m) != RB_OK)
-        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for %s", t->path, what);
-    if (t->status == RB_OK) {
-        *x = m.dense;
-        m.dense = NULL;
-    }
-    rb_io_matrix_free(&m);
-}
-
-static void read_numbers(io_tokens *t, int n, const char *what, double **x)
-{
-    rb_io_tokens_blank_comments(t);
-    const size_t count = count_words(t);
-    if (count != (size_t)n)
-        rb_io_tokens_fail(t, "%s: expected %d numbers, got %zu", what, n, count);
-    *x = rb_io_tokens_alloc(t, (size_t)n, 1, what);
-    rb_io_tokens_reals(t, (size_t)n, *x, what);
-}
-
 static rb_status read_vector(const char *path, int n, const char *what, int infinite,
                              double **x, rb_message *why)
 {
@@ -60,10 +34,28 @@ static rb_status read_vector(const char *path, int n, const char *what, int infi
     *x = NULL;
     rb_io_tokens_open(path, &t, why);
     t.infinite = infinite;
-    if (is_market(&t))
-        read_column(&t, n, what, x);
-    else if (t.status == RB_OK)
-        read_numbers(&t, n, what, x);
+    if (is_market(&t)) {
+        rb_io_matrix m;
+        rb_io_read_matrix_market(&t, &m);
+        if (t.status == RB_OK && (m.rows != n || m.cols != 1))
+            rb_io_tokens_fail(&t, "%s: expected a matrix of %d by 1, got %d by %d", what,
+                              n, m.rows, m.cols);
+        if (t.status == RB_OK && rb_io_matrix_to_dense(&m) != RB_OK)
+            t.status =
+                rb_fail(t.why, RB_ENOMEM, "%s: out of memory for %s", t.path, what);
+        if (t.status == RB_OK) {
+            *x = m.dense;
+            m.dense = NULL;
+        }
+        rb_io_matrix_free(&m);
+    } else if (t.status == RB_OK) {
+        rb_io_tokens_blank_comments(&t);
+        const size_t count = count_words(&t);
+        if (count != (size_t)n)
+            rb_io_tokens_fail(&t, "%s: expected %d numbers, got %zu", what, n, count);
+        *x = rb_io_tokens_alloc(&t, (size_t)n, 1, what);
+        rb_io_tokens_reals(&t, (size_t)n, *x, what);
+    }
     if (t.status != RB_OK) {
         free(*x);
         *x = NULL;

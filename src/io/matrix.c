@@ -97,11 +97,11 @@ static void read_coordinates(io_tokens *t, int symmetric, rb_io_matrix *m)
 {
     const int most = symmetric ? INT_MAX / 2 : INT_MAX;
     const int count = rb_io_tokens_int(t, 0, most, "number of entries");
-    const size_t room = (size_t)count << symmetric;
+    const size_t capacity = (size_t)count << symmetric;
     if (!rb_io_tokens_room_for(t, (size_t)count, 3, "entries"))
         return;
     m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
-    if (rb_triplets_reserve(&m->entries, room) != RB_OK)
+    if (rb_triplets_reserve(&m->entries, capacity) != RB_OK)
         t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
     for (int k = 0; t->status == RB_OK && k < count; k++) {
         const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;

@@ -1,5 +1,5 @@
 /* Readers that go on from an open text: for files whose kind is told by their head.
- * Failures are in the text's status.  Private to the room io. */
+ * Failures are in the text's status.  Private to the folder io. */
 #ifndef IO_READERS_H
 #define IO_READERS_H
 

@@ -21,7 +21,7 @@ static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
         rb_io_tokens_fail(t, "matrix: more than %d entries", INT_MAX);
     m->entries = (rb_triplets){.rows = m->rows,
                                .cols = m->cols,
-                               .room = (int)nz,
+                               .capacity = (int)nz,
                                .row = rb_io_tokens_alloc_int(t, nz, "matrix"),
                                .col = rb_io_tokens_alloc_int(t, nz, "matrix"),
                                .x = rb_io_tokens_alloc(t, nz, 1, "matrix")};
@@ -44,14 +44,6 @@ typedef struct {
     int *row_end, *col_end; /* cumulated sizes */
     int *first, *column;    /* compressed rows of blocks */
 } blocks;
-
-static void blocks_free(blocks *b)
-{
-    free(b->row_end);
-    free(b->col_end);
-    free(b->first);
-    free(b->column);
-}
 
 static int extent(const int *end, int i)
 {
@@ -163,7 +155,10 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
         for (int i = 0; ok(t) && i < b.rows; i++)
             for (int k = b.first[i]; ok(t) && k < b.first[i + 1]; k++)
                 read_block(t, &b, i, k, m);
-        blocks_free(&b);
+        free(b.row_end);
+        free(b.col_end);
+        free(b.first);
+        free(b.column);
     } else
         read_sparse(t, m);
 }

@@ -1,4 +1,5 @@
-/* Words and numbers of a text file, with the line for messages.  Private to the room io.
+/* Words and numbers of a text file, with the line for messages.  Private to the folder
+ * io.
  *
  * The first failure stays in `status` (and its line in the message): later calls do
  * nothing and give zeros, so that readers ask once per group of numbers. */

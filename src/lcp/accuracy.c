@@ -98,8 +98,11 @@ rb_status rb_lcp_lemke_rebuild(lemke *l)
                : s;
 }
 
-static rb_status refresh(lemke *l)
+rb_status rb_lcp_lemke_keep_accurate(lemke *l)
 {
+    const int many_pivots = l->info->iters - l->checked >= 50 + l->n / 4;
+    if (!(many_pivots || lemke_z0(l) <= REFRESH * l->refreshed))
+        return RB_OK;
     rb_status s = RB_SINGULAR;
     double *r = l->r, *before = l->scratch;
     memcpy(before, l->t.q, (size_t)l->n * sizeof *before);
@@ -126,12 +129,6 @@ static rb_status refresh(lemke *l)
     l->refreshed = lemke_z0(l);
     l->checked = l->info->iters;
     return s == RB_ENOMEM ? s : RB_OK;
-}
-
-rb_status rb_lcp_lemke_keep_accurate(lemke *l)
-{
-    const int many_pivots = l->info->iters - l->checked >= 50 + l->n / 4;
-    return many_pivots || lemke_z0(l) <= REFRESH * l->refreshed ? refresh(l) : RB_OK;
 }
 
 int rb_lcp_lemke_column_holds(lemke *l, int entering)

@@ -175,18 +175,18 @@ rb_status rb_lcp_basis_column(lcp_basis *b, int variable, double *y)
 static rb_status make_room(lcp_basis *b, size_t more)
 {
     const size_t wanted = b->start[b->exchanges] + more;
-    if (wanted <= b->room)
+    if (wanted <= b->capacity)
         return RB_OK;
-    const size_t room = 2 * wanted;
-    int *index = realloc(b->index, room * sizeof *index);
+    const size_t capacity = 2 * wanted;
+    int *index = realloc(b->index, capacity * sizeof *index);
     if (index)
         b->index = index;
-    double *value = realloc(b->value, room * sizeof *value);
+    double *value = realloc(b->value, capacity * sizeof *value);
     if (value)
         b->value = value;
     if (!index || !value)
         return RB_ENOMEM;
-    b->room = room;
+    b->capacity = capacity;
     return RB_OK;
 }
 

@@ -29,13 +29,13 @@ typedef struct {
     double operations;   /* of all LUs and solutions so far */
 
     int exchanges;
-    int *pivot;     /* slot r of each exchange */
-    double *scale;  /* y_r */
-    size_t *start;  /* entries of exchange k: start[k] ... start[k + 1] - 1 */
-    size_t room;    /* for entries */
-    int *index;     /* the other slots where y is not zero */
-    double *value;  /* y there */
-    double pending; /* operations that the exchanges have cost so far */
+    int *pivot;      /* slot r of each exchange */
+    double *scale;   /* y_r */
+    size_t *start;   /* entries of exchange k: start[k] ... start[k + 1] - 1 */
+    size_t capacity; /* for entries */
+    int *index;      /* the other slots where y is not zero */
+    double *value;   /* y there */
+    double pending;  /* operations that the exchanges have cost so far */
 } lcp_basis;
 
 /* Memory alone: the caller chooses what is basic, in variable and slot, and factors. */

@@ -30,29 +30,6 @@ static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
     return of_other > 0 && *m > 0;
 }
 
-/* Paths that begin with one strategy can be long where others are short: one after the
- * other, with a limit that grows. */
-static rb_status try_labels(const rb_lcp_game *game, const rb_lcp_options *opt,
-                            double *mixed, rb_lcp_info *info)
-{
-    const int n = game->m + game->n, own = opt->max_iters;
-    const double began = rb_seconds();
-    rb_lcp_options o = *opt;
-    rb_status s = RB_MAXITER;
-    int iters = 0;
-    for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
-        for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
-            o.max_iters = own && own < limit ? own : limit;
-            s = rb_lcp_bimatrix(game, label * (n / LABELS > 0 ? n / LABELS : 1), &o,
-                                mixed, info);
-            iters += info->iters;
-            if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
-                s = s == RB_MAXITER ? RB_INTERRUPTED : s;
-        }
-    info->iters = iters;
-    return s;
-}
-
 rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
                             const rb_lcp_options *opt, double *z, rb_lcp_info *info)
 {
@@ -88,7 +65,23 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
                     M->x[k] / q[i] * unit[j];
             }
         }
-        s = try_labels(&game, opt, mixed, info);
+        /* Paths that begin with one strategy can be long where others are short: one
+         * after the other, with a limit that grows. */
+        const int own = opt->max_iters;
+        const double began = rb_seconds();
+        rb_lcp_options o = *opt;
+        s = RB_MAXITER;
+        int iters = 0;
+        for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
+            for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
+                o.max_iters = own && own < limit ? own : limit;
+                s = rb_lcp_bimatrix(&game, label * (n / LABELS > 0 ? n / LABELS : 1), &o,
+                                    mixed, info);
+                iters += info->iters;
+                if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
+                    s = s == RB_MAXITER ? RB_INTERRUPTED : s;
+            }
+        info->iters = iters;
         rb_lcp_bimatrix_regret(&game, mixed, regret, payoff);
         /* y over the row player's costs, x over the column player's */
         for (int i = 0; i < n; i++)

@@ -88,21 +88,6 @@ static int tied_rows(lemke *l)
     return count;
 }
 
-/* Keeps the tied rows with the least x_i/a_i, x being minus a column of the basis
- * inverse. */
-static int keep_least(lemke *l, int count, const double *x)
-{
-    double least = INFINITY;
-    for (int k = 0; k < count; k++)
-        least = fmin(least, x[l->tied[k]] / l->a[l->tied[k]]);
-    const double zero = NOISE * (largest(l->n, x) + fabs(least) * largest(l->n, l->a));
-    int kept = 0;
-    for (int k = 0; k < count; k++)
-        if (least * l->a[l->tied[k]] - x[l->tied[k]] <= zero)
-            l->tied[kept++] = l->tied[k];
-    return kept;
-}
-
 /* The basis inverse restricted to the column of w_j is -T_:w_j where w_j is nonbasic, a
  * unit vector where it is basic.  Columns are looked at only as long as rows tie. */
 static int lexicographic_row(lemke *l, int count)
@@ -121,7 +106,18 @@ static int lexicographic_row(lemke *l, int count)
         } else {
             rb_lcp_tableau_fetch(&l->t, -1 - l->t.place[j], NULL);
             clean_column(l, j, l->other);
-            count = keep_least(l, count, l->other);
+            /* Keeps the tied rows with the least x_i/a_i, x being minus a column of the
+             * basis inverse. */
+            double least = INFINITY;
+            for (int k = 0; k < count; k++)
+                least = fmin(least, l->other[l->tied[k]] / l->a[l->tied[k]]);
+            const double zero =
+                NOISE * (largest(l->n, l->other) + fabs(least) * largest(l->n, l->a));
+            int kept = 0;
+            for (int k = 0; k < count; k++)
+                if (least * l->a[l->tied[k]] - l->other[l->tied[k]] <= zero)
+                    l->tied[kept++] = l->tied[k];
+            count = kept;
         }
     }
     return l->tied[0];

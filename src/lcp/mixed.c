@@ -139,27 +139,6 @@ static rb_status refresh(mixed *p)
 
 /* ---- Where the path begins --------------------------------------------------------- */
 
-/* A basic variable that is out of its range by rounding is at its bound: the z of a
- * solution must be recognised as one. */
-static void forgive_rounding(mixed *p)
-{
-    double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
-    for (int s = 0; s < p->n; s++) {
-        double *most = p->b.variable[s] < p->n ? &most_w : &most_z;
-        *most = fmax(*most, fabs(p->value[s]));
-    }
-    for (int s = 0; s < p->n; s++) {
-        const int v = p->b.variable[s];
-        const range r = range_of(p, v);
-        const double small = ROUNDING * (v < p->n ? most_w : most_z);
-        double *x = p->value + s;
-        if (*x < r.low && *x >= r.low - small)
-            *x = r.low;
-        else if (*x > r.high && *x <= r.high + small)
-            *x = r.high;
-    }
-}
-
 /* All z at a bound; with a start, those between their bounds basic. */
 static rb_status first_basis(mixed *p, const double *start)
 {
@@ -176,8 +155,25 @@ static rb_status first_basis(mixed *p, const double *start)
     memset(p->shift, 0, (size_t)n * sizeof *p->shift);
     memset(p->value, 0, (size_t)n * sizeof *p->value);
     const rb_status s = refresh(p);
-    if (s == RB_OK)
-        forgive_rounding(p);
+    if (s == RB_OK) {
+        /* A basic variable that is out of its range by rounding is at its bound: the z of
+         * a solution must be recognised as one. */
+        double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
+        for (int k = 0; k < p->n; k++) {
+            double *most = p->b.variable[k] < p->n ? &most_w : &most_z;
+            *most = fmax(*most, fabs(p->value[k]));
+        }
+        for (int k = 0; k < p->n; k++) {
+            const int v = p->b.variable[k];
+            const range r = range_of(p, v);
+            const double small = ROUNDING * (v < p->n ? most_w : most_z);
+            double *x = p->value + k;
+            if (*x < r.low && *x >= r.low - small)
+                *x = r.low;
+            else if (*x > r.high && *x <= r.high + small)
+                *x = r.high;
+        }
+    }
     return s;
 }
 
@@ -194,16 +190,6 @@ static double violation(const mixed *p, int s)
     return fmax(r.low - p->value[s], p->value[s] - r.high);
 }
 
-/* Of the other half of a free variable the caller knows the first one. */
-static rb_status fail_cover(const mixed *p, int s)
-{
-    const int v = p->b.variable[s], i = v < p->given ? v : p->of[v - p->given];
-    return rb_fail(&p->info->msg, RB_EINVAL,
-                   "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
-                   "at the start has the wrong sign",
-                   i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
-}
-
 /* The basic variables are to be value + t times y: for w the covering vector, for z so
  * much that where t makes all of them feasible z has not passed through its box. */
 static rb_status choose_cover(mixed *p)
@@ -215,8 +201,15 @@ static rb_status choose_cover(mixed *p)
         p->y[s] = cover;
         if (violation(p, s) <= 0.0)
             continue;
-        if (cover == 0.0)
-            return fail_cover(p, s);
+        if (cover == 0.0) {
+            /* Of the other half of a free variable the caller knows the first one. */
+            const int i = v < p->given ? v : p->of[v - p->given];
+            return rb_fail(
+                &p->info->msg, RB_EINVAL,
+                "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
+                "at the start has the wrong sign",
+                i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
+        }
         worst = fmax(worst, violation(p, s) / cover);
     }
     for (int s = 0; s < p->n; s++) {
@@ -495,13 +488,6 @@ static rb_status go_on(void *state)
 
 /* ---- The problem without free variables -------------------------------------------- */
 
-static void split_free(split *f)
-{
-    rb_sparse_free(&f->M);
-    free(f->of);
-    free(f->q);
-}
-
 /* [M, -M_:F; -M_F:, M_FF] */
 static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
 {
@@ -670,7 +656,9 @@ static rb_status end(void *state, rb_status s, double *z)
     rb_lcp_basis_free(&p->b);
     free(p->value);
     free(p->at_upper);
-    split_free(&p->f);
+    rb_sparse_free(&p->f.M);
+    free(p->f.of);
+    free(p->f.q);
     rb_lcp_scaled_free(&p->scaled);
     rb_lcp_scale_free(&p->scale);
     return s;

@@ -66,15 +66,16 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
     *t = (lcp_tableau){.n = n,
                        .data = data,
                        .depth = depth,
-                       .room = blocks * depth,
+                       .capacity = blocks * depth,
                        .group = (n < 16     ? n + 1
                                  : n < 1024 ? depth_of(n)
                                             : LARGEST_GROUP)};
-    const size_t rows = (size_t)n, room = (size_t)t->room, group = (size_t)t->group;
-    t->T = rb_alloc(rows, rows + 2 + room + group);
-    t->L = rb_alloc((size_t)depth, room + group);
+    const size_t rows = (size_t)n, capacity = (size_t)t->capacity,
+                 group = (size_t)t->group;
+    t->T = rb_alloc(rows, rows + 2 + capacity + group);
+    t->L = rb_alloc((size_t)depth, capacity + group);
     t->basis = rb_alloc_int(9 * rows + 6);
-    t->row = rb_alloc_int(2 * room);
+    t->row = rb_alloc_int(2 * capacity);
     if (!t->T || !t->L || !t->basis || !t->row) {
         rb_lcp_tableau_free(t);
         return RB_ENOMEM;
@@ -82,8 +83,8 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
     /* Few arrays: the system then keeps their memory for the next small problem. */
     t->q = t->T + (size_t)t->n * ((size_t)t->n + 1);
     t->U = t->q + t->n;
-    t->X = t->U + (size_t)t->n * (size_t)t->room;
-    t->S = t->L + (size_t)t->depth * (size_t)t->room;
+    t->X = t->U + (size_t)t->n * (size_t)t->capacity;
+    t->S = t->L + (size_t)t->depth * (size_t)t->capacity;
     t->nonbasis = t->basis + t->n;
     t->place = t->nonbasis + t->n + 1;
     t->level = t->place + 2 * t->n + 1;
@@ -91,7 +92,7 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
     t->spare = t->slot + t->n + 1;
     t->last = t->spare + t->n + 1;
     t->wanted = t->last + t->n;
-    t->before = t->row + t->room;
+    t->before = t->row + t->capacity;
     memcpy(t->q, t->data->p.q, (size_t)t->n * sizeof *t->q);
     for (int i = 0; i < t->n; i++)
         t->basis[i] = t->place[i] = i;
@@ -176,34 +177,6 @@ int rb_lcp_tableau_behind(const lcp_tableau *t, int c)
     return t->k - t->level[c];
 }
 
-/* The columns of this block's share that begin in it or before: their right-hand sides,
- * zero where a column has seen the pivot. */
-static int gather_rows(lcp_tableau *t, int count, const int *columns, int first, int to)
-{
-    int active = 0;
-    for (; active < count && t->level[columns[active]] < to; active++) {
-        const int c = columns[active], level = t->level[c];
-        double *x = t->X + (size_t)active * (size_t)t->n,
-               *rhs = t->S + (size_t)active * (size_t)t->depth;
-        if (level < first) {
-            take_rows(t, first, to, x, rhs);
-        } else {
-            memset(rhs, 0, (size_t)(level - first) * sizeof *rhs);
-            take_rows_of(t, c, to, x, rhs + (level - first));
-        }
-    }
-    return active;
-}
-
-/* Places are taken up again as soon as they are free: T stays small and warm. */
-static void keep(lcp_tableau *t, int c, const double *x)
-{
-    if (t->slot[c] < 0)
-        t->slot[c] = t->spare[--t->spares];
-    memcpy(column_of(t, c), x, (size_t)t->n * sizeof *x);
-    t->level[c] = t->k;
-}
-
 static void advance_group(lcp_tableau *t, int count, const int *columns)
 {
     const size_t n = (size_t)t->n;
@@ -212,7 +185,20 @@ static void advance_group(lcp_tableau *t, int count, const int *columns)
     const int level = t->level[columns[0]];
     for (int first = level - level % t->depth, to; first < t->k; first = to) {
         to = end_of_block(t, first);
-        const int active = gather_rows(t, count, columns, first, to);
+        /* The columns of this block's share that begin in it or before: their right-hand
+         * sides, zero where a column has seen the pivot. */
+        int active = 0;
+        for (; active < count && t->level[columns[active]] < to; active++) {
+            const int c = columns[active], own = t->level[c];
+            double *x = t->X + (size_t)active * (size_t)t->n,
+                   *rhs = t->S + (size_t)active * (size_t)t->depth;
+            if (own < first) {
+                take_rows(t, first, to, x, rhs);
+            } else {
+                memset(rhs, 0, (size_t)(own - first) * sizeof *rhs);
+                take_rows_of(t, c, to, x, rhs + (own - first));
+            }
+        }
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit,
                     to - first, active, 1.0, t->L + (size_t)first * (size_t)t->depth,
                     t->depth, t->S, t->depth);
@@ -220,19 +206,13 @@ static void advance_group(lcp_tableau *t, int count, const int *columns)
                     -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X,
                     t->n);
     }
-    for (int g = 0; g < count; g++)
-        keep(t, columns[g], t->X + (size_t)g * n);
-}
-
-/* Those that are farthest behind first (insertion: they come nearly in order). */
-static void sort_by_level(const lcp_tableau *t, int count, int *columns)
-{
-    for (int i = 1; i < count; i++) {
-        const int c = columns[i];
-        int j = i;
-        for (; j > 0 && t->level[columns[j - 1]] > t->level[c]; j--)
-            columns[j] = columns[j - 1];
-        columns[j] = c;
+    for (int g = 0; g < count; g++) {
+        /* Places are taken up again as soon as they are free: T stays small and warm. */
+        const double *x = t->X + (size_t)g * n;
+        if (t->slot[columns[g]] < 0)
+            t->slot[columns[g]] = t->spare[--t->spares];
+        memcpy(column_of(t, columns[g]), x, (size_t)t->n * sizeof *x);
+        t->level[columns[g]] = t->k;
     }
 }
 
@@ -240,7 +220,15 @@ void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns)
 {
     for (int done = 0; done < count; done += t->group) {
         const int size = least(t->group, count - done);
-        sort_by_level(t, size, columns + done);
+        /* Those that are farthest behind first (insertion: they come nearly in order). */
+        int *column = columns + done;
+        for (int i = 1; i < size; i++) {
+            const int c = column[i];
+            int j = i;
+            for (; j > 0 && t->level[column[j - 1]] > t->level[c]; j--)
+                column[j] = column[j - 1];
+            column[j] = c;
+        }
         advance_group(t, size, columns + done);
     }
 }
@@ -288,18 +276,18 @@ void rb_lcp_tableau_flush(lcp_tableau *t)
 
 /* ---- Look-ahead ------------------------------------------------------------------- */
 
-/* Columns in the order of increasing ratios, at most `room` of them. */
+/* Columns in the order of increasing ratios, at most `capacity` of them. */
 typedef struct {
-    int count, room;
+    int count, capacity;
     int *column;
     double *ratio;
 } shortlist;
 
 static void insert(shortlist *k, int column, double ratio)
 {
-    if (k->count == k->room && ratio >= k->ratio[k->count - 1])
+    if (k->count == k->capacity && ratio >= k->ratio[k->count - 1])
         return;
-    int j = k->count < k->room ? k->count++ : k->room - 1;
+    int j = k->count < k->capacity ? k->count++ : k->capacity - 1;
     for (; j > 0 && k->ratio[j - 1] > ratio; j--) {
         k->ratio[j] = k->ratio[j - 1];
         k->column[j] = k->column[j - 1];
@@ -317,8 +305,8 @@ void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving)
         rb_lcp_tableau_advance(t, 1, &c);
         return;
     }
-    const int room = behind > FAR || t->group < NEARBY ? t->group : NEARBY;
-    shortlist k = {0, room, t->wanted, t->S};
+    const int capacity = behind > FAR || t->group < NEARBY ? t->group : NEARBY;
+    shortlist k = {0, capacity, t->wanted, t->S};
     /* When a basic variable leaves, its complement enters, and the rows with the least
      * ratios are the next to leave.  The step of the last driving column has been taken
      * since, which changes all ratios alike. */
@@ -367,7 +355,7 @@ void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
     t->place[entering] = r;
     t->nonbasis[c] = leaving;
     t->place[leaving] = -1 - c;
-    if (t->k == t->room)
+    if (t->k == t->capacity)
         rb_lcp_tableau_flush(t);
 }
 

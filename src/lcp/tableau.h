@@ -44,11 +44,11 @@ typedef struct {
     int *slot;             /* n + 1: where column c stands in T; < 0: nowhere */
     int *spare, spares;    /* n + 1: free places in T, and how many */
 
-    int depth, room, k; /* pivots of a block; that U can hold; that it holds */
-    double *U;          /* n x room */
-    double *L;   /* depth x room, lower by blocks: row j = (U_rj before pivot j, p_j) */
-    int *row;    /* room: pivot rows */
-    int *before; /* room: the last pivot on the same row before, or -1 */
+    int depth, capacity, k; /* pivots of a block; that U can hold; that it holds */
+    double *U;              /* n x capacity */
+    double *L; /* depth x capacity, lower by blocks: row j = (U_rj before pivot j, p_j) */
+    int *row;  /* capacity: pivot rows */
+    int *before; /* capacity: the last pivot on the same row before, or -1 */
     int *last;   /* n: the row's last pivot, or -1 */
     int *wanted; /* n + 1: columns chosen by the look-ahead; scratch */
 

@@ -10,7 +10,7 @@
 
 json_t *rb_report_json_option(const rb_option *o, const void *values, rb_units units)
 {
-    char room[64];
+    char buffer[64];
     const char *place = (const char *)values + o->offset;
     switch (o->kind) {
     case RB_OPTION_NUMBER: {
@@ -31,7 +31,7 @@ json_t *rb_report_json_option(const rb_option *o, const void *values, rb_units u
     case RB_OPTION_FLAG:
         return json_boolean(*(const int *)(const void *)place);
     default:
-        return rb_report_json_text(rb_option_text(o, values, room));
+        return rb_report_json_text(rb_option_text(o, values, buffer));
     }
 }
 

@@ -182,24 +182,24 @@ static axis axis_of_result(const rb_report_study *s)
 }
 
 /* In words: gnuplot would lower what follows an underscore, as it shall of K alone. */
-static const char *plain(const char *name, char room[64])
+static const char *plain(const char *name, char buffer[64])
 {
-    room[0] = '\0';
+    buffer[0] = '\0';
     if (strncmp(name, "delta_K", 7) == 0) {
-        rb_append(room, 64, "Δ");
+        rb_append(buffer, 64, "Δ");
         name += strlen("delta_");
     }
     while (*name)
         if (strncmp(name, "K_", 2) == 0) {
             const size_t n = strspn(name + 2, "I");
-            rb_append(room, 64, "K_{%.*s}", n ? (int)n : (int)strlen("θ"),
+            rb_append(buffer, 64, "K_{%.*s}", n ? (int)n : (int)strlen("θ"),
                       n ? name + 2 : "θ");
             name += 2 + (n ? n : strlen("theta"));
         } else {
-            rb_append(room, 64, "%c", *name == '_' || *name == '-' ? ' ' : *name);
+            rb_append(buffer, 64, "%c", *name == '_' || *name == '-' ? ' ' : *name);
             name++;
         }
-    return room;
+    return buffer;
 }
 
 /* "max pressure  [10^{9} Pa]" */

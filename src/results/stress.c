@@ -363,20 +363,6 @@ static int is_peak(const search *s, const rb_rolling_stress_grid *grid, int k)
     return !isnan(s->of(&grid->at[k]));
 }
 
-/* The highest peak that is lower than peak `last`, or behind it; -1: none. */
-static int next_peak(const search *s, const rb_rolling_stress_grid *grid, int last)
-{
-    int next = -1;
-    for (int k = 0; k < grid->nx * grid->ny; k++) {
-        const double here = s->of(&grid->at[k]);
-        const double limit = last < 0 ? INFINITY : s->of(&grid->at[last]);
-        if ((here < limit || (here == limit && k > last)) &&
-            (next < 0 || here > s->of(&grid->at[next])) && is_peak(s, grid, k))
-            next = k;
-    }
-    return next;
-}
-
 /* Several peaks may be nearly as high, and the highest one of the grid need not have the
  * highest top.  best: of the places looked at before. */
 static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
@@ -385,7 +371,16 @@ static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
     rb_status status = RB_OK;
     int peak = -1;
     for (int k = 0; k < STARTS && status == RB_OK; k++) {
-        peak = next_peak(s, grid, peak);
+        /* The highest peak that is lower than peak `last`, or behind it; -1: none. */
+        int next = -1;
+        for (int j = 0; j < grid->nx * grid->ny; j++) {
+            const double here = s->of(&grid->at[j]);
+            const double limit = peak < 0 ? INFINITY : s->of(&grid->at[peak]);
+            if ((here < limit || (here == limit && j > peak)) &&
+                (next < 0 || here > s->of(&grid->at[next])) && is_peak(s, grid, j))
+                next = j;
+        }
+        peak = next;
         const rb_rolling_stress *at = peak < 0 ? NULL : &grid->at[peak];
         if (!at || s->of(at) < best->value - s->nearly * fabs(best->value))
             break;

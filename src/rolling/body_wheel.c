@@ -9,15 +9,6 @@ int rb_rolling_has_elastic_core(const rb_rolling_body *body)
     return body->cover > 0.0 && body->core_young > 0.0;
 }
 
-/* Of a cover as well: its stretch under the load is what one wants to know. */
-static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                             const rb_rolling_body *body)
-{
-    return plan->near_field == RB_NEAR_FIELD_AUTO
-               ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
-               : plan->near_field == RB_NEAR_FIELD_EXACT;
-}
-
 /* Around a cover nothing changes with the angle: without boundary elements, unless they
  * are asked for. */
 static int goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
@@ -128,7 +119,9 @@ by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
         return s;
     rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
                           &one_body->seconds_factor);
-    return (wants_exact_field(rc, plan, body)
+    return ((plan->near_field == RB_NEAR_FIELD_AUTO
+                 ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+                 : plan->near_field == RB_NEAR_FIELD_EXACT)
                 ? rb_bem_condense_subtracted
                 : rb_bem_condense)(one_body->system, rc->normals, &one_body->f, why);
 }

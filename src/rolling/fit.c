@@ -36,16 +36,6 @@ static double margin_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *r
     return 0.5 * (length_of(mesh, outer) + length_of(mesh, open));
 }
 
-static void join(patches *found, int k)
-{
-    const size_t behind = (size_t)(--found->count - k);
-
-    found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
-    found->span[k - 1].margin_right = found->span[k].margin_right;
-    found->span[k - 1].h_right = found->span[k].h_right;
-    memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
-}
-
 /* Into the order of x, together with those that it touches.  0: there is no room. */
 static int add_patch(const rb_rolling_span *span, patches *found)
 {
@@ -60,8 +50,14 @@ static int add_patch(const rb_rolling_span *span, patches *found)
         const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
         const double wider = fmax(a->to - a->from, b->to - b->from);
 
-        if (b->from - a->to < NARROW * wider)
-            join(found, k);
+        if (b->from - a->to < NARROW * wider) {
+            const size_t behind = (size_t)(--found->count - k);
+
+            found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
+            found->span[k - 1].margin_right = found->span[k].margin_right;
+            found->span[k - 1].h_right = found->span[k].h_right;
+            memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
+        }
     }
     return 1;
 }

@@ -55,21 +55,6 @@ static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int plac
     return status;
 }
 
-/* What the bodies have over half-planes is smooth along the surface: linear in between,
- * at `ahead` elements from each of the m = n + 1 midpoints, the last one's line going on.
- */
-static void add_between(int n, const double *rest, double ahead, double *W_T)
-{
-    const size_t rows = (size_t)n, m = rows + 1;
-
-    for (int i = 0; i < n; i++) {
-        const int before = i + ahead < n - 1 ? (int)(i + ahead) : n - 1;
-        const double t = i + ahead - before;
-        cblas_daxpy(2 * n, 1.0 - t, rest + before, (int)m, W_T + i, n);
-        cblas_daxpy(2 * n, t, rest + before + 1, (int)m, W_T + i, n);
-    }
-}
-
 /* Every pair of points and elements by its own. */
 static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              double step, double *W_T)
@@ -86,7 +71,19 @@ static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies 
             for (size_t i = 0; i < (size_t)m; i++)
                 rest[i + j * m] =
                     bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
-        add_between(n, rest, step / h, W_T);
+        /* What the bodies have over half-planes is smooth along the surface: linear in
+         * between, at `ahead` elements from each of the m = n + 1 midpoints, the last
+         * one's line going on.
+         */
+        const double ahead = step / h;
+        const size_t rows = (size_t)n, all = rows + 1;
+
+        for (int i = 0; i < n; i++) {
+            const int before = i + ahead < n - 1 ? (int)(i + ahead) : n - 1;
+            const double t = i + ahead - before;
+            cblas_daxpy(2 * n, 1.0 - t, rest + before, (int)all, W_T + i, n);
+            cblas_daxpy(2 * n, t, rest + before + 1, (int)all, W_T + i, n);
+        }
     }
     free(rest);
     return s;

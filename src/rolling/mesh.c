@@ -31,25 +31,23 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
-/* The difference of the heights x^2/(R + sqrt(R^2 - x^2)) of two circles, formed from
- * that of their radii: a journal may be smaller than its bore by a part in a million. */
-static double gap_in_bore(double radius, double bore, double x)
-{
-    const double a = sqrt(radius * radius - x * x), b = sqrt(bore * bore - x * x);
-    return x * x * (bore - radius) * (1.0 + (radius + bore) / (a + b)) /
-           ((radius + a) * (bore + b));
-}
-
 static double round_gap(const rb_rolling_case *rc, double x)
 {
     if (rc->gap == RB_GAP_TABLE)
         return rb_rolling_profile_gap(rc->profile, x);
-    if (rc->gap == RB_GAP_EXACT)
-        return rc->b.radius < 0.0
-                   ? gap_in_bore(rc->a.radius, -rc->b.radius, x)
-                   : rb_bem_circle_height(rc->a.radius, x) +
-                         (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x)
-                                                 : 0.0);
+    if (rc->gap == RB_GAP_EXACT) {
+        /* The difference of the heights x^2/(R + sqrt(R^2 - x^2)) of two circles, formed
+         * from that of their radii: a journal may be smaller than its bore by a part in a
+         * million. */
+        if (!(rc->b.radius < 0.0))
+            return rb_bem_circle_height(rc->a.radius, x) +
+                   (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
+        const double bore = -rc->b.radius;
+        const double a = sqrt(rc->a.radius * rc->a.radius - x * x),
+                     b = sqrt(bore * bore - x * x);
+        return x * x * (bore - rc->a.radius) * (1.0 + (rc->a.radius + bore) / (a + b)) /
+               ((rc->a.radius + a) * (bore + b));
+    }
     return x * x / (2.0 * rb_rolling_radius(rc));
 }
 
@@ -204,17 +202,6 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_pl
 
 /* ---- Fitted elements --------------------------------------------------------------- */
 
-/* n elements between from and to, symmetric to rounding; returns the last end. */
-static double *put_cosine(double from, double to, int n, double *end)
-{
-    const double centre = 0.5 * (from + to), half = 0.5 * (to - from);
-
-    for (int i = 1; i < n; i++)
-        *++end = centre - half * sin(0.5 * M_PI * (n - 2 * i) / n);
-    *++end = to;
-    return end;
-}
-
 /* Distances from an edge at which elements beyond it end: the first one as long as the
  * last inside, OUTSIDE of them or as many as reach `room`, none beyond `available`. */
 static int distances(double step, double room, double available, double *distance)
@@ -299,7 +286,13 @@ static int put_ends(const rb_rolling_case *rc, int all, int count,
     for (int k = 0; k < count; k++) {
         const int across = elements_across(all, count, span, k);
         step = edge_step(span + k, across);
-        end = put_cosine(span[k].from, span[k].to, across, end);
+        /* n elements between from and to, symmetric to rounding; returns the last end. */
+        const double centre = 0.5 * (span[k].from + span[k].to),
+                     half = 0.5 * (span[k].to - span[k].from);
+
+        for (int i = 1; i < across; i++)
+            *++end = centre - half * sin(0.5 * M_PI * (across - 2 * i) / across);
+        *++end = span[k].to;
         if (k + 1 < count)
             end = put_between(
                 span[k].to, span[k + 1].from, step,

@@ -101,20 +101,6 @@ static int by_x(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Values of the line through n points. */
-static void add_line(int n, const point *at, const targets *to)
-{
-    for (int i = 0; i < to->n; i++) {
-        int k = 0;
-        for (int end = n - 1; end - k > 1;) {
-            const int middle = (k + end) / 2;
-            *(at[middle].x <= to->x[i] ? &k : &end) = middle;
-        }
-        const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
-        to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
-    }
-}
-
 /* u_y of boundary elements by their system. */
 static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_state *state,
                             int is_b, double coupling, const rb_bem_mesh *mesh, double *u)
@@ -188,7 +174,16 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
     }
     if (s == RB_OK && lower > 1) {
         qsort(at, (size_t)lower, sizeof *at, by_x);
-        add_line(lower, at, to);
+        /* Values of the line through n points. */
+        for (int i = 0; i < to->n; i++) {
+            int k = 0;
+            for (int end = lower - 1; end - k > 1;) {
+                const int middle = (k + end) / 2;
+                *(at[middle].x <= to->x[i] ? &k : &end) = middle;
+            }
+            const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
+            to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
+        }
     }
     free(at);
     free(u);
@@ -196,23 +191,18 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
     return s;
 }
 
-/* Of one body; B is mirrored. */
-static rb_status add_body(const rb_rolling_model *model, const rb_contact_state *state,
-                          int is_b, const strips *s, const targets *to)
-{
-    const rb_rolling_body *body = is_b ? &model->rc->b : &model->rc->a;
-
-    return rb_rolling_body_can(body, RB_BODY_FLAT)
-               ? add_halfplane(model->rc, body, is_b ? -1.0 : 1.0, s, to)
-               : add_wheel(model, state, is_b, s, to);
-}
-
 static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,
                             const strips *s, const targets *to)
 {
     rb_status status = RB_OK;
-    for (int b = 0; b < 1 + model->rc->elastic_b && status == RB_OK; b++)
-        status = add_body(model, state, b, s, to);
+    for (int b = 0; b < 1 + model->rc->elastic_b && status == RB_OK; b++) {
+        /* Of one body; B is mirrored. */
+        const rb_rolling_body *body = b ? &model->rc->b : &model->rc->a;
+
+        status = rb_rolling_body_can(body, RB_BODY_FLAT)
+                     ? add_halfplane(model->rc, body, b ? -1.0 : 1.0, s, to)
+                     : add_wheel(model, state, b, s, to);
+    }
     return status;
 }
 
@@ -294,11 +284,6 @@ static int is_unseen(const rb_rolling_mesh *mesh, const rb_contact_state *state,
            mesh->ends[i + 1] - mesh->ends[i] > 2.0 * h;
 }
 
-static size_t most_places(int rows)
-{
-    return (size_t)fmin(BETWEEN * (double)rows, MOST_PLACES) + BETWEEN;
-}
-
 /* A table that moves: its n rows stood at x before it has passed so far. */
 typedef struct {
     int n;
@@ -346,35 +331,6 @@ static void find_tables(const rb_rolling_model *model, table t[TABLES])
         t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
 }
 
-/* Places of all tables in order, and the undeformed gap there. */
-static rb_status unseen_places(const rb_rolling_model *model,
-                               const rb_contact_state *state, int *places, double *x,
-                               double *gap)
-{
-    table t[TABLES];
-
-    find_tables(model, t);
-    *places = 0;
-    for (int k = 0; k < TABLES; k++)
-        if (t[k].n > 1)
-            *places = add_places(model, state, &t[k], x, *places);
-    qsort(x, (size_t)*places, sizeof *x, by_value);
-    return rb_rolling_gap_along(model->rc, model->mesh.passed, *places, x, gap);
-}
-
-/* Leaves the places whose gap is less than `reach`. */
-static int within_reach(int places, double reach, double *x, double *gap)
-{
-    int n = 0;
-
-    for (int i = 0; i < places; i++)
-        if (gap[i] < reach) {
-            x[n] = x[i];
-            gap[n++] = gap[i];
-        }
-    return n;
-}
-
 /* Neighbouring places of overlap as one stretch, reaching to the next places without, or
  * by h where there is none. */
 static void add_place(const double *x, int places, int i, double h, rb_rolling_overlap *o)
@@ -409,7 +365,17 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
     double from, to;
     double *w = x + scratch, *gap = w + scratch, least;
     int places;
-    rb_status status = unseen_places(model, state, &places, x, gap);
+    /* Places of all tables in order, and the undeformed gap there. */
+    table t[TABLES];
+
+    find_tables(model, t);
+    places = 0;
+    for (int k = 0; k < TABLES; k++)
+        if (t[k].n > 1)
+            places = add_places(model, state, &t[k], x, places);
+    qsort(x, (size_t)places, sizeof *x, by_value);
+    rb_status status =
+        rb_rolling_gap_along(model->rc, model->mesh.passed, places, x, gap);
 
     if (status != RB_OK || places == 0)
         return status;
@@ -417,7 +383,15 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
                                 fmax(x[places - 1], mesh->ends[mesh->n]), &least);
     if (status != RB_OK)
         return status;
-    places = within_reach(places, state->delta - least, x, gap);
+    /* Leaves the places whose gap is less than `reach`. */
+    int n = 0;
+
+    for (int i = 0; i < places; i++)
+        if (gap[i] < state->delta - least) {
+            x[n] = x[i];
+            gap[n++] = gap[i];
+        }
+    places = n;
     x[places] = model->bodies.f.x[0];
     x[places + 1] = model->bodies.f.x[mesh->n - 1];
     if (places > 0)
@@ -446,7 +420,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
     size_t scratch = 2;
     find_tables(model, t);
     for (int k = 0; k < TABLES; k++)
-        scratch += most_places(t[k].n);
+        scratch += (size_t)fmin(BETWEEN * (double)t[k].n, MOST_PLACES) + BETWEEN;
     double *x = rb_alloc(scratch, 3);
     rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
     if (status == RB_OK)

@@ -149,12 +149,6 @@ static double distance_of(smoothing *s, double lambda)
     return sqrt(sum / s->n);
 }
 
-static void smoothing_free(smoothing *s)
-{
-    free(s->residual);
-    free(s->normal);
-}
-
 static rb_status smoothing_create(int n, const double *x, const double *gap, double noise,
                                   smoothing *s)
 {
@@ -232,7 +226,8 @@ static rb_status set_smoothed(rb_rolling_profile *p, int n, const double *x,
         status = RB_ENOMEM;
     }
     free(at);
-    smoothing_free(&s);
+    free(s.residual);
+    free(s.normal);
     return status;
 }
 

@@ -242,9 +242,16 @@ static interval first_zone(const rb_rolling_case *rc)
 
 /* ---- The automatic one ------------------------------------------------------------- */
 
-/* The zone grown where fewer separated elements than wanted stand at its end. */
-static interval grown_at_ends(const rb_rolling_model *model, interval zone)
+/* The same, and over all places where the bodies overlap outside it; the state of a
+ * solution says that they do so nowhere. */
+static rb_status grown(const rb_rolling_model *model, interval zone, interval *wider)
 {
+    rb_rolling_overlap overlap = {0};
+    const rb_status s = model->state.status == RB_OK
+                            ? RB_OK
+                            : rb_rolling_find_overlap(model, &model->state, &overlap);
+
+    /* The zone grown where fewer separated elements than wanted stand at its end. */
     /* Three, or what few elements have beside three in contact: a potential contact that
      * is grown until all elements are separated no longer sees the contact between their
      * midpoints. */
@@ -257,24 +264,12 @@ static interval grown_at_ends(const rb_rolling_model *model, interval zone)
     separated_at_ends(&model->state, &left, &right);
     const int at_left = left < wanted, at_right = right < wanted;
     const int both = is_symmetric(model->rc) && (at_left || at_right);
-    const interval wider = within(scaled(zone, 1.3), extent(model->rc));
+    const interval more = within(scaled(zone, 1.3), extent(model->rc));
     if (at_left || both)
-        zone.from = fmin(zone.from, wider.from);
+        zone.from = fmin(zone.from, more.from);
     if (at_right || both)
-        zone.to = fmax(zone.to, wider.to);
-    return zone;
-}
-
-/* The same, and over all places where the bodies overlap outside it; the state of a
- * solution says that they do so nowhere. */
-static rb_status grown(const rb_rolling_model *model, interval zone, interval *wider)
-{
-    rb_rolling_overlap overlap = {0};
-    const rb_status s = model->state.status == RB_OK
-                            ? RB_OK
-                            : rb_rolling_find_overlap(model, &model->state, &overlap);
-
-    *wider = grown_at_ends(model, zone);
+        zone.to = fmax(zone.to, more.to);
+    *wider = zone;
     for (int k = 0; k < overlap.count; k++) {
         const interval there = scaled((interval){overlap.from[k], overlap.to[k]}, 1.3);
         wider->from = fmin(wider->from, there.from);

@@ -296,32 +296,6 @@ static double take_unseen(const rb_rolling_solution *s, int runs, double value,
     return longest;
 }
 
-static void estimate(const rb_rolling_case *rc, const sample run[], const sample *own,
-                     int with_stress, error_parts *e)
-{
-    const int runs = rb_rolling_error_runs(rc);
-    double coarser[RB_ERROR_RUNS];
-
-    e->contact = e->boundary = rb_rolling_no_row(RB_OK).errors;
-    for (int t = 0; t <= with_stress; t++)
-        for (int k = 0; k < tables[t]->n; k++) {
-            const rb_rolling_result *r = &tables[t]->row[k];
-            if (r->error_bar == RB_SCALE_NONE)
-                continue;
-            const double value = rb_rolling_number(r, part_of_sample(own, t));
-            for (int j = 0; j < runs; j++)
-                coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
-            const double unseen = r->error_bar == RB_SCALE_ELEMENT
-                                      ? take_unseen(&own->solution, runs, value, coarser)
-                                      : 0.0;
-            put(r, part_of_errors(&e->contact, t),
-                rb_rolling_contact_error(coarser, value) +
-                    least_error(rc, &own->solution, r->error_bar) + unseen);
-            put(r, part_of_errors(&e->boundary, t),
-                rb_rolling_boundary_error(runs, coarser, value));
-        }
-}
-
 static void add_parts(error_parts *parts, rb_rolling_errors *errors)
 {
     *errors = rb_rolling_no_row(RB_OK).errors;
@@ -364,8 +338,29 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
             rb_fail(why, status, "error bars: %d contact elements: %.200s",
                     coarser.contact_elements, rb_status_reason(status, &reason));
     }
-    if (status == RB_OK)
-        estimate(rc, run, own, with_stress, parts);
+    if (status == RB_OK) {
+        double coarser[RB_ERROR_RUNS];
+
+        parts->contact = parts->boundary = rb_rolling_no_row(RB_OK).errors;
+        for (int t = 0; t <= with_stress; t++)
+            for (int k = 0; k < tables[t]->n; k++) {
+                const rb_rolling_result *r = &tables[t]->row[k];
+                if (r->error_bar == RB_SCALE_NONE)
+                    continue;
+                const double value = rb_rolling_number(r, part_of_sample(own, t));
+                for (int j = 0; j < runs; j++)
+                    coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
+                const double unseen =
+                    r->error_bar == RB_SCALE_ELEMENT
+                        ? take_unseen(&own->solution, runs, value, coarser)
+                        : 0.0;
+                put(r, part_of_errors(&parts->contact, t),
+                    rb_rolling_contact_error(coarser, value) +
+                        least_error(rc, &own->solution, r->error_bar) + unseen);
+                put(r, part_of_errors(&parts->boundary, t),
+                    rb_rolling_boundary_error(runs, coarser, value));
+            }
+    }
     for (int k = 0; k < runs; k++)
         rb_rolling_solution_free(&run[k].solution);
     return status;

@@ -95,24 +95,6 @@ static int send_all(int to, const void *data, size_t size)
     return send(to, data, size, MSG_NOSIGNAL) == (ssize_t)size;
 }
 
-static void run_worker(const rb_rolling_sweep *sweep, int parent)
-{
-    rb_rolling_row row;
-    int k;
-
-#ifdef _OPENMP
-    omp_set_num_threads(1); /* the processes fill the processors */
-#endif
-    signal(SIGINT, SIG_IGN); /* the parent decides */
-    signal(SIGTERM, SIG_DFL);
-    do {
-        if (!receive_all(parent, &k, sizeof k))
-            break;
-        rb_rolling_sweep_case(sweep, k, &row, NULL);
-    } while (send_all(parent, &row, sizeof row));
-    _exit(0);
-}
-
 /* ---- The parent -------------------------------------------------------------------- */
 
 static rb_status start_worker(processes *p, worker *w)
@@ -130,7 +112,20 @@ static rb_status start_worker(processes *p, worker *w)
         for (int i = 0; i < p->workers; i++)
             if (p->worker[i].socket >= 0)
                 close(p->worker[i].socket);
-        run_worker(p->sweep, end[1]);
+        rb_rolling_row row;
+        int k;
+
+#ifdef _OPENMP
+        omp_set_num_threads(1); /* the processes fill the processors */
+#endif
+        signal(SIGINT, SIG_IGN); /* the parent decides */
+        signal(SIGTERM, SIG_DFL);
+        do {
+            if (!receive_all(end[1], &k, sizeof k))
+                break;
+            rb_rolling_sweep_case(p->sweep, k, &row, NULL);
+        } while (send_all(end[1], &row, sizeof row));
+        _exit(0);
     }
     close(end[1]);
     if (w->pid < 0) {
@@ -179,27 +174,6 @@ static rb_status submit(rb_rolling_pool *pool, int k)
     return RB_OK;
 }
 
-/* Another worker takes the place of one that died, and its case; where that is its second
- * death, the case is given up. */
-static int replace_worker(processes *p, worker *w, int *k, rb_rolling_row *row)
-{
-    const int lost = w->k, again = w->again;
-    end_worker(w);
-    const rb_status s = start_worker(p, w);
-    if (s != RB_OK)
-        return (int)s;
-    if (lost < 0)
-        return 0;
-    if (!again) {
-        w->again = 1;
-        assign(w, lost);
-        return 0;
-    }
-    *k = lost;
-    *row = rb_rolling_no_row(RB_ENOMEM);
-    return 1;
-}
-
 static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
 {
     processes *p = processes_of(pool);
@@ -214,8 +188,25 @@ static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_r
     worker *w = &p->worker[p->next];
     p->next = (p->next + 1) % p->workers;
     /* The row of a worker that has something to say, or has died. */
-    if (!receive_all(w->socket, row, sizeof *row))
-        return replace_worker(p, w, k, row);
+    if (!receive_all(w->socket, row, sizeof *row)) {
+        /* Another worker takes the place of one that died, and its case; where that is
+         * its second death, the case is given up. */
+        const int lost = w->k, again = w->again;
+        end_worker(w);
+        const rb_status s = start_worker(p, w);
+        if (s != RB_OK)
+            return (int)s;
+        if (lost < 0)
+            return 0;
+        if (!again) {
+            w->again = 1;
+            assign(w, lost);
+            return 0;
+        }
+        *k = lost;
+        *row = rb_rolling_no_row(RB_ENOMEM);
+        return 1;
+    }
     *k = w->k;
     w->k = -1;
     return 1;
