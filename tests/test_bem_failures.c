@@ -1,8 +1,5 @@
 /* Boundary elements without memory, and with bad input: every kind of body, every
  * refusal. */
-#include "bem/cluster.h"
-#include "bem/large.h"
-#include "bem/system.h"
 #include "bem_shapes.h"
 
 #include <string.h>
@@ -286,48 +283,6 @@ TEST(wheels_tell_of_missing_memory)
         check_memory(make_wheel, &has_cover);
 }
 
-typedef struct {
-    rb_bem_mesh mesh;
-    rb_bem_material material;
-} solid;
-
-/* Eight clusters: one thread. */
-static rb_status make_hierarchical(const void *of)
-{
-    const solid *b = of;
-    double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
-    rb_bem_system *system = NULL;
-
-    if (!u)
-        return RB_ENOMEM;
-    rb_status s = rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL);
-    if (s == RB_OK)
-        s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
-    rb_bem_system_free(system);
-    free(u);
-    return s;
-}
-
-TEST(clusters_tell_of_missing_memory)
-{
-    rb_bem_cylinder cylinder = cylinder_of(0);
-    solid b = {.material = steel};
-
-    cylinder.outer_elements = 150;
-    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &b.mesh, NULL), RB_OK);
-    assert_in_range(b.mesh.n, 128, 250);
-    check_memory(make_hierarchical, &b);
-    b.material.poisson = 0.5;
-    check_memory(make_hierarchical, &b);
-    rb_bem_mesh_free(&b.mesh);
-}
-
-TEST(absurd_sizes_have_no_room)
-{
-    assert_null(rb_large_alloc(SIZE_MAX / sizeof(double), 2));
-    free(rb_large_alloc(3, 0));
-}
-
 /* ---- Where formulas have no value of their own ------------------------------------- */
 
 /* At the ends of strips, where a logarithm or its angle has none, values are those beside
@@ -390,31 +345,6 @@ TEST(fields_may_be_asked_for_alone)
 }
 
 /* ---- Clusters ---------------------------------------------------------------------- */
-
-/* Of a long thin row of elements, the halves lie beside each other along it, whichever
- * way it lies, and circles reach to the ends of their elements and no further. */
-TEST(clusters_are_cut_across_their_longer_side)
-{
-    enum { COUNT = 64 };
-    rb_element e[COUNT];
-    int order[COUNT];
-
-    for (int along = 0; along < 2; along++) {
-        for (int i = 0; i < COUNT; i++) {
-            const double s = 10.0 * ((i * 37) % COUNT) + 100.0, t = -50.0 - i % 2;
-            e[i] = (rb_element){.mx = along ? t : s, .my = along ? s : t, .a = 0.5};
-        }
-        rb_cluster_order(COUNT, e, 1, order);
-        for (int i = 0; i < COUNT; i++) {
-            const double s = along ? e[order[i]].my : e[order[i]].mx;
-            assert_true((s < 100.0 + 5.0 * COUNT) == (i < COUNT / 2));
-        }
-        const rb_circle c = rb_cluster_circle(e, 0, COUNT);
-        CHECK_REL(along ? c.y : c.x, 100.0 + 5.0 * (COUNT - 1), 1e-12, "middle");
-        CHECK_REL(along ? c.x : c.y, -50.5, 1e-12, "middle");
-        CHECK_REL(c.r, hypot(5.0 * (COUNT - 1), 0.5) + 0.5, 1e-12, "radius");
-    }
-}
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 

@@ -1,5 +1,4 @@
 /* Flexibilities of the contact: the half-plane and the pair of bodies. */
-#include "bem/fourier.h"
 #include "bem_shapes.h"
 #include "check.h"
 #include "rollbem/bem.h"
@@ -129,21 +128,6 @@ TEST(identical_bodies_lose_their_coupling)
     rb_bem_flexibility_free(&f);
 }
 
-/* The smallest even product of twos, threes and fives that has the room. */
-TEST(transforms_have_lengths_that_are_quick)
-{
-    static const int all[][2] = {{1, 2},   {2, 2},   {3, 4},   {7, 8},     {11, 12},
-                                 {13, 16}, {21, 24}, {26, 30}, {31, 32},   {41, 48},
-                                 {51, 54}, {61, 64}, {91, 96}, {961, 972}, {2501, 2560}};
-
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        rb_fourier f;
-        assert_true(rb_fourier_make(all[k][0], &f));
-        assert_int_equal(f.size, all[k][1]);
-        rb_fourier_free(&f);
-    }
-}
-
 /* A load of which neither sum nor moment is left does not feel the datum, nor the ends of
  * the line, and varies over `width` elements. */
 static void wavelet(int n, double width, double *r)
@@ -203,67 +187,6 @@ TEST(a_line_is_nearly_inverted_by_its_waves)
         rb_bem_circulant_free(c);
         rb_bem_flexibility_free(&f);
     }
-}
-
-/* The preconditioner answers to distances alone, and is written out for distances up to
- * 2n; wave for wave, its differences are the other one over the symbol of A. */
-TEST(every_wave_has_its_own_inverse)
-{
-    enum { n = 20, m = n + 1 };
-    static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
-    double ends[m + 1];
-    complex double wave[2][n];
-    rb_bem_flexibility f;
-    rb_bem_circulant *c;
-    rb_fourier transform;
-
-    for (int i = 0; i <= m; i++)
-        ends[i] = i;
-    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
-                 RB_OK);
-    CHECK_STATUS(rb_bem_circulant_create(&f, stencil, stencil, &c), RB_OK);
-    assert_true(rb_fourier_make(n + n / 8 + 2, &transform));
-    const int size = transform.size;
-    rb_fourier_free(&transform);
-    assert_in_range(size, n + 1, 2 * n - 1);
-    double around[2][2 * n];
-    for (int k = 0; k < 2; k++) {
-        for (int at = 0; at < n; at++) {
-            double one[n] = {0.0}, answer[n];
-            one[at] = 1.0;
-            for (int i = 0; i < n; i++)
-                answer[i] = NAN;
-            (k ? rb_bem_circulant_apply_difference : rb_bem_circulant_apply)(c, one,
-                                                                             answer);
-            for (int i = 0; i < n; i++) {
-                const int d = (i - at + size) % size;
-                if (at == 0 || d == size - at)
-                    around[k][d] = answer[i];
-                CHECK_ABS(answer[i], around[k][d], 1e-12 * fabs(around[k][0]),
-                          "answer %d to %d, kind %d", i, at, k);
-            }
-        }
-        for (int v = 0; v <= size / 2; v++) {
-            wave[k][v] = 0.0;
-            for (int d = 0; d < size; d++)
-                wave[k][v] += around[k][d] * cexp(-2.0 * M_PI * I * v * d / size);
-        }
-        /* the mean, of which the symbol says nothing, is damped and not forgotten */
-        assert_true(creal(wave[k][0]) > 0.01 * creal(wave[0][1]));
-        assert_true(creal(wave[k][0]) < creal(wave[0][1]));
-    }
-    for (int v = 1; v <= size / 2; v++) {
-        const double complex e = cexp(2.0 * M_PI * I * v / size);
-        const double complex symbol =
-            stencil[0] / e + stencil[1] + stencil[2] * e + stencil[3] * e * e;
-        /* the middle wave of an even number has no imaginary part */
-        const double complex want = wave[0][v] / symbol;
-        CHECK_ABS(creal(wave[1][v]), creal(want), 1e-12 * cabs(want), "wave %d", v);
-        if (2 * v < size)
-            CHECK_ABS(cimag(wave[1][v]), cimag(want), 1e-12 * cabs(want), "wave %d", v);
-    }
-    rb_bem_circulant_free(c);
-    rb_bem_flexibility_free(&f);
 }
 
 TEST(bad_input_is_refused)

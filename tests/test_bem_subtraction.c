@@ -1,122 +1,12 @@
-/* The strip in complex form, and the flexibility whose singular part it is (B10). */
+/* The flexibility whose singular part is a strip in complex form (B10); the strip itself:
+ * test_inside_bem.c. */
 #include "bem_shapes.h"
 #include "check.h"
-#include "bem/strip.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
 
 static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
-
-/* One strip from x = -0.3 to 0.5 on the edge of y > 0. */
-static rb_strip flat_strip(rb_bem_mesh *mesh)
-{
-    CHECK_STATUS(rb_bem_mesh_alloc(1, mesh), RB_OK);
-    mesh->x0[0] = -0.3;
-    mesh->x1[0] = 0.5;
-    return rb_strip_on(mesh, 0, steel, 1.0);
-}
-
-TEST(the_strip_is_flamants_on_the_surface)
-{
-    const double ends[] = {-0.3, 0.5}, x[] = {-3.0, -0.31, -0.1, 0.1, 0.49, 40.0};
-    double W[4 * 6];
-    rb_bem_mesh mesh;
-    const rb_strip strip = flat_strip(&mesh);
-    CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 1.0), 1, ends, 6, x, W),
-                 RB_OK);
-    /* the datum and the rotation-free constant differ: compare with the first point */
-    for (int load = 0; load < 2; load++)
-        for (int i = 1; i < 6; i++) {
-            const double complex f = load ? 1.0 : I;
-            const double complex u =
-                rb_strip_under(rb_strip_displacement(&strip, x[i]), f) -
-                rb_strip_under(rb_strip_displacement(&strip, x[0]), f);
-            const double *column = W + 12 * load;
-            CHECK_ABS(cimag(u), column[i] - column[0], 1e-18, "w_N at %g", x[i]);
-            CHECK_ABS(creal(u), column[6 + i] - column[6], 1e-18, "w_T at %g", x[i]);
-        }
-    rb_bem_mesh_free(&mesh);
-}
-
-TEST(its_tractions_are_those_of_the_stress)
-{
-    const double ends[] = {-0.3, 0.5}, p = 2.0, q = -0.7;
-    const double xy[] = {0.1, 0.0, 0.2, 0.3, -1.0, 0.01, 5.0, 7.0};
-    double sigma[12];
-    rb_bem_mesh mesh;
-    const rb_strip strip = flat_strip(&mesh);
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, &p, &q},
-                                         (rb_bem_points){4, xy}, sigma),
-                 RB_OK);
-    for (int k = 0; k < 4; k++)
-        for (int turn = 0; turn < 4; turn++) {
-            const double nx = cos(0.3 + turn), ny = sin(0.3 + turn), *s = sigma + 3 * k;
-            const double complex t = rb_strip_under(
-                rb_strip_traction(&strip, xy[2 * k] + xy[2 * k + 1] * I, nx + ny * I),
-                q + p * I);
-            CHECK_ABS(creal(t), s[0] * nx + s[2] * ny, 1e-14, "t_x, point %d", k);
-            CHECK_ABS(cimag(t), s[2] * nx + s[1] * ny, 1e-14, "t_y, point %d", k);
-        }
-    rb_bem_mesh_free(&mesh);
-}
-
-/* Far away the strip is a force: no digit is lost there. */
-TEST(far_away_it_keeps_its_digits)
-{
-    rb_bem_mesh mesh;
-    CHECK_STATUS(rb_bem_mesh_alloc(1, &mesh), RB_OK);
-    mesh.x0[0] = -5e-11;
-    mesh.x1[0] = 5e-11;
-    const rb_strip strip = rb_strip_on(&mesh, 0, steel, 1.0);
-    const double complex z = 0.3 + 0.4 * I, F = 1e-10 * I;
-    const double kappa = 3.0 - 4.0 * steel.poisson;
-    const double complex point =
-        -kappa * F * clog(z) + z * conj(F) / conj(z) - F * conj(clog(z));
-    const double complex want = point / (4.0 * M_PI * steel.shear);
-    const double complex got = rb_strip_under(rb_strip_displacement(&strip, z), I);
-    CHECK_MAX(cabs(got - want), 1e-14 * cabs(want), "against the force");
-    rb_bem_mesh_free(&mesh);
-}
-
-/* Two strips of different length that share an end where the traction has a kink, against
- * the tent of the half-plane; the end itself included. */
-TEST(linear_strips_make_a_tent)
-{
-    const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0},
-                 q[] = {0.0, -0.7, 0.0};
-    const double xy[] = {0.0, 0.3, 0.1, 0.2, 0.1, 0.0, -1.0, 0.01, 0.3, 0.0, 2.0, 1.0};
-    const rb_strip left = rb_strip_between(-0.3, 0.1, steel, 1.0),
-                   right = rb_strip_between(0.1, 0.2, steel, 1.0);
-    const double complex top = q[1] + p[1] * I;
-    double want[18], a[3], b[3];
-    CHECK_STATUS(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){3, nodes, p, q},
-                                                (rb_bem_points){6, xy}, want),
-                 RB_OK);
-    for (int k = 0; k < 6; k++) {
-        const double complex z = xy[2 * k] + xy[2 * k + 1] * I;
-        rb_strip_linear_stress(&left, z, 0.5 * top, top / 0.4, a);
-        rb_strip_linear_stress(&right, z, 0.5 * top, -top / 0.1, b);
-        for (int i = 0; i < 3; i++)
-            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-10, "point %d, component %d", k,
-                      i);
-    }
-}
-
-/* Turning strip and point together turns the stress: its invariants stay. */
-TEST(linear_strips_do_not_know_their_direction)
-{
-    const double complex turn = cos(0.7) + sin(0.7) * I, z = 0.2 + 0.1 * I;
-    const rb_strip flat = rb_strip_between(-0.3, 0.5, steel, 1.0),
-                   turned = rb_strip_between(-0.3 * turn, 0.5 * turn, steel, 1.0);
-    double a[3], b[3];
-    rb_strip_linear_stress(&flat, z, 1.0 + 2.0 * I, 0.3 * I, a);
-    rb_strip_linear_stress(&turned, z * turn, (1.0 + 2.0 * I) * turn, 0.3 * I * turn, b);
-    const double c = cos(0.7), s = sin(0.7);
-    CHECK_ABS(b[0], c * c * a[0] + s * s * a[1] - 2.0 * c * s * a[2], 1e-13, "sxx");
-    CHECK_ABS(b[1], s * s * a[0] + c * c * a[1] + 2.0 * c * s * a[2], 1e-13, "syy");
-    CHECK_ABS(b[2], c * s * (a[0] - a[1]) + (c * c - s * s) * a[2], 1e-13, "sxy");
-}
 
 /* A wheel with a hub, n equal elements over a zone of half-width a = 1 on R = 1000. */
 static rb_bem_system *wheel_system(int n)

@@ -1,5 +1,4 @@
 /* Mixed problems: classical solutions, support, refusals. */
-#include "bem/internal.h"
 #include "bem_shapes.h"
 
 #include <string.h>
@@ -267,25 +266,6 @@ TEST(a_body_without_support_is_refused)
     rb_bem_mesh_free(&mesh);
 }
 
-/* Which places are one place is a question of the body's size. */
-TEST(supports_are_judged_in_any_unit)
-{
-    enum { n = 16 };
-    static const double radii[] = {1e-9, 1e-3, 1.0, 1e6};
-    for (size_t k = 0; k < sizeof radii / sizeof *radii; k++) {
-        rb_bem_mesh mesh;
-        CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
-        put_circle(&mesh, 0, n, radii[k], 1, -M_PI / n);
-        mesh.condition[0] = mesh.condition[1] = RB_BEM_DISPLACEMENT;
-        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_EINVAL);
-        mesh.condition[2 * (n / 2)] = RB_BEM_DISPLACEMENT; /* opposite, same height */
-        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_EINVAL);
-        mesh.condition[2 * 3] = RB_BEM_DISPLACEMENT;
-        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_OK);
-        rb_bem_mesh_free(&mesh);
-    }
-}
-
 /* Two bodies, one of them held: the count sees a support, the matrix does not. */
 TEST(a_second_body_without_support_is_singular)
 {
@@ -309,25 +289,6 @@ TEST(a_second_body_without_support_is_singular)
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
-
-TEST(materials_have_their_limits)
-{
-    static const struct {
-        double shear, poisson;
-        rb_status wanted;
-    } all[] = {
-        {1e-300, -1.0 + 1e-15, RB_OK}, {1e300, 0.5, RB_OK},        {1.0, -1.0, RB_EINVAL},
-        {1.0, 0.5 + 1e-15, RB_EINVAL}, {1.0, NAN, RB_EINVAL},      {0.0, 0.3, RB_EINVAL},
-        {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
-
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        rb_message why = {""};
-        CHECK_STATUS(
-            rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &why),
-            all[k].wanted);
-        assert_true((why.text[0] != 0) == (all[k].wanted != RB_OK));
-    }
-}
 
 TEST(bad_input_is_refused)
 {

@@ -1,56 +1,10 @@
-/* The flexibility of wheels by their waves (B12): the table of the waves' sum against its
- * closed form, the flexibility against the sum of Michell's waves, against boundary
- * elements and against the flat layer. */
-#include "bem/ring.h"
+/* The flexibility of wheels by their waves (B12): against the sum of Michell's waves,
+ * against boundary elements and against the flat layer. */
 #include "check.h"
 #include "michell.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
-
-/* ---- The table --------------------------------------------------------------------- */
-
-/* exp(-2 m d), d = ln(radius/inner), whose sum has the primitive i ln(1 - q exp(ix)). */
-static void falling_waves(const rb_bem_wheel *wheel, double m, cplx c[3])
-{
-    const double x = 2.0 * m * log(wheel->radius / wheel->inner);
-    c[0] = m > 0.0 ? exp(-x) : 3.0;
-    c[1] = m > 0.0 ? (1.0 + 2.0 * I) * exp(-x) : 0.0;
-    c[2] = m > 0.0 ? exp(-x) : 0.0;
-}
-
-static cplx falling_sum(double d, double x)
-{
-    const double q = exp(-2.0 * d), half = sin(0.5 * x);
-    return I * clog(-expm1(-2.0 * d) + 2.0 * q * half * half - I * q * sin(x));
-}
-
-/* Covers of half a radius to a millionth of it, whose sums have 50 to 2e7 waves. */
-TEST(the_table_is_the_sum)
-{
-    for (double thickness = 0.5; thickness > 5e-7; thickness *= 0.03) {
-        const rb_bem_wheel wheel = {.radius = 1.0, .inner = 1.0 - thickness};
-        const double d = -log(wheel.inner), reach = fmin(1.0, 1e3 * thickness);
-        const int last = (int)(RB_RING_REACH / d) + 2;
-        rb_ring_table table;
-        CHECK_STATUS(rb_ring_table_create(&wheel, falling_waves, last, NULL,
-                                          fmin(1.0, 0.01 * d), reach, &table),
-                     RB_OK);
-        for (int k = -200; k <= 200; k++) {
-            const double x = copysign(reach * pow(1e-6, 1.0 - abs(k) / 200.0), k);
-            const cplx sum = falling_sum(d, x);
-            const double scale = 1.0 + cabs(sum);
-            const rb_ring_answer at = rb_ring_table_at(&table, x);
-            CHECK_ABS(at.N, creal(sum) + 3.0 * x, 2e-12 * scale, "N, %g at %g", d, x);
-            CHECK_ABS(at.T, creal((1.0 + 2.0 * I) * sum), 2e-12 * scale, "T, %g at %g", d,
-                      x);
-            CHECK_ABS(at.C, cimag(sum), 2e-12 * scale, "C, %g at %g", d, x);
-        }
-        rb_ring_table_free(&table);
-    }
-}
-
-/* ---- The flexibility --------------------------------------------------------------- */
 
 static double *matrix_of(const rb_bem_flexibility *f)
 {

@@ -308,6 +308,36 @@ TEST(long_boundaries_are_solved)
     free(t);
 }
 
+typedef struct {
+    rb_bem_mesh mesh;
+    rb_bem_material material;
+} solid;
+
+static rb_status solve_by_clusters(void *of)
+{
+    const solid *b = of;
+    rb_bem_system *system = NULL;
+    double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
+    rb_status s = u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL)
+                    : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
+    rb_bem_system_free(system);
+    free(u);
+    return s;
+}
+
+/* Eight clusters: one thread. */
+TEST(clusters_tell_of_missing_memory)
+{
+    solid b = {wheel(RB_BEM_HUB, 0.5, 150), steel};
+    assert_in_range(b.mesh.n, 128, 250);
+    assert_true(alloc_fail_each(solve_by_clusters, &b) > 20);
+    b.material.poisson = 0.5;
+    assert_true(alloc_fail_each(solve_by_clusters, &b) > 20);
+    rb_bem_mesh_free(&b.mesh);
+}
+
 TEST(failing_allocations)
 {
     rb_bem_mesh mesh = wheel(RB_BEM_HUB, 2.5, 20);
