@@ -203,7 +203,7 @@ $(B)/packings: examples/packings/packings.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
-$(B)/tests/test_friction_portfolio $(B)/tests/test_recorded $(B)/tests/test_course $(B)/bench/bench_condense $(B)/bench/bench_portfolio: | $(B)/packings
+$(B)/tests/test_friction_portfolio $(B)/tests/test_inside_friction $(B)/tests/test_recorded $(B)/tests/test_course $(B)/bench/bench_condense $(B)/bench/bench_portfolio: | $(B)/packings
 
 # the generator of the obstacle problem, for the tests
 $(B)/obstacle: examples/lcp/obstacle.c

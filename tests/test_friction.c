@@ -1,6 +1,5 @@
 /* The problem, its measure, and Newton on both forms. */
 #include "check.h"
-#include "friction/smoothing.h"
 #include "rollbem/friction.h"
 
 #include <string.h>
@@ -98,46 +97,6 @@ static void make_sparse(rb_friction_problem *p)
     const int m = p->dimension * p->contacts;
     CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
     p->form = RB_FRICTION_LOCAL_SPARSE;
-}
-
-/* Its spectral values s and those of x obey s - mu^2/s = x, along the same axis; D is its
- * derivative. */
-TEST(smoothed_projections_obey_their_definition)
-{
-    unsigned seed = 11;
-    double zero = 0.0, own = NAN, slope = NAN;
-    rb_friction_smoothed(1, 0.0, &zero, &own, &slope);
-    CHECK_ABS(own, 0.0, 0.0, "the tip of the cone, not smoothed");
-    CHECK_ABS(slope, 0.5, 0.0, "its derivative");
-    for (int n = 1; n <= 3; n++)
-        for (int trial = 0; trial < 20; trial++) {
-            const double mu = 0.3 + 0.1 * trial, step = 1e-5;
-            double x[3], P[3], D[9], up[3], down[3], t = 0.0, along = 0.0;
-            for (int a = 0; a < n; a++)
-                x[a] = 3.0 * uniform(&seed);
-            for (int a = 1; a < n; a++)
-                t = hypot(t, x[a]);
-            const double least = rb_friction_smoothed(n, mu, x, P, D);
-            CHECK_REL(least, fmin(fabs(x[0] - t), fabs(x[0] + t)), 1e-12, "n = %d", n);
-            for (int a = 1; a < n; a++)
-                along += P[a] * x[a] / t;
-            for (int side = n == 1 ? 1 : -1; side <= 1; side += 2) {
-                const double s = P[0] + side * along;
-                assert_true(s > 0.0);
-                CHECK_ABS(s - mu * mu / s, x[0] + side * t, 1e-10, "n = %d, mu = %g", n,
-                          mu);
-            }
-            for (int b = 0; b < n; b++) {
-                x[b] += step;
-                rb_friction_smoothed(n, mu, x, up, NULL);
-                x[b] -= 2.0 * step;
-                rb_friction_smoothed(n, mu, x, down, NULL);
-                x[b] += step;
-                for (int a = 0; a < n; a++)
-                    CHECK_ABS(D[a + b * n], (up[a] - down[a]) / (2.0 * step), 1e-8,
-                              "n = %d, D(%d, %d)", n, a, b);
-            }
-        }
 }
 
 /* 1e-14 of the sums |q| + |W| |r|, as (13) counts them. */

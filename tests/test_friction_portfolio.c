@@ -2,34 +2,11 @@
  * and heaps with more contact equations than motions. */
 #define _XOPEN_SOURCE 700
 #include "check.h"
-#include "friction/internal.h"
+#include "packing.h"
+#include "rollbem/friction.h"
 
 #include <string.h>
 #include <unistd.h>
-
-/* The problem that `packings ARGUMENTS` prints; W, if there is one, sparse. */
-static void packing(const char *arguments, rb_friction_problem *p)
-{
-    const char *build = getenv("B") ? getenv("B") : "build";
-    char name[] = "/tmp/rollbem-packing-XXXXXX", command[400];
-    rb_message why = {""};
-    const int file = mkstemp(name);
-    assert_true(file >= 0);
-    close(file);
-    snprintf(command, sizeof command, "%s/packings %s > %s", build, arguments, name);
-    assert_int_equal(system(command), 0);
-    const rb_status s = rb_friction_read(name, p, &why);
-    unlink(name);
-    if (s != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(s, RB_OK);
-    const int m = p->dimension * p->contacts;
-    if (p->form == RB_FRICTION_GLOBAL)
-        return;
-    if (p->form == RB_FRICTION_LOCAL_DENSE)
-        CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
-    p->form = RB_FRICTION_LOCAL_SPARSE;
-}
 
 /* Coulomb's law contact by contact, from r alone; in units of velocity over ||q||.  W is
  * sparse. */
@@ -334,61 +311,6 @@ TEST(auto_repeats_itself)
     assert_true(one.flops == two.flops);
     assert_int_equal(memcmp(r, r + m, m * sizeof *r), 0);
     free(r);
-    rb_friction_problem_free(&p);
-}
-
-/* A method that pauses and goes on arrives where it does without pauses. */
-TEST(pauses_change_nothing)
-{
-    static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
-                                        "extragradient", "nsgs-fp", "fixed-point",
-                                        "admm"};
-    rb_friction_problem p;
-    packing("spheres 20 0.4 3", &p);
-    const int m = 3 * p.contacts;
-    double *whole = rb_alloc((size_t)m, 4), *r = whole + m, *u = r + m, *best = u + m;
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        const rb_friction_solver *solver = rb_friction_solver_named(names[k]);
-        rb_friction_info info, parts = {0};
-        rb_friction_shared shared;
-        double v[1];
-        rb_friction_record record = {.r = best, .error = INFINITY};
-        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
-                                       &(rb_friction_solution){whole, u, NULL}, &info),
-                     RB_OK);
-        CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
-        memset(r, 0, (size_t)m * sizeof *r);
-        rb_friction_task task = {.shared = &shared,
-                                 .problem = &p,
-                                 .measure = &shared.measure,
-                                 .best = &record,
-                                 .opt = rb_friction_defaults(),
-                                 .info = &parts,
-                                 .d = 3,
-                                 .contacts = p.contacts,
-                                 .m = m,
-                                 .r = r,
-                                 .u = u,
-                                 .v = v};
-        void *state_of = calloc(1, solver->run->size);
-        int pauses = -1;
-        rb_status s = solver->run->start(&task, solver->variant, state_of);
-        for (; s == RB_OK; pauses++) {
-            task.budget = (pauses + 2) * info.flops / 5.0;
-            s = solver->run->go_on(state_of);
-            if (s == RB_OK || parts.flops < task.budget)
-                break;
-            s = RB_OK;
-        }
-        solver->run->finish(state_of);
-        free(state_of);
-        rb_friction_shared_free(&shared);
-        CHECK_STATUS(s, RB_OK);
-        assert_true(pauses >= 1);
-        assert_int_equal(parts.iters, info.iters);
-        assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);
-    }
-    free(whole);
     rb_friction_problem_free(&p);
 }
 

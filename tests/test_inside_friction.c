@@ -1,7 +1,9 @@
-/* What the friction solvers are made of: one contact alone, W in blocks, one Newton step.
- */
+/* What the friction solvers are made of: one contact alone, W in blocks, one Newton step,
+ * pauses, smoothed projections. */
 #include "check.h"
 #include "friction/internal.h"
+#include "friction/smoothing.h"
+#include "packing.h"
 
 #include <string.h>
 
@@ -467,6 +469,101 @@ TEST(sweeps_that_stall_yield)
     free(sweeps);
     rb_friction_shared_free(&shared);
     rb_friction_problem_free(&p);
+}
+
+/* A method that pauses and goes on arrives where it does without pauses. */
+TEST(pauses_change_nothing)
+{
+    static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
+                                        "extragradient", "nsgs-fp", "fixed-point",
+                                        "admm"};
+    rb_friction_problem p;
+    packing("spheres 20 0.4 3", &p);
+    const int m = 3 * p.contacts;
+    double *whole = rb_alloc((size_t)m, 4), *r = whole + m, *u = r + m, *best = u + m;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const rb_friction_solver *solver = rb_friction_solver_named(names[k]);
+        rb_friction_info info, parts = {0};
+        rb_friction_shared shared;
+        double v[1];
+        rb_friction_record record = {.r = best, .error = INFINITY};
+        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
+                                       &(rb_friction_solution){whole, u, NULL}, &info),
+                     RB_OK);
+        CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
+        memset(r, 0, (size_t)m * sizeof *r);
+        rb_friction_task task = {.shared = &shared,
+                                 .problem = &p,
+                                 .measure = &shared.measure,
+                                 .best = &record,
+                                 .opt = rb_friction_defaults(),
+                                 .info = &parts,
+                                 .d = 3,
+                                 .contacts = p.contacts,
+                                 .m = m,
+                                 .r = r,
+                                 .u = u,
+                                 .v = v};
+        void *state_of = calloc(1, solver->run->size);
+        int pauses = -1;
+        rb_status s = solver->run->start(&task, solver->variant, state_of);
+        for (; s == RB_OK; pauses++) {
+            task.budget = (pauses + 2) * info.flops / 5.0;
+            s = solver->run->go_on(state_of);
+            if (s == RB_OK || parts.flops < task.budget)
+                break;
+            s = RB_OK;
+        }
+        solver->run->finish(state_of);
+        free(state_of);
+        rb_friction_shared_free(&shared);
+        CHECK_STATUS(s, RB_OK);
+        assert_true(pauses >= 1);
+        assert_int_equal(parts.iters, info.iters);
+        assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);
+    }
+    free(whole);
+    rb_friction_problem_free(&p);
+}
+
+/* Its spectral values s and those of x obey s - mu^2/s = x, along the same axis; D is its
+ * derivative. */
+TEST(smoothed_projections_obey_their_definition)
+{
+    unsigned seed = 11;
+    double zero = 0.0, own = NAN, slope = NAN;
+    rb_friction_smoothed(1, 0.0, &zero, &own, &slope);
+    CHECK_ABS(own, 0.0, 0.0, "the tip of the cone, not smoothed");
+    CHECK_ABS(slope, 0.5, 0.0, "its derivative");
+    for (int n = 1; n <= 3; n++)
+        for (int trial = 0; trial < 20; trial++) {
+            const double mu = 0.3 + 0.1 * trial, step = 1e-5;
+            double x[3], P[3], D[9], up[3], down[3], t = 0.0, along = 0.0;
+            for (int a = 0; a < n; a++)
+                x[a] = 3.0 * uniform(&seed);
+            for (int a = 1; a < n; a++)
+                t = hypot(t, x[a]);
+            const double least = rb_friction_smoothed(n, mu, x, P, D);
+            CHECK_REL(least, fmin(fabs(x[0] - t), fabs(x[0] + t)), 1e-12, "n = %d", n);
+            for (int a = 1; a < n; a++)
+                along += P[a] * x[a] / t;
+            for (int side = n == 1 ? 1 : -1; side <= 1; side += 2) {
+                const double s = P[0] + side * along;
+                assert_true(s > 0.0);
+                CHECK_ABS(s - mu * mu / s, x[0] + side * t, 1e-10, "n = %d, mu = %g", n,
+                          mu);
+            }
+            for (int b = 0; b < n; b++) {
+                x[b] += step;
+                rb_friction_smoothed(n, mu, x, up, NULL);
+                x[b] -= 2.0 * step;
+                rb_friction_smoothed(n, mu, x, down, NULL);
+                x[b] += step;
+                for (int a = 0; a < n; a++)
+                    CHECK_ABS(D[a + b * n], (up[a] - down[a]) / (2.0 * step), 1e-8,
+                              "n = %d, D(%d, %d)", n, a, b);
+            }
+        }
 }
 
 RUN_TESTS(NULL, NULL)
