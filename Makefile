@@ -281,7 +281,7 @@ $(B)/tests/checker: tests/checker.c
 # files that are only read are kept in memory, and HDF5 may work in the same process
 FUZZ_WRAP = -Wl,--wrap=fopen,--wrap=rb_io_in_child
 FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
-$(B)/tests/test_fuzz $(B)/tests/test_message: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
+$(B)/tests/test_fuzz $(B)/tests/test_inside_cli: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(FUZZ_WRAP) $(LDLIBS) -lcmocka

@@ -1,9 +1,8 @@
 /* Pictures and JSON of the finite-element examples: what gnuplot would read of a small
  * wall, bar and truss, against their meshes, displacements and steps. */
 #include "check.h"
-#include "fem/wall.h"
-#include "report/fem_internal.h"
 #include "rollbem/report_fem.h"
+#include "small_wall.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -80,15 +79,11 @@ static solved_wall walls[2]; /* elastic, of rigid blocks (under its weight alone
 
 static int solve_walls(void **state)
 {
-    static const int fine[3] = {4, 3, 3}, coarse[3] = {3, 2, 3};
     for (int rigid = 0; rigid < 2; rigid++) {
         solved_wall *w = &walls[rigid];
-        w->options = rb_fem_wall_defaults();
+        w->options = small_wall(rigid);
         w->options.press = PRESS;
         w->options.shear = SHEAR;
-        w->options.rigid = rigid;
-        memcpy(w->options.fine, fine, sizeof fine);
-        memcpy(w->options.coarse, coarse, sizeof coarse);
         if (rb_fem_wall_create(&w->options, &w->wall, NULL) != RB_OK)
             return -1;
         for (int k = 0; k < (rigid ? 1 : STEPS); k++)
@@ -138,36 +133,48 @@ static void place(const solved_wall *w, double factor, int node, double at[2])
     at[1] = x[2] + factor * w->u[3 * node + 2];
 }
 
+/* How many bricks have both nodes: an edge of the front is on a block's outline where
+ * two of its bricks do not share it. */
+static int bricks_with(const rb_fem_mesh *mesh, int one, int other)
+{
+    int bricks = 0;
+    for (int e = 0; e < mesh->elements; e++) {
+        int found = 0;
+        for (int k = 0; k < 8; k++)
+            found += mesh->node[8 * e + k] == one || mesh->node[8 * e + k] == other;
+        bricks += found == 2;
+    }
+    return bricks;
+}
+
 /* Every face of the front, displaced, and the outline of every block. */
 TEST(front_of_the_wall_is_drawn)
 {
     static double mesh[2 * POINTS], edge[2 * POINTS];
+    static const int corner[] = {0, 1, 5, 4, 0}; /* of the front, around it */
     const solved_wall *w = &walls[0];
+    const rb_fem_mesh *bricks = rb_fem_wall_mesh(w->wall);
     const char *script = draw_wall(w, page, STEPS);
     const int points = block(script, "mesh", 2, POINTS, mesh);
     const int ends = block(script, "edge", 2, POINTS, edge);
-    const wall_layout layout = wall_lay_out(&w->options);
     const double factor = factor_of(w);
     int faces = 0, edges = 0;
-    for (int k = 0; k < BLOCKS; k++) {
-        const wall_block *b = &layout.block[k];
-        for (int i = 0; i + 1 < b->n[0]; i++)
-            for (int j = 0; j + 1 < b->n[2]; j++, faces++) {
-                static const int step[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
-                double face[10];
-                for (int c = 0; c < 5; c++)
-                    place(w, factor, wall_node(b, i + step[c][0], 0, j + step[c][1]),
-                          face + 2 * c);
-                if (!is_drawn(face, 5, mesh, points))
-                    fail_msg("face %d, %d of block %d is not drawn", i, j, k);
-                for (int c = 0; c < 4; c++) {
-                    const int outer = (c == 0 && j == 0) ||
-                                      (c == 2 && j + 2 == b->n[2]) ||
-                                      (c == 1 && i + 2 == b->n[0]) || (c == 3 && i == 0);
-                    edges += outer;
-                    assert_int_equal(is_drawn(face + 2 * c, 2, edge, ends), outer);
-                }
-            }
+    for (int e = 0; e < bricks->elements; e++) {
+        const int *node = bricks->node + 8 * e;
+        double face[10];
+        if (bricks->x[3 * node[0] + 1] != 0.0)
+            continue;
+        faces++;
+        for (int c = 0; c < 5; c++)
+            place(w, factor, node[corner[c]], face + 2 * c);
+        if (!is_drawn(face, 5, mesh, points))
+            fail_msg("the face of brick %d is not drawn", e);
+        for (int c = 0; c < 4; c++) {
+            const int outer =
+                bricks_with(bricks, node[corner[c]], node[corner[c + 1]]) == 1;
+            edges += outer;
+            assert_int_equal(is_drawn(face + 2 * c, 2, edge, ends), outer);
+        }
     }
     assert_int_equal(points, 5 * faces);
     assert_int_equal(ends, 2 * edges);
