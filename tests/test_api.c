@@ -1,6 +1,6 @@
 /* Opaque handles: descriptions are complete, refusals are those of the case, and the
  * arrays satisfy the equations that they stand for. */
-#include "api/internal.h"
+#include "rollbem/api.h"
 #include "check.h"
 #include "rollbem/api.h"
 #include "rollbem/blas.h"
@@ -711,12 +711,6 @@ TEST(calls_leave_the_threads_alone)
                                   : rb_api_solve(a),
                          RB_OK);
         }
-        rb_api_call_begins(); /* two at a time: the last one that ends gives them back */
-        rb_api_call_begins();
-        rb_api_call_ends();
-        assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
-        rb_api_call_ends();
-        assert_int_equal(rb_blas_threads(1), 2);
         rb_api_free(a);
         a = solved(steady);
         rb_blas_threads(2);
@@ -728,32 +722,6 @@ TEST(calls_leave_the_threads_alone)
         setenv("OPENBLAS_NUM_THREADS", before, 1);
     else
         unsetenv("OPENBLAS_NUM_THREADS");
-}
-
-/* As many arrays as there are names in all tables, twice for the errors, fit. */
-TEST(arrays_of_every_name_fit)
-{
-    rb_api *a = rb_api_create();
-    char name[20];
-    int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
-    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
-        names +=
-            t->results->n *
-            (strcmp(t->name, "history") == 0 || strcmp(t->name, "curve") == 0 ? 2 : 1);
-    assert_true(names <= API_ARRAYS);
-    for (int k = 0; k < API_ARRAYS; k++) {
-        snprintf(name, sizeof name, "a%d", k);
-        assert_non_null(rb_api_make_array(a, name, 1, 1));
-    }
-    assert_null(rb_api_make_array(a, "one more", 1, 1));
-    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
-                     RB_ENOMEM);
-    rb_api_forget_arrays(a, "a1");
-    assert_null(rb_api_find_array(a, "a17"));
-    assert_non_null(rb_api_find_array(a, "a27"));
-    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
-                     RB_OK);
-    rb_api_free(a);
 }
 
 /* Bodies whose flexibility is no matrix, matrices that are asked for in another order. */

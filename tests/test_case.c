@@ -1,7 +1,7 @@
 /* Cases by names: the table describes itself, words are set, resolved and refused, and
  * the same words give the same answer through the library and through the program. */
 #include "cli_run.h"
-#include "case/internal.h"
+#include "rollbem/case.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 
@@ -963,44 +963,6 @@ TEST(every_failing_allocation_is_told)
     }
     assert_true(failures > 5);
     rb_case_free(NULL);
-}
-
-/* A value from elsewhere against a table of two options, which share no bit: what the
- * file has gives way, what an argument has does not, and nothing behind the table is
- * read. */
-TEST(values_from_elsewhere_resolve_a_table)
-{
-    struct {
-        double a, b;
-    } target = {1.0, 2.0};
-    const struct {
-        double a, b;
-    } defaults = {10.0, 20.0};
-    rb_option options[] = {{.name = "a", .offset = 0, .excludes = 1},
-                           {.name = "b", .offset = sizeof(double), .excludes = 2}};
-    int given[] = {RB_GIVEN_ARGUMENT, 3};
-    const rb_option_set set = {
-        .options = options, .n = 2, .target = &target, .given = given};
-    const rb_option_precedence how = {.defaults = &defaults, .path = "case.ini"};
-    rb_option other = {.name = "c", .excludes = 4};
-    rb_message why = {""};
-
-    options[0].kind = options[1].kind = RB_OPTION_NUMBER;
-    CHECK_STATUS(rb_option_resolve(&set, &how, &why), RB_OK);
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_OK);
-    assert_true(target.a == 1.0 && target.b == 2.0);
-    other.excludes = 2;
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_OK);
-    assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
-    other.excludes = 1;
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_EINVAL);
-    assert_string_equal(why.text, "--a: no");
 }
 
 RUN_TESTS(enter, leave_folder)

@@ -1,6 +1,5 @@
 /* Reports of a solution made by hand: Carter's closed form on 20 elements. */
 #include "check.h"
-#include "report/internal.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
@@ -385,33 +384,6 @@ TEST(picture_of_another_kind)
     assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);
 }
 
-TEST(gnuplot_complaint_is_handed_on)
-{
-    FILE *script = tmpfile(), *out = tmpfile();
-    rb_message why = {""};
-    fputs("plt 1\n", script);
-    assert_int_equal(rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why),
-                     RB_EHELPER);
-    assert_non_null(strstr(why.text, "invalid command"));
-    fclose(script);
-    fclose(out);
-}
-
-TEST(missing_gnuplot_is_named)
-{
-    char path[4096];
-    snprintf(path, sizeof path, "%s", getenv("PATH"));
-    FILE *script = tmpfile(), *out = tmpfile();
-    rb_message why = {""};
-    setenv("PATH", "/nonexistent", 1);
-    const rb_status s = rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why);
-    setenv("PATH", path, 1);
-    assert_int_equal(s, RB_EHELPER);
-    assert_non_null(strstr(why.text, "not installed"));
-    fclose(script);
-    fclose(out);
-}
-
 /* What has no steps, no grid, no contact is no picture, and no file is written. */
 TEST(pictures_need_something_to_draw)
 {
@@ -663,146 +635,6 @@ TEST(profiles_are_drawn)
 }
 
 /* ---- A gnuplot that misbehaves ---- */
-
-/* A program called gnuplot, of that shell script, comes first in PATH. */
-static rb_status draw_by(const char *lines, double seconds, rb_report_picture_kind kind,
-                         FILE *out, rb_message *why)
-{
-    char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], path[4200], before[4096];
-    assert_non_null(mkdtemp(folder));
-    snprintf(name, sizeof name, "%s/gnuplot", folder);
-    FILE *program = fopen(name, "w"), *script = tmpfile();
-    fprintf(program, "#!/bin/sh\n%s\n", lines);
-    fclose(program);
-    chmod(name, 0755);
-    snprintf(before, sizeof before, "%s", getenv("PATH"));
-    snprintf(path, sizeof path, "%s:%s", folder, before);
-    setenv("PATH", path, 1);
-    fputs("plot x\n", script);
-    const rb_status s = rb_report_gnuplot(script, kind, seconds, out, why);
-    setenv("PATH", before, 1);
-    fclose(script);
-    unlink(name);
-    rmdir(folder);
-    return s;
-}
-
-/* Full disks leave a part, or nothing, and exit code 0. */
-TEST(a_part_of_a_picture_is_none)
-{
-    static const struct {
-        rb_report_picture_kind kind;
-        const char *part, *all;
-    } pictures[] = {
-        {RB_REPORT_SVG, "printf '<?xml <svg>'", "printf '<?xml <svg> more </svg>\\n\\n'"},
-        {RB_REPORT_PDF, "printf '%%PDF-1.5 and so on'",
-         "printf '%%PDF-1.5 and so on %%%%EOF\\n'"},
-        {RB_REPORT_PNG, "printf '\\211PNG\\r\\n\\032\\n and so on'",
-         "printf '\\211PNG\\r\\n\\032\\n and so on IEND\\256B`\\202'"},
-        {RB_REPORT_SVG, ":", "printf '<?xml <svg> more </svg>'"}};
-    for (int k = 0; k < 4; k++) {
-        FILE *out = tmpfile();
-        rb_message why = {""};
-        CHECK_STATUS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &why),
-                     RB_EWRITE);
-        assert_non_null(strstr(why.text, "a part of the picture only"));
-        assert_int_equal(ftell(out), 0);
-        CHECK_STATUS(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &why), RB_OK);
-        assert_true(ftell(out) > 20);
-        fclose(out);
-    }
-}
-
-/* Each way in which a program called gnuplot may end without a picture. */
-TEST(gnuplot_that_fails_is_told)
-{
-    static const struct {
-        const char *lines;
-        rb_status status;
-        const char *part;
-    } ends[] = {{"exit 127", RB_EHELPER, "gnuplot is not installed"},
-                {"exit 2", RB_EHELPER, "gnuplot failed: no message"},
-                {"echo '  wrong' >&2; echo '  ^' >&2; echo >&2; exit 1", RB_EHELPER,
-                 "gnuplot failed:   wrong"},
-                {"kill -9 $$", RB_EHELPER, "gnuplot failed: no message"},
-                {"printf '<!xml> <svg> more and more </svg>'", RB_EWRITE,
-                 "a part of the picture"},
-                {"printf '<?xml'", RB_EWRITE, "a part of the picture"},
-                {"printf '<?xml <svg> more </svg\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n'",
-                 RB_EWRITE, "a part of the picture"}};
-    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
-        FILE *out = tmpfile();
-        rb_message why = {""};
-        CHECK_STATUS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &why),
-                     ends[k].status);
-        if (!strstr(why.text, ends[k].part))
-            fail_msg("'%s': %s", ends[k].lines, why.text);
-        assert_int_equal(ftell(out), 0);
-        fclose(out);
-    }
-}
-
-/* A file that is no program, a caller who does not wait for children, a full disk. */
-TEST(gnuplot_and_its_surroundings)
-{
-    static const char picture[] = "printf '<?xml <svg> more </svg>'";
-    char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], before[4096];
-    rb_message why = {""};
-    FILE *script = tmpfile(), *out = tmpfile(), *disk = fopen("/dev/full", "w");
-    assert_non_null(mkdtemp(folder));
-    snprintf(name, sizeof name, "%s/gnuplot", folder);
-    fclose(fopen(name, "w"));
-    snprintf(before, sizeof before, "%s", getenv("PATH"));
-    setenv("PATH", folder, 1);
-    const rb_status s = rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why);
-    setenv("PATH", before, 1);
-    unlink(name);
-    rmdir(folder);
-    fclose(script);
-    CHECK_STATUS(s, RB_EHELPER);
-    assert_string_equal(why.text, "gnuplot does not start: Permission denied");
-
-    signal(SIGCHLD, SIG_IGN);
-    CHECK_STATUS(draw_by(picture, 20.0, RB_REPORT_SVG, out, &why), RB_EHELPER);
-    signal(SIGCHLD, SIG_DFL);
-    assert_string_equal(why.text, "gnuplot: No child processes");
-    assert_int_equal(ftell(out), 0);
-    fclose(out);
-    if (disk) {
-        setbuf(disk, NULL);
-        CHECK_STATUS(draw_by(picture, 20.0, RB_REPORT_SVG, disk, &why), RB_EWRITE);
-        assert_string_equal(why.text, "cannot write: No space left on device");
-        fclose(disk);
-    }
-}
-
-TEST(gnuplot_has_a_time_limit)
-{
-    FILE *out = tmpfile();
-    rb_message why = {""};
-    const double start = rb_seconds();
-    CHECK_STATUS(draw_by("exec sleep 20", 0.2, RB_REPORT_SVG, out, &why), RB_EHELPER);
-    assert_non_null(strstr(why.text, "longer than 0.2 s"));
-    CHECK_MAX(rb_seconds() - start, 5.0, "seconds");
-    fclose(out);
-}
-
-/* A descriptor that a caller has open, and would hand on to every child. */
-TEST(gnuplot_inherits_no_descriptor)
-{
-    FILE *out = tmpfile();
-    rb_message why = {""};
-    const int foreign = fcntl(fileno(out), F_DUPFD, 200);
-    assert_true(foreign >= 200);
-    CHECK_STATUS(draw_by("for fd in /proc/self/fd/2??; do\n"
-                         "    if [ -e $fd ]; then echo inherited $fd >&2; exit 1; fi\n"
-                         "done\n"
-                         "printf '<?xml <svg> more </svg>'",
-                         20.0, RB_REPORT_SVG, out, &why),
-                 RB_OK);
-    close(foreign);
-    fclose(out);
-}
 
 /* A start-up file that would end every picture. */
 TEST(start_up_files_are_off)

@@ -1,9 +1,8 @@
-/* Parts of reports by themselves: units and steps of axes, cells, studies, files of
- * matrices and of ParaView. */
+/* Parts of reports by themselves: cells, studies, files of matrices and of ParaView. */
 #include "check.h"
-#include "report/internal.h"
 #include "rollbem/case.h"
 #include "rollbem/io.h"
+#include "rollbem/report.h"
 
 #include <dirent.h>
 #include <string.h>
@@ -15,71 +14,6 @@ static char *content(FILE *file)
     rewind(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
     return text;
-}
-
-/* ---- Axes -------------------------------------------------------------------------- */
-
-/* From each limit on the larger unit. */
-TEST(axes_have_units_that_fit)
-{
-    static const struct {
-        rb_units units;
-        const char *of;
-        double largest, size;
-        const char *name;
-    } axes[] = {{RB_UNITS_MM, "MPa", 9999.0, 1.0, "MPa"},
-                {RB_UNITS_MM, "MPa", 1e4, 1e3, "GPa"},
-                {RB_UNITS_SI, "MPa", 9999.0, 1.0, "Pa"},
-                {RB_UNITS_SI, "MPa", 1e4, 1e3, "kPa"},
-                {RB_UNITS_SI, "MPa", 1e6, 1e6, "MPa"},
-                {RB_UNITS_SI, "MPa", 9.9e9, 1e6, "MPa"},
-                {RB_UNITS_SI, "MPa", 1e10, 1e9, "GPa"},
-                {RB_UNITS_INCH, "MPa", 9999.0, 1.0, "psi"},
-                {RB_UNITS_INCH, "MPa", 1e4, 1e3, "ksi"},
-                {RB_UNITS_MM, "mm", 1e-3, 1.0, "mm"},
-                {RB_UNITS_SI, "mm", 0.099, 1e-3, "mm"},
-                {RB_UNITS_SI, "mm", 0.1, 1.0, "m"},
-                {RB_UNITS_SI, "N/mm", 0.01, 1.0, "N/m"},
-                {RB_UNITS_INCH, "mm", 0.01, 1.0, "in"}};
-    for (size_t k = 0; k < sizeof axes / sizeof *axes; k++) {
-        const rb_report_unit unit =
-            rb_report_axis_unit(axes[k].units, axes[k].of, axes[k].largest);
-        CHECK_ABS(unit.size, axes[k].size, 0.0, "axis %zu", k);
-        assert_string_equal(unit.name, axes[k].name);
-    }
-}
-
-/* Lengths in half-widths where the numbers would be long. */
-TEST(lengths_are_shown_in_half_widths_or_units)
-{
-    static const struct {
-        rb_units units;
-        double a, size;
-        const char *label;
-    } axes[] = {{RB_UNITS_MM, 0.0, 1.0, "[mm]"},      {RB_UNITS_MM, 0.01, 1.0, "[mm]"},
-                {RB_UNITS_MM, 0.0099, 0.0099, "/ a"}, {RB_UNITS_MM, 1e5, 1.0, "[mm]"},
-                {RB_UNITS_MM, 1.1e5, 1.1e5, "/ a"},   {RB_UNITS_SI, 2e-5, 1e-3, "[mm]"},
-                {RB_UNITS_SI, 0.9e-5, 0.9e-5, "/ a"}};
-    for (size_t k = 0; k < sizeof axes / sizeof *axes; k++) {
-        const rb_report_length axis = rb_report_length_axis(axes[k].units, axes[k].a);
-        CHECK_ABS(axis.size, axes[k].size, 0.0, "axis %zu", k);
-        assert_string_equal(axis.label, axes[k].label);
-    }
-}
-
-TEST(steps_are_one_two_or_five)
-{
-    static const double steps[][2] = {
-        {1.0, 1.0},  {1.01, 2.0}, {2.0, 2.0},   {2.1, 5.0},  {5.0, 5.0},
-        {5.1, 10.0}, {9.9, 10.0}, {0.03, 0.05}, {70.0, 1e2}, {1.2e-7, 2e-7}};
-    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
-        CHECK_REL(rb_report_round_step(steps[k][0]), steps[k][1], 1e-14, "step %zu", k);
-    static const double powers[][2] = {{0.0, 0.0},   {0.1, 0.0},     {0.099, -2.0},
-                                       {0.01, -2.0}, {0.0099, -3.0}, {7.0, 0.0}};
-    for (size_t k = 0; k < sizeof powers / sizeof *powers; k++)
-        assert_int_equal(rb_report_exponent(powers[k][0]), (int)powers[k][1]);
-    CHECK_ABS(rb_report_labels_in(0.1), 2.0, 0.0, "at least two");
-    CHECK_REL(rb_report_labels_in(0.5), 6.0, 1e-14, "twelve in the whole height");
 }
 
 /* ---- Cells ------------------------------------------------------------------------- */
@@ -497,15 +431,6 @@ TEST(curves_suit_the_number_of_cases)
     assert_non_null(strstr(script, "set ylabel 'max pressure  [10^{-2} MPa]'\n"));
     assert_non_null(strstr(script, "set logscale x\n"));
     assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0\n"));
-}
-
-/* As many as there are, then again. */
-TEST(dashes_repeat)
-{
-    for (int k = 0; k < 12; k++)
-        for (int j = 0; j < k; j++)
-            assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)),
-                             j + 6 == k);
 }
 
 /* ---- Files ------------------------------------------------------------------------- */

@@ -1,0 +1,101 @@
+/* What src/api and src/case keep to themselves: the calls that run, the names of arrays,
+ * values from elsewhere against a table. */
+#include "api/internal.h"
+#include "case/internal.h"
+#include "check.h"
+#include "rollbem/blas.h"
+
+#include <string.h>
+
+/* Two at a time: the last one that ends gives the threads back. */
+TEST(the_last_call_gives_the_threads_back)
+{
+    const char *given = getenv("OPENBLAS_NUM_THREADS");
+    char before[20];
+    snprintf(before, sizeof before, "%s", given ? given : "");
+    for (int forced = 0; forced < 2; forced++) {
+        if (forced)
+            setenv("OPENBLAS_NUM_THREADS", "2", 1);
+        else
+            unsetenv("OPENBLAS_NUM_THREADS");
+        rb_blas_threads(2);
+        if (rb_blas_threads(2) != 2) /* a library with one thread */
+            skip();
+        rb_api_call_begins();
+        rb_api_call_begins();
+        rb_api_call_ends();
+        assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
+        rb_api_call_ends();
+        assert_int_equal(rb_blas_threads(1), 2);
+    }
+    if (given)
+        setenv("OPENBLAS_NUM_THREADS", before, 1);
+    else
+        unsetenv("OPENBLAS_NUM_THREADS");
+}
+
+/* As many arrays as there are names in all tables, twice for the errors, fit. */
+TEST(arrays_of_every_name_fit)
+{
+    rb_api *a = rb_api_create();
+    char name[20];
+    int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
+    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
+        names +=
+            t->results->n *
+            (strcmp(t->name, "history") == 0 || strcmp(t->name, "curve") == 0 ? 2 : 1);
+    assert_true(names <= API_ARRAYS);
+    for (int k = 0; k < API_ARRAYS; k++) {
+        snprintf(name, sizeof name, "a%d", k);
+        assert_non_null(rb_api_make_array(a, name, 1, 1));
+    }
+    assert_null(rb_api_make_array(a, "one more", 1, 1));
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
+                     RB_ENOMEM);
+    rb_api_forget_arrays(a, "a1");
+    assert_null(rb_api_find_array(a, "a17"));
+    assert_non_null(rb_api_find_array(a, "a27"));
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
+                     RB_OK);
+    rb_api_free(a);
+}
+
+/* A value from elsewhere against a table of two options, which share no bit: what the
+ * file has gives way, what an argument has does not, and nothing behind the table is
+ * read. */
+TEST(values_from_elsewhere_resolve_a_table)
+{
+    struct {
+        double a, b;
+    } target = {1.0, 2.0};
+    const struct {
+        double a, b;
+    } defaults = {10.0, 20.0};
+    rb_option options[] = {{.name = "a", .offset = 0, .excludes = 1},
+                           {.name = "b", .offset = sizeof(double), .excludes = 2}};
+    int given[] = {RB_GIVEN_ARGUMENT, 3};
+    const rb_option_set set = {
+        .options = options, .n = 2, .target = &target, .given = given};
+    const rb_option_precedence how = {.defaults = &defaults, .path = "case.ini"};
+    rb_option other = {.name = "c", .excludes = 4};
+    rb_message why = {""};
+
+    options[0].kind = options[1].kind = RB_OPTION_NUMBER;
+    CHECK_STATUS(rb_option_resolve(&set, &how, &why), RB_OK);
+    CHECK_STATUS(
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_OK);
+    assert_true(target.a == 1.0 && target.b == 2.0);
+    other.excludes = 2;
+    CHECK_STATUS(
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_OK);
+    assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
+    other.excludes = 1;
+    CHECK_STATUS(
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_EINVAL);
+    assert_string_equal(why.text, "--a: no");
+}
+
+RUN_TESTS(NULL, NULL)
