@@ -122,7 +122,7 @@ check-tests: all page-where-possible $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
 # can run; make test-all: all but those that compute nothing or build by themselves
 KERNELS ?= $(shell scripts/kernels)
-KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction rolling_newton bem_system fem crack api)
+KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack api)
 KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
 kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
 	@for kernel in $(KERNELS); do echo "== OPENBLAS_CORETYPE=$$kernel"; \
@@ -158,7 +158,7 @@ coverage: packages
 	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
-SHORT = base lcp io_table case api rolling_lcp rolling_newton rolling_control rolling_cone rolling_friction threads
+SHORT = base lcp io_table case api rolling_lcp inside_newton rolling_control rolling_cone rolling_friction threads
 short-tests: $(SHORT:%=$(B)/tests/test_%) | $(PROGRAMS)
 	@B=$(B) tests/run $^
 asan-short:

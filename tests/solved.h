@@ -32,4 +32,13 @@ static inline rb_rolling_model solved_model(const rb_rolling_case *rc)
     return model;
 }
 
+static inline rb_rolling_solution solution_of(const rb_rolling_model *model)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_model_solution(model, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
 #endif

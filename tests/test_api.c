@@ -1,6 +1,5 @@
 /* Opaque handles: descriptions are complete, refusals are those of the case, and the
  * arrays satisfy the equations that they stand for. */
-#include "rollbem/api.h"
 #include "check.h"
 #include "rollbem/api.h"
 #include "rollbem/blas.h"

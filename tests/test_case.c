@@ -1,7 +1,6 @@
 /* Cases by names: the table describes itself, words are set, resolved and refused, and
  * the same words give the same answer through the library and through the program. */
 #include "cli_run.h"
-#include "rollbem/case.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 

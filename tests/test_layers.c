@@ -1,6 +1,7 @@
 /* The layers of docs/architecture.md: a folder of src/ includes public headers of folders
- * below it and its own private ones, and its files call each other in no circle.  Run
- * from the project's root. */
+ * below it and its own private ones, and its files call each other in no circle.  Tests
+ * include public headers, unless their program is marked.  Run from the project's root.
+ */
 #include "check.h"
 
 #include <dirent.h>
@@ -90,6 +91,37 @@ TEST(folders_look_down_only)
         closedir(d);
         assert_true(lines > 0);
     }
+}
+
+/* Tests of what a caller cannot reach stand in programs of their own. */
+TEST(marked_programs_alone_look_inside)
+{
+    int marked = 0;
+    DIR *d = opendir("tests");
+    assert_non_null(d);
+    for (const struct dirent *e = readdir(d); e; e = readdir(d)) {
+        const char *dot = strrchr(e->d_name, '.');
+        char path[300], line[400], folder[40], name[40];
+        if (!dot || (strcmp(dot, ".c") != 0 && strcmp(dot, ".h") != 0))
+            continue;
+        if (strncmp(e->d_name, "test_inside_", 12) == 0) {
+            marked++;
+            continue;
+        }
+        snprintf(path, sizeof path, "tests/%s", e->d_name);
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        while (fgets(line, sizeof line, file))
+            if (included(line, folder, name)) {
+                char header[100];
+                snprintf(header, sizeof header, "src/%s/%s.h", folder, name);
+                if (strcmp(folder, "..") != 0 && access(header, R_OK) == 0)
+                    fail_msg("%s may not include %s/%s.h", path, folder, name);
+            }
+        fclose(file);
+    }
+    closedir(d);
+    assert_in_range(marked, 1, 25);
 }
 
 /* ---- Calls between files ----------------------------------------------------------- */

@@ -1,50 +1,10 @@
 /* A case as a contact problem (theory.md 4.2): operator, weights, controls, scales. */
 #include "check.h"
-#include "study/internal.h"
+#include "posed.h"
 
 #include <cblas.h>
 #include <float.h>
 #include <string.h>
-
-enum { N = 9, M = N + 1 };
-
-typedef struct {
-    rb_rolling_case rc;
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
-    rb_contact_problem p;
-    rb_contact_matrix K;
-} posed;
-
-static rb_rolling_case plane(rb_rolling_formulation formulation)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.poisson = 0.3;
-    rc.formulation = formulation;
-    rc.contact_elements = N;
-    rc.load = 500.0;
-    return rc;
-}
-
-static posed pose(const rb_rolling_case *rc, const rb_rolling_past *past)
-{
-    posed d = {.rc = *rc};
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
-    if (rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    d.K = rb_contact_operator_matrix(d.p.op);
-    return d;
-}
-
-static void release(posed *d)
-{
-    rb_contact_problem_free(&d->p);
-    rb_rolling_bodies_free(&d->bodies);
-    rb_rolling_mesh_free(&d->mesh);
-}
 
 /* Tangential displacement of midpoint i, the one upstream included, under a unit traction
  * j. */
@@ -62,7 +22,7 @@ static double S(const posed *d, int i, int j)
 
 TEST(steady_slip_is_the_difference_upstream)
 {
-    const rb_rolling_case steady = plane(RB_STEADY), rest = plane(RB_STATIC);
+    const rb_rolling_case steady = posed_plane(RB_STEADY), rest = posed_plane(RB_STATIC);
     posed rolls = pose(&steady, NULL), stands = pose(&rest, NULL);
     assert_int_equal(rolls.p.differences, 1);
     assert_int_equal(stands.p.differences, 0);
@@ -86,7 +46,7 @@ TEST(the_second_order_operator_has_four_points)
 {
     const double t = 0.0740956,
                  a[4] = {(1 - t) / 4, (3 + 3 * t) / 4, -(5 + 3 * t) / 4, (1 + t) / 4};
-    rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_case rc = posed_plane(RB_STEADY);
     rc.slip_operator = RB_SLIP_SECOND;
     posed d = pose(&rc, NULL);
     for (int j = 0; j < 2 * N; j++)
@@ -124,7 +84,7 @@ TEST(displacement_outside_continues_the_wheel)
 {
     const double t = 0.0740956, first = (1 - t) / 4, last = (1 + t) / 4,
                  middle[2] = {(3 + 3 * t) / 4, -(5 + 3 * t) / 4};
-    rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_case rc = posed_plane(RB_STEADY);
     rc.slip_operator = RB_SLIP_SECOND;
     posed flat = pose(&rc, NULL);
     rc.a.support = RB_BEM_ARC;
@@ -166,7 +126,7 @@ TEST(products_move_with_the_tractions)
     enum { n = RB_ROLLING_LARGE };
     static double here[2 * n], there[2 * n];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = plane(RB_STEADY);
+        rb_rolling_case rc = posed_plane(RB_STEADY);
         rc.contact_elements = n;
         rc.slip_operator = k ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
         posed d = pose(&rc, NULL);
@@ -187,40 +147,12 @@ TEST(products_move_with_the_tractions)
 
 /* ---- What moves the surfaces ------------------------------------------------------- */
 
-TEST(a_step_begins_with_its_past)
-{
-    double before[N], u[N];
-    for (int i = 0; i < N; i++) {
-        before[i] = 1e-4 * i * i;
-        u[i] = 1e-3 * i;
-    }
-    rb_rolling_case rc = plane(RB_TRANSIENT);
-    rc.yield_stress = 50.0;
-    rc.hardening = 100.0;
-    const rb_rolling_past past = {before, u, 0.07}, smooth = {before, NULL, 0.07};
-    posed d = pose(&rc, &past);
-    for (int i = 0; i < N; i++) {
-        CHECK_ABS(d.p.d_T[i], d.bodies.f.w0[M + i] - before[i], 1e-18, "d_T %d", i);
-        CHECK_ABS(d.p.e_T[i], 0.07, 0.0, "e_T %d", i);
-        CHECK_REL(d.p.yield[i], 50.0 + 0.1 * i, 1e-14, "yield stress %d", i);
-        CHECK_ABS(d.p.d_N[i], d.mesh.gap[i] + d.bodies.f.w0[i], 1e-18, "d_N %d", i);
-    }
-    rb_rolling_set_past(&rc, &d.bodies, &smooth, &d.p);
-    for (int i = 0; i < N; i++)
-        CHECK_ABS(d.p.yield[i], 50.0, 0.0, "nothing has yielded");
-    rb_rolling_set_past(&rc, &d.bodies, NULL, &d.p);
-    for (int i = 0; i < N; i++)
-        CHECK_ABS(d.p.d_T[i], d.bodies.f.w0[M + i], 0.0, "from rest");
-    CHECK_ABS(d.p.e_T[0], 0.0, 0.0, "from rest");
-    release(&d);
-}
-
 /* u_i = recall_0 u_i+1 + recall_1 u_i+2 + own |plastic_i|: steadily by the order of the
  * slip, in a step of its own. */
 TEST(what_yields_follows_the_material)
 {
     for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
+        rb_rolling_case rc = posed_plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
         static const double want[3][3] = {
             {1.0, 0.0, 1.0}, {4.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}, {0.0, 0.0, 1.0}};
         rc.slip_operator = k == 1 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
@@ -237,7 +169,7 @@ TEST(what_yields_follows_the_material)
 /* An element softens by less than its slip sets free: the limit is 1/(own S_ii). */
 TEST(softening_has_a_limit)
 {
-    rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_case rc = posed_plane(RB_STEADY);
     rc.yield_stress = 50.0;
     posed d = pose(&rc, NULL);
     double most = 0.0;
@@ -269,7 +201,7 @@ TEST(softening_has_a_limit)
 TEST(normals_of_the_surface_turn_with_it)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = plane(RB_STATIC);
+        rb_rolling_case rc = posed_plane(RB_STATIC);
         rc.a.support = RB_BEM_ARC;
         rc.outer_elements = 30;
         rc.a.radius = 2.0;
@@ -291,82 +223,12 @@ TEST(normals_of_the_surface_turn_with_it)
 
 /* ---- Controls ---------------------------------------------------------------------- */
 
-TEST(each_control_gives_its_unknown)
-{
-    rb_rolling_case rc = plane(RB_STEADY);
-    posed d = pose(&rc, NULL);
-    rb_contact_problem *p = &d.p;
-    const rb_rolling_derived derived = rb_rolling_derive(&rc);
-    const double scale = 0.3 * derived.half_width / derived.radius;
-
-    assert_int_equal(p->load_given, 1);
-    assert_int_equal(p->force_given, 0);
-    CHECK_ABS(p->load, 500.0, 0.0, "P");
-    CHECK_ABS(p->xi, 0.0, 0.0, "no creepage is 0");
-    rc.creep_ratio = 0.5;
-    rb_rolling_set_control(&rc, p);
-    CHECK_REL(p->xi, 0.5 * scale, 1e-14, "xi R/(mu a)");
-    rc.creep_ratio = NAN;
-    rc.creep = 0.01;
-    rb_rolling_set_control(&rc, p);
-    CHECK_ABS(p->xi, 0.01, 0.0, "xi");
-    rc.creep = NAN;
-    rc.force_ratio = -0.4;
-    rb_rolling_set_control(&rc, p);
-    assert_int_equal(p->force_given, 1);
-    CHECK_ABS(p->force_ratio, -0.4, 0.0, "Q/(mu P)");
-    CHECK_ABS(p->xi, 0.0, 0.0, "an unknown");
-    rc.force_ratio = NAN;
-    rc.force = 60.0;
-    rb_rolling_set_control(&rc, p);
-    CHECK_REL(p->force_ratio, 0.4, 1e-14, "of the known load");
-    CHECK_ABS(p->force, 0.0, 0.0, "of the known load");
-    rc.friction.heat = -0.1; /* mu is not known */
-    rb_rolling_set_control(&rc, p);
-    CHECK_ABS(p->force_ratio, 0.0, 0.0, "mu is not known");
-    CHECK_ABS(p->force, 60.0, 0.0, "mu is not known");
-    rc.friction.heat = 0.0;
-    rc.friction.law = RB_FRICTION_linear;
-    rb_rolling_set_control(&rc, p);
-    CHECK_ABS(p->force, 60.0, 0.0, "mu is not known");
-    rc.friction.law = RB_FRICTION_constant;
-    rc.load = NAN;
-    rc.approach = 0.02;
-    rb_rolling_set_control(&rc, p);
-    assert_int_equal(p->load_given, 0);
-    CHECK_ABS(p->delta, 0.02, 0.0, "the approach");
-    CHECK_ABS(p->force, 60.0, 0.0, "the load is not known");
-    rc.force = NAN;
-    rc.free_axle = 1;
-    rb_rolling_set_control(&rc, p);
-    assert_int_equal(p->force_given, 1);
-    CHECK_REL(p->axle, 1.0 / 50.0, 1e-15, "1/R");
-    rc.free_axle = 0;
-    rc.formulation = RB_STATIC;
-    rb_rolling_set_control(&rc, p);
-    CHECK_ABS(p->axle, 0.0, 0.0, "none");
-    CHECK_REL(p->xi, 0.002, 1e-14, "a tenth of the approach");
-    rc.shift = 0.003;
-    rb_rolling_set_control(&rc, p);
-    CHECK_ABS(p->xi, 0.003, 0.0, "the shift");
-    rc.force_ratio = 0.2; /* without friction no force is given */
-    p->mu = 0.0;
-    rb_rolling_set_control(&rc, p);
-    assert_int_equal(p->force_given, 0);
-    CHECK_ABS(p->xi, 0.003, 0.0, "the shift");
-    rc.shift = NAN;
-    rc.approach = NAN;
-    rc.load = 500.0;
-    CHECK_ABS(rb_rolling_wanted_shift(&rc), 0.0, 0.0, "under a load");
-    release(&d);
-}
-
 /* ---- Scales ------------------------------------------------------------------------ */
 
 TEST(scales_make_the_diagonals_one)
 {
     for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = plane(RB_STEADY);
+        rb_rolling_case rc = posed_plane(RB_STEADY);
         rc.mu = k == 0 ? 0.3 : k == 1 ? 0.0 : 1e-6;
         posed d = pose(&rc, NULL);
         const rb_contact_response unit = rb_contact_operator_response(d.p.op);
@@ -383,45 +245,6 @@ TEST(scales_make_the_diagonals_one)
         CHECK_ABS(d.p.rounding, 64.0 * DBL_EPSILON * unit.reach, 1e-30, "rounding");
         CHECK_ABS(unit.reach, 0.0, 0.0, "of matrices");
         release(&d);
-    }
-}
-
-TEST(ratios_come_from_load_and_friction)
-{
-    rb_rolling_case rc = plane(RB_STEADY);
-    rb_rolling_model model;
-    rc.creep_ratio = 0.5;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
-    const double P = rb_rolling_model_load(&model), Q = rb_rolling_model_force(&model);
-    CHECK_REL(P, 500.0, 1e-9, "P");
-    CHECK_REL(rb_rolling_force_ratio(&model), Q / (0.3 * P), 1e-12, "Q/(mu P)");
-    CHECK_REL(rb_rolling_ratio_of_creepage(&model, model.state.xi), 0.5, 1e-9, "there");
-    CHECK_REL(rb_rolling_creepage_of_ratio(&model, 0.5), model.state.xi, 1e-9, "back");
-    model.half_width = 0.0;
-    assert_true(isnan(rb_rolling_ratio_of_creepage(&model, 0.1)));
-    model.half_width = 1.0;
-    model.problem.mu = 0.0;
-    assert_true(isnan(rb_rolling_ratio_of_creepage(&model, 0.1)));
-    memset(model.state.p, 0, sizeof(double) * (size_t)model.state.n);
-    assert_true(isnan(rb_rolling_force_ratio(&model)));
-    rb_rolling_model_free(&model);
-}
-
-/* Q of Coulomb's full sliding is -mu P beyond that creepage, whatever couples. */
-TEST(everything_slides_at_the_sliding_creepage)
-{
-    static const double mu[] = {0.05, 0.3, 1.0};
-    for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = plane(RB_STEADY);
-        rb_rolling_model model;
-        rc.mu = mu[k];
-        rc.contact_elements = 30;
-        posed d = pose(&rc, NULL);
-        rc.creep = rb_rolling_sliding_creepage(&rc, &d.p);
-        release(&d);
-        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
-        CHECK_REL(rb_rolling_force_ratio(&model), -1.0, 1e-9, "mu = %g", mu[k]);
-        rb_rolling_model_free(&model);
     }
 }
 

@@ -1,5 +1,6 @@
 /* What lies between the bodies: a coefficient of friction that depends on the place, and
  * an interface that yields. */
+#include "refused.h"
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
@@ -237,6 +238,83 @@ TEST(bad_tables_are_refused)
     rc.interlayer_tangential = -1.0;
     CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "tangential compliance >= 0"));
+}
+
+static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.formulation = RB_STEADY;
+    rc.friction =
+        (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
+    return rc;
+}
+
+/* Whichever row has it; mu beside a table counts for nothing. */
+TEST(the_largest_of_a_table_is_that_of_any_row)
+{
+    const double x[] = {-1.0, 0.0, 3.0};
+    for (int at = 0; at < 3; at++) {
+        const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1,
+                            at == 2 ? 0.2 : 0.05};
+        rb_rolling_case rc = law(RB_FRICTION_table, 0.0, 0.0);
+        rc.friction.table = (rb_rolling_table){3, x, y};
+        CHECK_ABS(rb_rolling_largest_mu(&rc), 0.2, 0.0, "row %d", at);
+    }
+}
+
+TEST(tables_of_no_friction_are_refused)
+{
+    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
+                 gone[3] = {-1.0, NAN, 1.0}, mu[3] = {0.0, 0.2, 0.3},
+                 less[3] = {0.2, -0.1, 0.3}, lost[3] = {0.2, NAN, 0.3};
+#define MU(x, y)                                                                         \
+    rc.friction.law = RB_FRICTION_table, rc.friction.table = (rb_rolling_table){3, x, y}
+    ACCEPTED(MU(x, mu));
+    REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
+    REFUSED("friction table: row 3: expected x to increase, got 1", MU(back, mu));
+    REFUSED("friction table: row 2: expected x to increase", MU(gone, mu));
+    REFUSED("friction table: row 2: expected mu >= 0, got -0.1", MU(x, less));
+    REFUSED("friction table: row 2: expected mu >= 0", MU(x, lost));
+#undef MU
+}
+
+#define FALLS                                                                            \
+    STEADY;                                                                              \
+    rc.speed = 1.0;                                                                      \
+    rc.friction.law = RB_FRICTION_rational;                                              \
+    rc.friction.fall[1] = 0.1;                                                           \
+    rc.friction.slip_scale[1] = 1.0
+TEST(ranges_of_friction_laws)
+{
+    ACCEPTED(FALLS);
+    ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
+    ACCEPTED(FALLS; rc.friction.slip_scale[0] = -1.0); /* of no fall */
+    ACCEPTED(FALLS; rc.friction.fall[0] = -rc.mu; rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected mu >= 0 everywhere", FALLS; rc.friction.fall[0] = -0.31;
+            rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.fall[0] = INFINITY);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = INFINITY);
+    ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = -1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = INFINITY);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = 1.0);
+
+    ACCEPTED(WARM; rc.friction.heat = -0.3; rc.friction.heat_range = 100.0);
+    ACCEPTED(rc.friction.heat = -0.3; rc.friction.heat_range = 100.0); /* at rest */
+    REFUSED("expected mu >= 0 everywhere", WARM; rc.friction.heat = -0.31;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 0.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
 }
 
 RUN_TESTS(NULL, NULL)

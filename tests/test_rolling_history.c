@@ -1,27 +1,9 @@
 /* Sequences: Cattaneo to Carter, loading histories, bad programs, interruption. */
 #include "check.h"
-#include "study/internal.h"
+#include "cases.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
-
-/* Similar steel bodies on the half-plane (theory.md 6): CONTACT's case. */
-static rb_rolling_case steel_wheel(int across)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = 0.28;
-    rc.a.young = 2.0 * 82000.0 * 1.28;
-    rc.a.radius = 500.0;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.load = 178.896;
-    rc.contact_elements = across + 10;
-    rc.zone = rb_rolling_hertz_half_width(&rc, rc.load) * (across + 10) / across;
-    return rc;
-}
 
 static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *history)
@@ -83,70 +65,6 @@ TEST(other_steps_tell_the_same_story)
     CHECK_REL(h[1].creepage[53], h[0].creepage[h[0].n - 1], 1e-2, "c other than h");
     release(&model[0], &h[0]);
     release(&model[1], &h[1]);
-}
-
-/* A rubber-like wheel on a steel rail: both bodies count, and they are coupled. */
-static rb_rolling_case wheel_on_rail(rb_bem_support support, int across)
-{
-    rb_rolling_case rc = steel_wheel(across);
-    rc.a.support = support;
-    rc.a.young /= 3.0;
-    rc.a.poisson = 0.4;
-    rc.load *= 100.0;
-    rc.zone = 1.2 * rb_rolling_hertz_half_width(&rc, rc.load);
-    return rc;
-}
-
-/* Whole elements ahead are rows of F, which does not know of half-planes. */
-TEST(whole_elements_ahead_are_known)
-{
-    for (int hub = 0; hub < 2; hub++) {
-        const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
-        rb_rolling_model model;
-        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
-        const int n = model.mesh.n, m = n + 1;
-        const double *F = model.bodies.F, size = fabs(F[0]);
-        for (int k = 0; k <= 3; k++) {
-            rb_rolling_former_place ahead;
-            CHECK_STATUS(rb_rolling_former_place_create(
-                             &rc, &model.bodies, k * model.bodies.f.h[n / 2], &ahead),
-                         RB_OK);
-            for (int j = 0; j < 2 * n; j++)
-                for (int i = 0; i + k < m && i < n; i++)
-                    CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m],
-                              1e-12 * size, "%d ahead of %d, column %d", k, i, j);
-            rb_rolling_former_place_free(&ahead);
-        }
-        rb_rolling_model_free(&model);
-    }
-}
-
-/* A quarter ahead of a midpoint lies a midpoint of elements half as long, two of which
- * carry what one did. */
-TEST(a_quarter_ahead_is_a_midpoint_of_halves)
-{
-    rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
-    rb_rolling_model coarse, fine;
-    rc.a.datum = rc.b.datum = 100.0;
-    rc.outer_elements = 200;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &coarse, NULL), RB_OK);
-    rc.contact_elements *= 2;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &fine, NULL), RB_OK);
-    const int n = coarse.mesh.n, m = 2 * n + 1;
-    rb_rolling_former_place ahead;
-    CHECK_STATUS(rb_rolling_former_place_create(&rc, &coarse.bodies,
-                                                0.25 * coarse.bodies.f.h[n / 2], &ahead),
-                 RB_OK);
-    const double *F = fine.bodies.F, size = fabs(F[m + 4 * n * m]); /* TT */
-    for (int j = 0; j < 2 * n; j++)
-        for (int i = 0; i < n; i++) {
-            const double *a = F + (size_t)(4 * j * m) + m + 2 * i + 1, *b = a + 2 * m;
-            CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d",
-                      i, j, 2 * n);
-        }
-    rb_rolling_former_place_free(&ahead);
-    rb_rolling_model_free(&coarse);
-    rb_rolling_model_free(&fine);
 }
 
 TEST(other_steps_on_a_wheel)
@@ -610,53 +528,6 @@ TEST(states_of_a_ratio_are_followed)
         states.xi[states.steps - 1] *= 1.001;
     }
     rb_rolling_states_free(&states);
-    release(&model, &h);
-}
-
-/* Steps of more than an element: what has yielded comes from between midpoints, and from
- * beyond the mesh comes nothing. */
-static int check_yielded(const rb_rolling_model *model, const rb_rolling_history *h,
-                         int step, int steps, void *context)
-{
-    static double before[100];
-    const double *x = model->bodies.f.x, c = h->step;
-    const int n = model->mesh.n;
-    (void)steps;
-    for (int i = 0; i < n && step > 0; i++) {
-        double want = 0.0;
-        for (int j = 0; j < n; j++) {
-            const double next = j + 1 < n ? before[j + 1] : 0.0, place = x[i] + c;
-            if (x[j] <= place && place < x[j + 1])
-                want =
-                    before[j] + (next - before[j]) * (place - x[j]) / (x[j + 1] - x[j]);
-        }
-        CHECK_ABS(model->carried.yielded[i], want, 1e-9 * *(double *)context,
-                  "step %d, element %d", step, i);
-    }
-    rb_rolling_yielded(model, before);
-    for (int i = 0; i < n; i++)
-        *(double *)context = fmax(*(double *)context, before[i]);
-    return 0;
-}
-
-TEST(what_has_yielded_rides_along)
-{
-    double most = 0.0;
-    rb_rolling_case rc = steel_wheel(20);
-    rb_rolling_model model;
-    rb_rolling_history h;
-    rb_message why = {""};
-    const rb_rolling_observer observer = {check_yielded, &most};
-    rc.formulation = RB_TRANSIENT;
-    rc.creep_ratio = 1.5;
-    rc.distance = 1.0;
-    rc.steps = 5;
-    rc.interlayer_tangential = 1e-6;
-    rc.yield_stress = 0.05 * rb_rolling_derive(&rc).stress;
-    if (rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    assert_true(most > 0.0);
-    assert_true(h.step > 1.5 * model.bodies.f.h[0]);
     release(&model, &h);
 }
 

@@ -1,36 +1,10 @@
 /* Friction that depends on the state: the coefficients of a state, starts, the uniqueness
  * number, forces, each recomputed here; and in how many solves they are found. */
-#include "study/internal.h"
+#include "cases.h"
 #include "solved.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static rb_rolling_case falling(rb_rolling_formulation formulation, double fall,
-                               double scale)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
-    rc.formulation = formulation;
-    rc.load = 500.0;
-    rc.contact_elements = 24;
-    rc.speed = 1000.0;
-    rc.distance = 0.3;
-    rc.mu = 0.2;
-    rc.friction.law = RB_FRICTION_exponential;
-    rc.friction.fall[0] = fall;
-    rc.friction.slip_scale[0] = scale;
-    return rc;
-}
-
-static double mu_of(const rb_rolling_case *rc, double v)
-{
-    return rc->mu +
-           rc->friction.fall[0] * exp(-log(2.0) * v / rc->friction.slip_scale[0]);
-}
 
 /* ---- The coefficients of a state --------------------------------------------------- */
 
@@ -45,13 +19,14 @@ TEST(each_element_has_the_coefficient_of_its_slip)
         const double v = fabs(s->lambda[i]) / model.problem.e_T[i] * rc.speed;
         if (s->p[i] == 0.0)
             continue;
-        CHECK_MAX(fabs(s->q[i]), mu_of(&rc, v) * s->p[i] + 1e-8 * model.problem.stress,
+        CHECK_MAX(fabs(s->q[i]),
+                  falling_mu(&rc, v) * s->p[i] + 1e-8 * model.problem.stress,
                   "bound of %d", i);
         if (s->zone[i] == RB_ZONE_STICK)
             continue;
         slides++;
-        CHECK_ABS(fabs(s->q[i]), mu_of(&rc, v) * s->p[i], 1e-8 * model.problem.stress,
-                  "friction of %d", i);
+        CHECK_ABS(fabs(s->q[i]), falling_mu(&rc, v) * s->p[i],
+                  1e-8 * model.problem.stress, "friction of %d", i);
     }
     assert_true(slides > 3);
     CHECK_MAX(s->residual, 1e-10, "residual");
@@ -78,48 +53,6 @@ TEST(the_residual_is_that_of_the_law)
     CHECK_MAX(1e-8, largest, "that a loose tolerance leaves");
 }
 
-/* A made-up state: open elements are at rest; with a memory d each forgets the one
- * upstream of it over the way max(v, s0) e_T/V that it slides. */
-TEST(coefficients_forget_from_the_leading_edge_on)
-{
-    for (int steady = 0; steady < 2; steady++) {
-        rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
-        rc.creep_ratio = 0.5;
-        rb_rolling_model model;
-        rb_rolling_solution solution;
-        rb_message why = {""};
-        double mu[100], before[100];
-        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &solution, &why), RB_OK);
-        rb_contact_state *s = &model.state;
-        const double *e_T = model.problem.e_T, rest = mu_of(&rc, 0.0);
-        for (int i = 0; i < s->n; i++) {
-            s->zone[i] = i % 7 == 3 ? RB_ZONE_SEPARATED : RB_ZONE_SLIP_NEGATIVE;
-            s->lambda[i] = e_T[i] * 0.01 * (i % 5);
-            before[i] = 0.25 + 0.001 * i;
-        }
-        for (int k = 0; k < 3; k++) { /* no memory, with it, with a past */
-            case_of(&model)->friction.memory = k ? 0.01 : 0.0;
-            case_of(&model)->friction.memory_slip = 15.0;
-            model.carried.mu = k == 2 ? before : NULL;
-            CHECK_STATUS(rb_rolling_law_coefficients(&model, mu, &why), RB_OK);
-            double upstream = rest;
-            for (int i = s->n - 1; i >= 0; i--) {
-                const double v = 10.0 * (i % 5), now = mu_of(&rc, v);
-                const double from = steady ? upstream : k == 2 ? before[i] : rest;
-                const double kept = exp(-fmax(v, 15.0) * e_T[i] / rc.speed / 0.01);
-                const double want = s->zone[i] == RB_ZONE_SEPARATED ? rest
-                                    : k == 0                        ? now
-                                             : now + (from - now) * kept;
-                CHECK_REL(mu[i], want, 1e-13, "%d %d: element %d", steady, k, i);
-                upstream = want;
-            }
-        }
-        model.carried.mu = NULL;
-        rb_rolling_solution_free(&solution);
-        rb_rolling_model_free(&model);
-    }
-}
-
 /* Warm surfaces lose heat_range's part of `heat`. */
 TEST(warm_elements_have_another_coefficient)
 {
@@ -140,47 +73,6 @@ TEST(warm_elements_have_another_coefficient)
     assert_true(s.max_temperature > 21.0);
     CHECK_MAX(s.residual, 1e-10, "residual");
     rb_rolling_solution_free(&s);
-}
-
-TEST(starts_slide_up_to_their_place)
-{
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
-    rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
-    const double *x = model.bodies.f.x;
-    CHECK_STATUS(rb_rolling_law_start(&model, x[10], NULL), RB_OK);
-    for (int i = 0; i < model.problem.n; i++)
-        CHECK_ABS(model.problem.bound[i], i < 10 ? 0.2 : 0.4, 1e-12, "element %d", i);
-    case_of(&model)->friction.heat = -0.1;
-    case_of(&model)->friction.heat_range = 50.0;
-    CHECK_STATUS(rb_rolling_law_start(&model, x[0], NULL), RB_OK);
-    CHECK_ABS(model.problem.bound[0], 0.4, 1e-12, "at rest and cold");
-    CHECK_STATUS(rb_rolling_law_start(&model, INFINITY, NULL), RB_OK);
-    CHECK_ABS(model.problem.bound[5], 0.1, 1e-12, "fast and warm");
-    rb_rolling_model_free(&model);
-}
-
-/* The given coefficients that an iteration starts from count where bodies roll. */
-TEST(bounds_start_where_they_are_told)
-{
-    const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
-    const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
-    rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
-    case_of(&model)->friction.start = &start;
-    for (int k = 0; k < 2; k++) {
-        case_of(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
-        rb_rolling_start_bounds(model.rc, &model.bodies, &model.problem);
-        for (int i = 0; i < model.problem.n; i++) {
-            const double at = model.bodies.f.x[i];
-            CHECK_ABS(model.problem.bound[i],
-                      k ? 0.4 : 0.26 + 0.5 * fmin(0.1, fmax(-0.1, at)), 1e-12, "at %g",
-                      at);
-        }
-        CHECK_ABS(model.problem.mu, 0.4, 1e-15, "the scale");
-    }
-    rb_rolling_model_free(&model);
 }
 
 /* ---- Uniqueness -------------------------------------------------------------------- */
@@ -467,50 +359,6 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
 
 /* ---- Newton's method by itself ----------------------------------------------------- */
 
-static rb_rolling_model steep_model(void)
-{
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 1.0);
-    rc.contact_elements = 10;
-    rc.creep_ratio = 0.6;
-    return solved_model(&rc);
-}
-
-/* With as many contact problems as it is given, and no more. */
-TEST(newtons_method_ends_with_its_problems)
-{
-    static const int most[] = {0, 1, 3};
-    for (int k = 0; k < 3; k++) {
-        rb_rolling_model model = steep_model();
-        rb_message why = {""};
-        int left = most[k];
-        for (int i = 0; i < model.problem.n; i++)
-            model.problem.bound[i] *= i % 2 ? 0.9 : 1.0;
-        CHECK_STATUS(rb_rolling_law_newton(&model, 0.0, &left, &why), RB_MAXITER);
-        assert_int_equal(left, -1);
-        rb_rolling_model_free(&model);
-    }
-}
-
-typedef struct {
-    rb_rolling_model model;
-    double bound[60]; /* of its solution */
-} held_model;
-
-/* From the same coefficients every time, whatever a run without memory has left. */
-static rb_status go_to_rest(void *context)
-{
-    held_model *from = context;
-    int left = 2000;
-    for (int i = 0; i < from->model.problem.n; i++)
-        from->model.problem.bound[i] = from->bound[i] * (i % 2 ? 0.9 : 1.0);
-    return rb_rolling_law_newton(&from->model, 1e-12, &left, NULL);
-}
-
-static rb_status set_friction(void *context)
-{
-    return rb_rolling_model_friction(context, NULL);
-}
-
 /* Anywhere on the way to the largest force, which is refused in the end. */
 TEST(the_way_to_a_force_may_have_no_memory)
 {
@@ -529,21 +377,6 @@ TEST(the_way_to_a_force_may_have_no_memory)
         rb_rolling_solution_free(&s);
     }
     assert_true(refused > 10);
-}
-
-TEST(newtons_method_may_have_no_memory)
-{
-    held_model from = {.model = steep_model()};
-    rb_rolling_model *const model = &from.model;
-    assert_true(model->problem.n <= 60);
-    memcpy(from.bound, model->problem.bound, (size_t)model->problem.n * sizeof(double));
-    assert_true(alloc_fail_each(go_to_rest, &from) > 5);
-    case_of(model)->heat_a =
-        (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    case_of(model)->friction.heat = -0.1;
-    case_of(model)->friction.heat_range = 100.0;
-    assert_true(alloc_fail_each(set_friction, model) > 2);
-    rb_rolling_model_free(model);
 }
 
 TEST(kappa_of_no_pressure_is_nothing)

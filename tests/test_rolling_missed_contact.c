@@ -1,165 +1,11 @@
 /* Tables of the gap whose patches lie where no element stands: they are found, fitted,
  * refused where they cannot be. */
-#include "study/internal.h"
+#include "bumps.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { POINTS = 1201, MOST = 20 };
-
-typedef struct {
-    rb_rolling_case rc;
-    rb_rolling_profile *profile;
-    double x[POINTS], gap[POINTS];
-} table;
-
-/* Bumps of radius 10 at places x, so much higher than the lowest. */
-static table *bumps(int n, const double *x, const double *height)
-{
-    table *t = calloc(1, sizeof *t);
-    rb_message why = {""};
-    assert_non_null(t);
-    const double half = fmax(fabs(x[0]), fabs(x[n - 1])) + 1.5;
-    for (int i = 0; i < POINTS; i++) {
-        t->x[i] = half * (2.0 * i / (POINTS - 1) - 1.0);
-        t->gap[i] = INFINITY;
-        for (int k = 0; k < n; k++)
-            t->gap[i] = fmin(t->gap[i], gsl_pow_2(t->x[i] - x[k]) / 20.0 + height[k]);
-    }
-    if (rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    t->rc = rb_rolling_case_defaults();
-    t->rc.a.support = RB_BEM_HALFPLANE;
-    t->rc.gap = RB_GAP_TABLE;
-    t->rc.profile = t->profile;
-    t->rc.contact_elements = 40;
-    t->rc.load = 30.0;
-    return t;
-}
-
-static void release(table *t)
-{
-    rb_rolling_profile_free(t->profile);
-    free(t);
-}
-
-/* Solved on elements over a part of the table alone. */
-static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, double to)
-{
-    rb_rolling_model model;
-    rb_rolling_mesh mesh;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_model_begin(rc, NULL, &model, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &why), RB_OK);
-    const rb_status s = rb_rolling_model_build(&model, &mesh, &why);
-    if (s != RB_OK && s != RB_ZONE)
-        fail_msg("%s", why.text);
-    return model;
-}
-
-/* Elements under one bump: the others overlap, each in a stretch of its own around its
- * place, from as far from the mesh as they are. */
-TEST(every_bump_that_overlaps_is_found)
-{
-    static const double x[] = {-5.0, -2.5, 0.0, 3.0, 6.0}, height[5] = {0.0};
-    table *t = bumps(5, x, height);
-    rb_rolling_model model = solved_between(&t->rc, -0.4, 0.4);
-    rb_rolling_overlap o;
-    assert_int_equal(model.state.status, RB_ZONE);
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-    assert_int_equal(o.count, 4);
-    for (int k = 0; k < 4; k++) {
-        const double place = x[k < 2 ? k : k + 1];
-        assert_true(o.from[k] < place && place < o.to[k]);
-        CHECK_ABS(0.5 * (o.from[k] + o.to[k]), place, 0.1, "bump %d", k);
-        CHECK_MAX(o.to[k] - o.from[k], 1.0, "stretch %d", k);
-    }
-    rb_rolling_model_free(&model);
-
-    /* where its own elements see it, a bump is no overlap */
-    model = solved_between(&t->rc, -3.5, 4.0);
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-    assert_int_equal(o.count, 2);
-    rb_rolling_model_free(&model);
-    release(t);
-}
-
-/* The surface sinks by what the pressed half-plane gives way there: a bump that is just
- * too low does not overlap, one a little higher does. */
-TEST(a_bump_overlaps_where_the_surface_has_not_sunk)
-{
-    const double x[] = {0.0, 4.0}, flat[] = {0.0, 1e-4};
-    table *t = bumps(2, x, flat);
-    rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
-    rb_rolling_overlap o;
-    /* w_N of the resultant at a distance against the approach, from the closed form of
-     * the half-plane: -2 P/(pi E') ln(r) up to the same datum */
-    const double E = 94500.0 / 0.99, P = rb_rolling_model_load(&model);
-    double w[2 * 41];
-    CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-                 RB_OK);
-    const double far = w[0] - 2.0 * P / (M_PI * E) * log(4.0 / fabs(model.bodies.f.x[0]));
-    const double limit = model.state.delta - far; /* gaps below it overlap */
-    rb_rolling_model_free(&model);
-    release(t);
-    for (int k = 0; k < 2; k++) {
-        const double height[] = {0.0, limit * (k ? 1.05 : 0.95)};
-        t = bumps(2, x, height);
-        model = solved_between(&t->rc, -0.5, 0.5);
-        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-        assert_int_equal(o.count, k ? 0 : 1);
-        assert_int_equal(model.state.status, k ? RB_OK : RB_ZONE);
-        rb_rolling_model_free(&model);
-        release(t);
-    }
-}
-
-/* Likewise the rim of a wheel, by what elements that reach the bump tell of it. */
-TEST(a_wheel_sinks_as_its_elements_tell)
-{
-    enum { WIDE = 112, M = WIDE + 1 };
-    const double x[] = {0.0, 6.0};
-    for (int k = 0; k < 4; k++) {
-        rb_rolling_overlap o;
-        double w[2 * M], height[] = {0.0, 0.5};
-        table *t = bumps(2, x, height);
-        t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
-        t->rc.contact_elements = WIDE;
-        rb_rolling_model model = solved_between(&t->rc, -0.5, 6.5);
-        CHECK_STATUS(
-            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-            RB_OK);
-        const int at = (int)(6.5 / 7.0 * WIDE);
-        CHECK_ABS(model.bodies.f.x[at], 6.0, 0.05, "there");
-        height[1] = (model.state.delta - w[at]) * (k % 2 ? 1.05 : 0.95);
-        rb_rolling_model_free(&model);
-        release(t);
-        t = bumps(2, x, height);
-        t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
-        model = solved_between(&t->rc, -0.5, 0.5);
-        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-        assert_int_equal(o.count, k % 2 ? 0 : 1);
-        rb_rolling_model_free(&model);
-        release(t);
-    }
-}
-
-TEST(more_overlaps_than_there_is_room_end_in_one)
-{
-    double x[MOST], height[MOST] = {0.0};
-    for (int k = 0; k < MOST; k++)
-        x[k] = 1.5 * (k - MOST / 2);
-    table *t = bumps(MOST, x, height);
-    rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
-    rb_rolling_overlap o;
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-    assert_int_equal(o.count, RB_MOST_OVERLAPS);
-    CHECK_ABS(o.to[RB_MOST_OVERLAPS - 1], x[MOST - 1], 0.3, "up to the last one");
-    rb_rolling_model_free(&model);
-    release(t);
-}
 
 /* ---- Fitted ------------------------------------------------------------------------ */
 
@@ -182,7 +28,7 @@ TEST(elements_are_fitted_to_every_patch)
     assert_true(s.patch[0].normal_load > s.patch[1].normal_load &&
                 s.patch[1].normal_load > s.patch[2].normal_load);
     rb_rolling_solution_free(&s);
-    release(t);
+    bumps_free(t);
 }
 
 /* More patches than elements are fitted to: equal ones instead, and it is said. */
@@ -200,7 +46,7 @@ TEST(too_many_patches_have_equal_elements)
     assert_int_equal(s.equal_instead, 1);
     CHECK_REL(s.h[0], s.h[s.n - 1], 1e-9, "equal elements");
     rb_rolling_solution_free(&s);
-    release(t);
+    bumps_free(t);
 }
 
 /* Aligned elements have two edges: of one patch. */
@@ -214,7 +60,7 @@ TEST(several_patches_cannot_be_aligned)
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "the contact has several patches"));
     rb_rolling_solution_free(&s);
-    release(t);
+    bumps_free(t);
 }
 
 /* Patches that nearly touch are fitted as one; with equal elements they are the same. */
@@ -240,7 +86,7 @@ TEST(patches_side_by_side_are_fitted_as_one)
         rb_rolling_solution_free(&fine);
         rb_rolling_solution_free(&s);
     }
-    release(t);
+    bumps_free(t);
 }
 
 /* A groove of a hundredth of the contact does not divide the fitted elements: they reach
@@ -304,7 +150,7 @@ TEST(mirrored_tables_have_mirrored_contacts)
                 t->rc.shift = side ? -2e-4 : 2e-4;
                 t->rc.contact_elements = 48;
                 s[side] = solved(&t->rc);
-                release(t);
+                bumps_free(t);
             }
             const double p0 = s[0].max_pressure;
             const int n = s[0].n, patches = s[0].patches;
@@ -382,7 +228,7 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
                          2);
         CHECK_REL(wide, side < 0 ? -from : to, 1e-3, "side %d", side);
         assert_true(wide > 3.0);
-        release(t);
+        bumps_free(t);
     }
 }
 
@@ -400,7 +246,7 @@ TEST(patches_too_far_apart_need_fitted_elements)
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "equal elements would be needed"));
     rb_rolling_solution_free(&s);
-    release(t);
+    bumps_free(t);
 }
 
 /* Without a table there is nothing beyond the radius: a soft interface spreads the
@@ -432,7 +278,7 @@ TEST(a_zone_without_an_end_is_told_a_third_more)
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "half-width 0.5 mm; widen it to 0.65 mm"));
     rb_rolling_solution_free(&s);
-    release(t);
+    bumps_free(t);
 }
 
 /* What is irregular beyond the wheel is never met. */
@@ -475,43 +321,7 @@ TEST(half_planes_have_elements_for_patches_far_apart)
     CHECK_MAX(3000, s.n, "elements");
     CHECK_REL(s.patch[0].normal_load, 0.5, 1e-3, "half of the load");
     rb_rolling_solution_free(&s);
-    release(t);
-}
-
-/* The surface of a wheel sinks by what its boundary elements say: known from elements
- * that reach there, with a bump that is too high to touch. */
-TEST(a_wheel_sinks_as_on_elements_that_reach_there)
-{
-    static const double places[] = {2.17, 3.0, 3.4, 4.2};
-    for (int place = 0; place < 4; place++) {
-        const double x[] = {0.0, places[place]}, high[] = {0.0, 0.05};
-        table *t = bumps(2, x, high);
-        double w[2 * 41], limit = NAN;
-        t->rc.a.support = RB_BEM_HUB;
-        rb_rolling_model near = solved_between(&t->rc, -0.5, 0.5);
-        rb_rolling_model model =
-            solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
-        CHECK_STATUS(
-            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-            RB_OK);
-        for (int i = 0; i + 1 < model.mesh.n; i++)
-            if (model.bodies.f.x[i] <= x[1] && model.bodies.f.x[i + 1] > x[1])
-                limit = near.state.delta - w[i];
-        rb_rolling_model_free(&near);
-        rb_rolling_model_free(&model);
-        release(t);
-        for (int k = 0; k < 2; k++) {
-            const double height[] = {0.0, limit * (k ? 1.01 : 0.99)};
-            rb_rolling_overlap o;
-            t = bumps(2, x, height);
-            t->rc.a.support = RB_BEM_HUB;
-            model = solved_between(&t->rc, -0.5, 0.5);
-            CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
-            assert_int_equal(o.count, k ? 0 : 1);
-            rb_rolling_model_free(&model);
-            release(t);
-        }
-    }
+    bumps_free(t);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* Measured gaps: the spline through a table, its smoothing, and what is refused. */
 #include "check.h"
-#include "study/internal.h"
+#include "profiles.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -39,16 +39,6 @@ static int tabulate(double from, double to, double step, double noise, unsigned 
     }
     gsl_rng_free(rng);
     return n;
-}
-
-static rb_rolling_profile *profile_of(int n, const double *x, const double *gap,
-                                      double noise)
-{
-    rb_rolling_profile *profile;
-    rb_message why = {""};
-    if (rb_rolling_profile_create(n, x, gap, noise, &profile, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return profile;
 }
 
 static double peak(const rb_rolling_case *rc)
@@ -286,42 +276,6 @@ TEST(every_failed_allocation_is_reported)
         }
     }
     gsl_set_error_handler(handler);
-}
-
-/* The spline goes through the points, or where they are smoothed through as many places,
- * at most 1001 of them; a parabola is smoothed to itself, and goes on straight beyond its
- * ends. */
-TEST(smoothed_splines_have_as_many_points)
-{
-    static const int counts[][2] = {{3, 3}, {9, 9}, {301, 301}, {6001, 1001}};
-    for (int k = 0; k < 4; k++) {
-        const int n = counts[k][0];
-        for (int i = 0; i < n; i++) {
-            x[i] = -3.0 + 7.0 * i / (n - 1);
-            gap[i] = 0.5 * (x[i] - 0.3) * (x[i] - 0.3);
-        }
-        for (int smooth = 0; smooth < 2; smooth++) {
-            rb_rolling_profile *profile = profile_of(n, x, gap, smooth ? 1e-3 : 0.0);
-            const double *at;
-            double from, to;
-            const int rows = rb_rolling_profile_rows(profile, &at);
-            assert_int_equal(rows, smooth ? counts[k][1] : n);
-            for (int i = 0; i < rows; i++)
-                CHECK_ABS(at[i], -3.0 + 7.0 * i / (rows - 1), 1e-12, "place %d", i);
-            rb_rolling_profile_range(profile, &from, &to);
-            CHECK_ABS(from, -3.0, 0.0, "from");
-            CHECK_ABS(to, 4.0, 0.0, "to");
-            const double end = rb_rolling_profile_gap(profile, 4.0);
-            CHECK_ABS(rb_rolling_profile_gap(profile, 6.0) - end,
-                      2.0 * (rb_rolling_profile_gap(profile, 5.0) - end), 1e-12,
-                      "straight on");
-            for (int i = 0; i < rows && smooth; i += 1 + rows / 50)
-                CHECK_ABS(rb_rolling_profile_gap(profile, at[i]),
-                          0.5 * (at[i] - 0.3) * (at[i] - 0.3), 1e-8, "parabola at %g",
-                          at[i]);
-            rb_rolling_profile_free(profile);
-        }
-    }
 }
 
 RUN_TESTS(NULL, NULL)

@@ -1,5 +1,5 @@
 /* Bodies that relax, step by step: static contact in time and transient rolling. */
-#include "study/internal.h"
+#include "check.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -591,48 +591,6 @@ TEST(every_failing_allocation_is_noticed)
 
 /* ---- Parts ------------------------------------------------------------------------- */
 
-/* Tractions, and what the terms keep of them, move by an element, each direction for
- * itself, and nothing comes in; the displacement that they bring along is that of kept
- * and former tractions through the glassy body (V6). */
-TEST(the_past_moves_with_the_material)
-{
-    enum { N = 6, TAIL = 3, ALL = N + TAIL };
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_mesh mesh;
-    rb_rolling_memory_track track;
-    double w0[2 * (N + 1)], past[2 * ALL], own[2 * ALL], sum[2 * ALL], w[2 * (ALL + 1)];
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
-    rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL), RB_OK);
-    CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &track, NULL), RB_OK);
-    for (int rolls = 0; rolls < 2; rolls++) {
-        for (int i = 0; i < 2 * ALL; i++) {
-            track.traction[i] = own[i] = 1.0 + i;
-            track.body[0].past[i] = past[i] = 50.0 - i * i;
-        }
-        for (int i = 0; i < 2 * ALL && rolls; i++) {
-            const int last = i % ALL == ALL - 1;
-            own[i] = last ? 0.0 : 2.0 + i;
-            past[i] = last ? 0.0 : 50.0 - (i + 1) * (i + 1);
-        }
-        rb_rolling_memory_track_begin(&track, 3.0, rolls, w0);
-        const rb_bem_fading f = rb_bem_fading_over(2.0, 3.0);
-        for (int i = 0; i < 2 * ALL; i++) {
-            CHECK_ABS(track.traction[i], own[i], 0.0, "traction %d", i);
-            CHECK_ABS(track.body[0].past[i], past[i], 0.0, "past %d", i);
-            sum[i] = 0.5 * (f.kept * past[i] + f.before * own[i]);
-        }
-        rb_bem_flexibility_apply(&track.body[0].f, sum, w);
-        for (int i = 0; i <= N; i++) {
-            CHECK_REL(w0[i], w[TAIL + i], 1e-12, "w_N %d", i);
-            CHECK_REL(w0[N + 1 + i], w[ALL + 1 + TAIL + i], 1e-12, "w_T %d", i);
-        }
-    }
-    rb_rolling_memory_track_free(&track);
-    rb_rolling_mesh_free(&mesh);
-}
-
 /* Over steps of any length the three parts make one, and each is its integral, here in
  * more digits: kept exp(-r), after 1 - (1 - exp(-r))/r. */
 TEST(what_fades_is_known_to_rounding)
@@ -650,62 +608,6 @@ TEST(what_fades_is_known_to_rounding)
                   "before, r = %g", r);
         CHECK_ABS(f.kept + f.before + f.after, 1.0, 1e-15, "sum, r = %g", r);
     }
-}
-
-/* x F y over the elements of a body. */
-static double work_of(const rb_bem_flexibility *f, const double *a, const double *b)
-{
-    double w[2 * 8], sum = 0.0;
-    rb_bem_flexibility_apply(f, b, w);
-    for (int i = 0; i < f->n; i++)
-        sum += f->h[i] * (a[i] * w[i] + a[f->n + i] * w[f->m + i]);
-    return sum;
-}
-
-/* A dashpot loses (1/tau) int e F e dt, with e = e_0 exp(-t/tau) + d (1 - exp(-t/tau))
- * tau/step for a change d of the traction.  After a long step and a short one, both
- * of e_0 and d are there; from rest and at a held traction, one of them alone. */
-TEST(a_step_loses_what_its_dashpot_does)
-{
-    enum { N = 6 };
-    static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_mesh mesh;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
-    rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL), RB_OK);
-    for (int j = 0; j < 15; j++) {
-        const double step = steps[j / 3];
-        const int kind = j % 3; /* from rest; held; both */
-        const long double r = (long double)(step / TAU), faded = -expm1l(-r);
-        const double f0 = (double)(-0.5L * expm1l(-2.0L * r)),
-                     f1 = (double)(0.5L * faded * faded / r),
-                     f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) /
-                                   (r * r));
-        rb_rolling_memory_track track;
-        double e[2 * N] = {0.0}, d[2 * N], next[2 * N];
-        CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, 0, &track, NULL), RB_OK);
-        for (int i = 0; i < 2 * N; i++)
-            next[i] = 2.0 + i * i;
-        if (kind > 0)
-            rb_rolling_memory_track_end(&track, 0.5, next, next + N);
-        for (int i = 0; i < 2 * N; i++) {
-            if (kind > 0)
-                e[i] = track.traction[i] - track.body[0].past[i];
-            next[i] += kind == 2 ? 3.0 * i - 4.0 : 0.0;
-            d[i] = next[i] - track.traction[i];
-        }
-        const rb_bem_flexibility *f = &track.body[0].f;
-        const double was = track.lost;
-        rb_rolling_memory_track_end(&track, step, next, next + N);
-        const double want = F * (f0 * work_of(f, e, e) + 2.0 * f1 * work_of(f, d, e) +
-                                 f2 * work_of(f, d, d));
-        CHECK_REL(track.lost - was, want, kind == 2 ? 1e-7 : 1e-9, "step %g, %d", step,
-                  kind);
-        rb_rolling_memory_track_free(&track);
-    }
-    rb_rolling_mesh_free(&mesh);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -1,38 +1,14 @@
 /* What a solution says, recomputed from the model that it is taken from. */
-#include "study/internal.h"
+#include "cases.h"
 #include "solved.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static rb_rolling_case plane(rb_rolling_formulation formulation)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.poisson = 0.3;
-    rc.formulation = formulation;
-    rc.load = 500.0;
-    rc.contact_elements = 24;
-    rc.speed = 1000.0;
-    rc.distance = 0.3;
-    if (formulation != RB_STATIC)
-        rc.creep_ratio = 0.5;
-    return rc;
-}
-
-static rb_rolling_solution of(const rb_rolling_model *model)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    if (rb_rolling_model_solution(model, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return s;
-}
-
 /* Every part of the work of a wheel takes some of its time. */
 TEST(the_parts_of_the_time_are_within_the_whole)
 {
-    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_case rc = rolled_plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
     rb_rolling_solution s = solved(&rc);
@@ -46,79 +22,20 @@ TEST(the_parts_of_the_time_are_within_the_whole)
     CHECK_MAX(sum, s.seconds_total, "seconds");
     rb_rolling_solution_free(&s);
 
-    const rb_rolling_case flat = plane(RB_STATIC); /* without a boundary */
+    const rb_rolling_case flat = rolled_plane(RB_STATIC); /* without a boundary */
     s = solved(&flat);
     CHECK_ABS(s.seconds_assembly + s.seconds_factor, 0.0, 0.0, "seconds of no boundary");
     rb_rolling_solution_free(&s);
 }
 
-TEST(columns_are_those_of_the_state)
-{
-    for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = plane((rb_rolling_formulation)k);
-        rb_rolling_model model;
-        rb_rolling_solution s;
-        rc.b = rc.a;
-        rc.b.radius = INFINITY;
-        rc.elastic_b = 1;
-        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
-        const rb_contact_state *c = &model.state;
-        const int n = s.n;
-        double *w = rb_alloc(2 * (size_t)n + 2, 1), contact = 0.0, stick = 0.0;
-        int loaded = 0, stuck = 0, first = -1, last = -1;
-        assert_non_null(w);
-        CHECK_STATUS(rb_rolling_displacement(&model.bodies, c->p, c->q, w), RB_OK);
-        for (int i = 0; i < n; i++) {
-            CHECK_ABS(s.p[i], c->p[i], 0.0, "p %d", i);
-            CHECK_ABS(s.q[i], c->q[i], 0.0, "q %d", i);
-            CHECK_ABS(s.shift[i], c->lambda[i], 0.0, "shift %d", i);
-            CHECK_ABS(s.un[i], w[i], 0.0, "w_N %d", i);
-            CHECK_ABS(s.ut[i], w[n + 1 + i], 0.0, "w_T %d", i);
-            CHECK_ABS(s.gap[i], model.mesh.gap[i] + w[i] - c->delta, 1e-12, "gap %d", i);
-            const double dx = model.bodies.f.x[i + 1] - model.bodies.f.x[i];
-            const double slip = k == RB_STATIC
-                                    ? s.creepage - (w[n + 2 + i] - w[n + 1 + i]) / dx
-                                : k == RB_STEADY ? c->lambda[i] / dx
-                                                 : c->lambda[i] / model.problem.e_T[i];
-            CHECK_ABS(s.slip[i], slip, 1e-15, "slip %d", i);
-            loaded += c->zone[i] != RB_ZONE_SEPARATED;
-            contact += c->zone[i] != RB_ZONE_SEPARATED ? s.h[i] : 0.0;
-            if (c->zone[i] == RB_ZONE_STICK) {
-                stuck++;
-                stick += s.h[i];
-                first = first < 0 ? i : first;
-                last = i;
-            }
-        }
-        assert_int_equal(s.contact, loaded);
-        assert_int_equal(s.stick, stuck);
-        assert_int_equal(s.slipping, loaded - stuck);
-        assert_int_equal(s.yielding, -1);
-        assert_true(stuck > 2);
-        CHECK_REL(s.stick_length, stick, 1e-14, "stuck");
-        CHECK_ABS(s.stick_from, model.mesh.ends[first], 0.0, "from");
-        CHECK_ABS(s.stick_to, model.mesh.ends[last + 1], 0.0, "to");
-        double all, stuck_length;
-        rb_rolling_zone_lengths(n, s.zone, s.h, &all, &stuck_length);
-        CHECK_REL(all, contact, 1e-14, "in contact");
-        CHECK_REL(stuck_length, stick, 1e-14, "stuck");
-        CHECK_REL(rb_rolling_longest_element(n, s.zone, s.h), s.h[0], 1e-9, "equal");
-        if (k != RB_STATIC)
-            assert_int_equal(s.slip_violations, 0);
-        free(w);
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
-    }
-}
-
 TEST(sums_are_those_of_the_tractions)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = plane(k ? RB_STEADY : RB_STATIC);
+        rb_rolling_case rc = rolled_plane(k ? RB_STEADY : RB_STATIC);
         if (!k)
             rc.force_ratio = 0.5;
         rb_rolling_model model = solved_model(&rc);
-        rb_rolling_solution s = of(&model);
+        rb_rolling_solution s = solution_of(&model);
         double P = 0.0, Q = 0.0, M = 0.0;
         for (int i = 0; i < s.n; i++) {
             P += s.p[i] * s.h[i];
@@ -155,14 +72,14 @@ TEST(sums_are_those_of_the_tractions)
  * one, or its ratio. */
 TEST(shift_and_creepage_at_rest)
 {
-    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_case rc = rolled_plane(RB_STATIC);
     rc.shift = 0.001;
     rb_rolling_model model = solved_model(&rc);
     for (int k = 0; k < 3; k++) {
         model.shift = 0.01 * k;
         case_of(&model)->creep = k == 1 ? 0.02 : NAN;
         case_of(&model)->creep_ratio = k == 2 ? 0.5 : NAN;
-        rb_rolling_solution s = of(&model);
+        rb_rolling_solution s = solution_of(&model);
         CHECK_REL(s.tangential_shift, 0.001 + 0.01 * k, 1e-12, "shift %d", k);
         CHECK_ABS(s.creepage,
                   k == 0   ? 0.0
@@ -172,7 +89,7 @@ TEST(shift_and_creepage_at_rest)
         rb_rolling_solution_free(&s);
     }
     model.problem.load_given = 0;
-    rb_rolling_solution s = of(&model);
+    rb_rolling_solution s = solution_of(&model);
     assert_true(isnan(s.load_error));
     rb_rolling_solution_free(&s);
     rb_rolling_model_free(&model);
@@ -181,7 +98,7 @@ TEST(shift_and_creepage_at_rest)
 /* Slip against the zone is counted, of each zone; as small as rounding it is none. */
 TEST(slip_that_pushes_is_a_violation)
 {
-    const rb_rolling_case rc = plane(RB_STEADY);
+    const rb_rolling_case rc = rolled_plane(RB_STEADY);
     rb_rolling_model model = solved_model(&rc);
     static const int zones[] = {RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
                                 RB_ZONE_SLIP_POSITIVE,  RB_ZONE_YIELD_NEGATIVE,
@@ -199,7 +116,7 @@ TEST(slip_that_pushes_is_a_violation)
             model.state.lambda[5] = sign * 1e-6 * length;
             model.state.zone[7] = RB_ZONE_STICK;
             model.state.lambda[7] = 1e-11 * length;
-            rb_rolling_solution s = of(&model);
+            rb_rolling_solution s = solution_of(&model);
             assert_int_equal(s.slip_violations, counts[k][sign + 1]);
             rb_rolling_solution_free(&s);
         }
@@ -209,43 +126,14 @@ TEST(slip_that_pushes_is_a_violation)
 /* Two thousand boundary elements have no dense matrix. */
 TEST(many_boundary_elements_are_called_hierarchical)
 {
-    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_case rc = rolled_plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 1500;
     rc.contact_elements = 12;
     rb_rolling_model model = solved_model(&rc);
-    rb_rolling_solution s = of(&model);
+    rb_rolling_solution s = solution_of(&model);
     assert_true(s.boundary_elements > 2000);
     assert_int_equal(s.hierarchical, 1);
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
-}
-
-/* The support of a wheel holds the load; both wheels' elements are counted. */
-TEST(a_support_holds_the_load)
-{
-    rb_rolling_case rc = plane(RB_STATIC);
-    rc.a.support = RB_BEM_HUB;
-    rc.a.core_young = 1e3; /* not read: there is no cover */
-    rc.outer_elements = 60;
-    rc.contact_elements = 16;
-    rb_rolling_model model = solved_model(&rc);
-    rb_rolling_solution s = of(&model);
-    CHECK_ABS(s.support_balance, 0.0, 2e-2, "reaction");
-    assert_true(s.support_balance != 0.0);
-    assert_int_equal(s.boundary_elements, rb_bem_system_mesh(model.bodies.system_a)->n);
-    assert_int_equal(s.hierarchical, 0);
-    assert_true(isnan(s.datum));
-    double t[2 * 64];
-    rb_rolling_contact_tractions(&model, t);
-    for (int i = 0; i < s.n; i++) {
-        CHECK_REL(t[2 * i + 1], s.p[i], 1e-12, "vertical %d", i);
-        CHECK_ABS(t[2 * i], s.q[i], 1e-12 * s.max_pressure, "horizontal %d", i);
-    }
-    rb_rolling_solution_free(&s);
-    memset(model.state.p, 0, sizeof(double) * 16);
-    s = of(&model);
-    assert_true(isnan(s.support_balance)); /* nothing to hold */
     rb_rolling_solution_free(&s);
     rb_rolling_model_free(&model);
 }
@@ -254,7 +142,7 @@ TEST(a_support_holds_the_load)
 TEST(a_model_solves_the_next_case_as_the_first)
 {
     for (int k = 0; k < 6; k++) {
-        rb_rolling_case rc = plane(RB_STEADY), next;
+        rb_rolling_case rc = rolled_plane(RB_STEADY), next;
         rb_rolling_model model = {0};
         rc.mesh = k == 1 || k == 4 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         next = rc;
@@ -279,7 +167,7 @@ TEST(a_model_solves_the_next_case_as_the_first)
 /* A given ratio of the creepage refers to the load that an approach leads to. */
 TEST(a_ratio_is_met_under_an_approach)
 {
-    rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_case rc = rolled_plane(RB_STEADY);
     rc.load = NAN;
     rc.approach = 0.05;
     rb_rolling_solution s = solved(&rc);
@@ -294,7 +182,7 @@ TEST(a_ratio_is_met_under_an_approach)
 /* On elements between given places; where they do not hold the contact, that is said. */
 TEST(elements_may_stand_where_they_are_told)
 {
-    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_case rc = rolled_plane(RB_STATIC);
     rb_rolling_solution s;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &why), RB_OK);
@@ -314,38 +202,11 @@ TEST(elements_may_stand_where_they_are_told)
     assert_null(s.p);
 }
 
-/* Along normals that turn with the surface pressure and friction have both components. */
-TEST(tilted_tractions_add_up_to_both_forces)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.normals = RB_BEM_NORMALS_SURFACE;
-    rc.approach = 2.0; /* a wide contact */
-    rc.mu = 0.5;
-    rc.contact_elements = 16;
-    rb_rolling_model model = solved_model(&rc);
-    rb_rolling_solution s = of(&model);
-    double t[2 * 64], down = 0.0, along = 0.0;
-    assert_true(s.n <= 64);
-    rb_rolling_contact_tractions(&model, t);
-    for (int i = 0; i < s.n; i++) {
-        along += s.h[i] * t[2 * i];
-        down += s.h[i] * t[2 * i + 1];
-    }
-    CHECK_REL(down, s.normal_load, 1e-12, "load");
-    CHECK_REL(along, s.tangential_load, 1e-12, "force");
-    double plain = 0.0;
-    for (int i = 0; i < s.n; i++)
-        plain += s.h[i] * s.p[i];
-    CHECK_MAX(1e-4, fabs(down / plain - 1.0), "tilt");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
-}
-
 /* Fewer than five elements in contact do not tell its edges, and that is said. */
 TEST(few_elements_do_not_tell_the_edges)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = plane(RB_STEADY);
+        rb_rolling_case rc = rolled_plane(RB_STEADY);
         rc.contact_elements = k ? 40 : 5;
         rb_rolling_solution s = solved(&rc);
         assert_int_equal(s.edges_bounded, !k);
@@ -357,7 +218,7 @@ TEST(few_elements_do_not_tell_the_edges)
  * relaxes or yields has no such energy. */
 TEST(strain_energy_is_the_work_of_pressing)
 {
-    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_case rc = rolled_plane(RB_STATIC);
     rc.mu = 0.0;
     rc.contact_elements = 400;
     rb_rolling_solution s = solved(&rc);
@@ -373,7 +234,7 @@ TEST(strain_energy_is_the_work_of_pressing)
     for (int k = 0; k < 3; k++) {
         double energy[3], load = 0.0;
         for (int j = 0; j < 3; j++) {
-            rb_rolling_case pressed = plane(RB_STATIC);
+            rb_rolling_case pressed = rolled_plane(RB_STATIC);
             pressed.a.support = supports[k];
             pressed.mu = 0.0;
             pressed.zone = 4.0;
@@ -387,7 +248,7 @@ TEST(strain_energy_is_the_work_of_pressing)
         CHECK_REL((energy[2] - energy[0]) / (2.0 * 0.1 * 0.01), load, 2e-2, "support %d",
                   k);
     }
-    rc = plane(RB_STEADY);
+    rc = rolled_plane(RB_STEADY);
     rc.a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
     s = solved(&rc);
     assert_true(isnan(s.strain_energy));

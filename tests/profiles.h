@@ -1,0 +1,18 @@
+/* Profiles that must be accepted. */
+#ifndef ROLLBEM_TESTS_PROFILES_H
+#define ROLLBEM_TESTS_PROFILES_H
+
+#include "check.h"
+#include "rollbem/rolling.h"
+
+static inline rb_rolling_profile *profile_of(int n, const double *x, const double *gap,
+                                             double noise)
+{
+    rb_rolling_profile *profile;
+    rb_message why = {""};
+    if (rb_rolling_profile_create(n, x, gap, noise, &profile, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return profile;
+}
+
+#endif
