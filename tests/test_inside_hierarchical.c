@@ -318,8 +318,8 @@ static rb_status solve_by_clusters(void *of)
     const solid *b = of;
     rb_bem_system *system = NULL;
     double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
-    rb_status s = u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL)
-                    : RB_ENOMEM;
+    rb_status s =
+        u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
     rb_bem_system_free(system);
