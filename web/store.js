@@ -56,6 +56,8 @@ export function make_store(first, { link, changed, restored, shown, released }) 
         /* One more state before this one, unless nothing has changed. */
         keep() {
             if (same(state, kept)) return;
+            /* The page's own entry has its state a moment after the start: a change may come before. */
+            if (!history.state?.rollbem) write("replaceState");
             kept = state;
             top = ++index;
             write("pushState");
