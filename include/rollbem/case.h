@@ -568,6 +568,7 @@ typedef struct {
     double half_width;      /* [length] */
     int passes;
     rb_crack_shape shape;
+    rb_rolling_states states; /* of the contact, if it has steps; otherwise n = 0 */
     rb_crack_history history;
     rb_case_crack_summary summary;
     int has_errors;
@@ -588,6 +589,27 @@ rb_status rb_case_crack_check(const rb_resolved_case *resolved,
 rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
                               const rb_case_crack *crack, rb_case_crack_result *result,
                               rb_message *why);
+
+/* Where the contact stands, and its tractions there. */
+typedef struct {
+    int n;
+    double *x; /* n positions [length]; owned, like all arrays here */
+    int loads; /* as in rb_crack_passage */
+    rb_bem_edge_load *load;
+    double *ends;
+} rb_case_crack_track;
+
+/* The track of result->contact and result->states, whose arrays it borrows; also sets
+ * half_width, shape, passes and notes of the result.  RB_EINVAL: a step of the contact
+ * jumps over the crack. */
+rb_status rb_case_crack_follow(const rb_resolved_case *resolved,
+                               const rb_case_crack *crack, rb_case_crack_result *result,
+                               rb_case_crack_track *track, rb_message *why);
+void rb_case_crack_track_free(rb_case_crack_track *track);
+/* The passage of such a track without a wheel. */
+rb_crack_passage rb_case_crack_passage(const rb_case_crack *crack,
+                                       const rb_case_crack_track *track);
+
 void rb_case_crack_convert(rb_case_crack_result *result, rb_units units);
 void rb_case_crack_free(rb_case_crack_result *result);
 /* 1: the number of the summary has a meaning for such a crack. */

@@ -150,6 +150,9 @@ typedef struct {
  * RB_EINVAL: no steps; RB_RAY, RB_INACCURATE: a step was not solved; why names it. */
 rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage,
                         rb_crack_history *history, rb_message *why);
+/* Zeros for so many steps, n = 0; coupled: with max_pressure.  RB_ENOMEM. */
+rb_status rb_crack_history_alloc(const rb_crack *crack, int steps, int coupled,
+                                 rb_crack_history *history);
 void rb_crack_history_free(rb_crack_history *history);
 
 /* The largest tension across any direction ahead of a tip, times sqrt(2 pi r) (Erdogan

@@ -265,10 +265,15 @@ void rb_report_wear_free(rb_report_wear *w);
 /* One row per position of the contact, all passes.  RB_EWRITE: see errno. */
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
                                 const char *command, const rb_report_style *style);
-/* Sets "crack", "contact", "summary", "table", and adds to "notes". */
 void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *crack,
                                  rb_units units);
+/* Sets "crack", "contact", "summary", "table", and adds to "notes". */
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
+/* Sets "faces", with a list per position, and the tractions of the contact,
+ * "contact_table" or "history" with its states: what a judge needs.  In mm, N, MPa. */
+void rb_report_json_crack_faces(struct json_t **root, const rb_case_crack_result *r);
+/* input_hash of a case and its crack. */
+struct json_t *rb_report_json_crack_hash(const rb_case *c, const rb_case_crack *crack);
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r);
 /* Pictures of the last pass: K over the position with the zones of the faces below; K_II
  * over K_I; the crack at the position nearest to `at` [half-widths] with magnified

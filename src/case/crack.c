@@ -194,51 +194,26 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 
 /* ---- Load -------------------------------------------------------------------------- */
 
-/* Tractions of every step, and where each stands: arrays that the loads borrow. */
-typedef struct {
-    int n;
-    double *x;              /* n positions [length]; owned, as all */
-    rb_bem_edge_load *load; /* `loads` of them */
-    int loads;
-    double *ends;
-    rb_rolling_states states; /* of a sequence of steps */
-} load_track;
-
 /* A run that starts again on a wider zone calls this with step 0 again. */
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
                      int step, int steps, void *context)
 {
-    load_track *t = context;
+    rb_rolling_states *states = context;
     (void)history;
     if (step == 0) {
-        rb_rolling_states_free(&t->states);
-        if (rb_rolling_states_alloc(model->mesh.n, steps, &t->states) != RB_OK)
+        rb_rolling_states_free(states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
             return 1;
     }
-    rb_rolling_states_set(model, step, &t->states);
+    rb_rolling_states_set(model, step, states);
     return 0;
 }
 
-static rb_status set_ends(int n, const double *x, const double *h, load_track *t)
-{
-    t->ends = rb_alloc((size_t)n + 1, 1);
-    if (!t->ends)
-        return RB_ENOMEM;
-    for (int i = 0; i < n; i++)
-        t->ends[i] = x[i] - 0.5 * h[i];
-    t->ends[n] = x[n - 1] + 0.5 * h[n - 1];
-    return RB_OK;
-}
-
-/* The contact of the case once, or step by step, and where it stands. */
-static rb_status solve_load(const rb_resolved_case *c, const rb_case_crack *k,
-                            rb_case_crack_result *r, load_track *t, rb_message *why)
+/* The contact of the case, or its steps. */
+static rb_status solve_contact(const rb_resolved_case *c, const rb_case_crack *k,
+                               rb_case_crack_result *r, rb_message *why)
 {
     rb_resolved_case plain = *c;
-    const int has_steps = rb_case_has_steps(c) && !k->unloaded,
-              rolls = c->rc.formulation == RB_TRANSIENT;
-    const double from = from_of(c, k);
-    rb_status s = RB_OK;
 
     plain.error = 0;
     if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges
@@ -248,47 +223,48 @@ static rb_status solve_load(const rb_resolved_case *c, const rb_case_crack *k,
         if (plain.rc.zone == 0.0)
             plain.rc.zone = ZONE * c->derived.half_width;
     }
-    if (!k->unloaded)
-        s = rb_case_solve(&plain, keep_step, t, &r->contact, why);
-    if (s == RB_INTERRUPTED) /* by keep_step alone */
-        s = RB_ENOMEM;
-    if (s != RB_OK)
-        return s;
-    r->half_width =
-        has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
-    t->n = k->unloaded ? 1 : has_steps ? t->states.steps : intervals(c) + 1;
-    t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;
-    t->x = rb_alloc((size_t)t->n, 1);
-    t->load = calloc((size_t)t->n, sizeof *t->load);
-    if (!t->x || !t->load)
-        return RB_ENOMEM;
-    for (int i = 0; i < t->n; i++)
-        t->x[i] =
-            r->half_width * (k->unloaded  ? from
-                             : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
-                             : rolls      ? from + r->contact.history.distance[i]
-                                          : from);
-    for (int i = 1; i < t->n && has_steps; i++)
-        if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
-            return rb_fail(why, RB_EINVAL,
-                           "--steps: step %d rolls %g half-widths and jumps over the "
-                           "crack, expected at most %g",
-                           i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
-    if (has_steps) {
-        const rb_rolling_states *of = &t->states;
-        s = set_ends(of->n, of->x, of->h, t);
-        for (int i = 0; i < t->n; i++)
-            t->load[i] = (rb_bem_edge_load){of->n, t->ends, of->p + (size_t)i * of->n,
-                                            of->q + (size_t)i * of->n};
-    } else if (!k->unloaded) {
-        const rb_rolling_solution *of = &r->contact.solution;
-        s = set_ends(of->n, of->x, of->h, t);
-        t->load[0] = (rb_bem_edge_load){of->n, t->ends, of->p, of->q};
-    }
-    return s;
+    const rb_status s =
+        k->unloaded ? RB_OK
+                    : rb_case_solve(&plain, keep_step, &r->states, &r->contact, why);
+    return s == RB_INTERRUPTED ? RB_ENOMEM : s; /* by keep_step alone */
 }
 
-/* ---- Solve ------------------------------------------------------------------------- */
+void rb_case_crack_track_free(rb_case_crack_track *t)
+{
+    free(t->x);
+    free(t->load);
+    free(t->ends);
+    memset(t, 0, sizeof *t);
+}
+
+/* The ends of n contact elements, and their tractions in each of the loads. */
+static rb_status set_loads(int n, const double *x, const double *h, const double *p,
+                           const double *q, rb_case_crack_track *t)
+{
+    t->ends = rb_alloc((size_t)n + 1, 1);
+    if (!t->ends)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++)
+        t->ends[i] = x[i] - 0.5 * h[i];
+    t->ends[n] = x[n - 1] + 0.5 * h[n - 1];
+    for (int i = 0; i < t->loads; i++)
+        t->load[i] = (rb_bem_edge_load){n, t->ends, p + (size_t)i * n, q + (size_t)i * n};
+    return RB_OK;
+}
+
+static rb_crack_shape shape_of(const rb_resolved_case *c, const rb_case_crack *k,
+                               double a)
+{
+    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
+    return (rb_crack_shape){
+        .path = rb_crack_straight(k->mouth * a, k->depth * a, k->length * a, k->angle),
+        .elements = k->elements,
+        .friction = k->friction,
+        .shear = 0.5 * b->young / (1.0 + b->poisson),
+        /* of plane stress: the same kappa */
+        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson)
+                                                  : b->poisson};
+}
 
 static void note(rb_case_crack_result *r, const char *text, double value)
 {
@@ -297,7 +273,7 @@ static void note(rb_case_crack_result *r, const char *text, double value)
 }
 
 static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
-                       const load_track *t, rb_case_crack_result *r)
+                       const rb_case_crack_track *t, rb_case_crack_result *r)
 {
     const double a = r->half_width, first = fabs(t->x[0] / a - k->mouth);
     double step = 0.0;
@@ -334,6 +310,64 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
              0.0);
 }
 
+rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
+                               rb_case_crack_result *r, rb_case_crack_track *t,
+                               rb_message *why)
+{
+    const int has_steps = rb_case_has_steps(c) && !k->unloaded,
+              rolls = c->rc.formulation == RB_TRANSIENT;
+    const double from = from_of(c, k);
+    const rb_rolling_states *steps = &r->states;
+    const rb_rolling_solution *one = &r->contact.solution;
+    rb_status s = RB_OK;
+
+    memset(t, 0, sizeof *t);
+    r->half_width =
+        has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
+    r->shape = shape_of(c, k, r->half_width);
+    r->passes = k->unloaded ? 1 : k->passes;
+    t->n = k->unloaded ? 1 : has_steps ? steps->steps : intervals(c) + 1;
+    t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;
+    t->x = rb_alloc((size_t)t->n, 1);
+    t->load = calloc((size_t)t->n, sizeof *t->load);
+    if (!t->x || !t->load)
+        return RB_ENOMEM;
+    for (int i = 0; i < t->n; i++)
+        t->x[i] =
+            r->half_width * (k->unloaded  ? from
+                             : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
+                             : rolls      ? from + r->contact.history.distance[i]
+                                          : from);
+    for (int i = 1; i < t->n && has_steps; i++)
+        if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
+            return rb_fail(why, RB_EINVAL,
+                           "--steps: step %d rolls %g half-widths and jumps over the "
+                           "crack, expected at most %g",
+                           i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
+    if (has_steps)
+        s = set_loads(steps->n, steps->x, steps->h, steps->p, steps->q, t);
+    else if (!k->unloaded)
+        s = set_loads(one->n, one->x, one->h, one->p, one->q, t);
+    if (s == RB_OK)
+        find_notes(c, k, t, r);
+    return s;
+}
+
+rb_crack_passage rb_case_crack_passage(const rb_case_crack *k,
+                                       const rb_case_crack_track *t)
+{
+    return (rb_crack_passage){.steps = t->n,
+                              .x = t->x,
+                              .loads = t->loads,
+                              .load = t->load,
+                              .passes = k->unloaded ? 1 : k->passes,
+                              .fluid = (rb_crack_fluid)k->fluid,
+                              .locate_closing = k->locate_closing,
+                              .tension = k->remote_stress};
+}
+
+/* ---- Solve ------------------------------------------------------------------------- */
+
 static void note_end_of_growth(rb_units units, rb_case_crack_result *r)
 {
     const rb_case_crack_growth *g = &r->growth;
@@ -351,25 +385,18 @@ static void note_end_of_growth(rb_units units, rb_case_crack_result *r)
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
                             rb_case_crack_result *r, rb_message *why)
 {
-    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
     rb_resolved_case refined = *c;
-    load_track t = {0};
+    rb_case_crack_track t = {0};
     rb_crack *crack = NULL;
 
     memset(r, 0, sizeof *r);
+    r->passes = k->passes;
     if (!rb_case_has_steps(c))
         refined.rc.contact_elements *= finer;
-    rb_status s = solve_load(&refined, k, r, &t, why);
-    r->passes = k->passes;
-    r->shape = (rb_crack_shape){
-        .path = rb_crack_straight(k->mouth * r->half_width, k->depth * r->half_width,
-                                  k->length * r->half_width, k->angle),
-        .elements = finer * k->elements,
-        .friction = k->friction,
-        .shear = 0.5 * b->young / (1.0 + b->poisson),
-        /* of plane stress: the same kappa */
-        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson)
-                                                  : b->poisson};
+    rb_status s = solve_contact(&refined, k, r, why);
+    if (s == RB_OK)
+        s = rb_case_crack_follow(c, k, r, &t, why);
+    r->shape.elements *= finer;
     if (s == RB_OK && k->coupled)
         s = rb_rolling_model_add_matrix(&r->contact.model, why);
     if (s == RB_OK)
@@ -383,22 +410,13 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
                                       .gap = model->problem.d_N,
                                       .load = r->contact.solution.normal_load,
                                       .approach = r->contact.solution.approach};
-        const rb_crack_passage passage = {.steps = t.n,
-                                          .x = t.x,
-                                          .loads = t.loads,
-                                          .load = t.load,
-                                          .passes = k->unloaded ? 1 : k->passes,
-                                          .fluid = (rb_crack_fluid)k->fluid,
-                                          .locate_closing = k->locate_closing,
-                                          .tension = k->remote_stress,
-                                          .wheel = k->coupled ? &wheel : NULL};
-        r->passes = passage.passes;
+        rb_crack_passage passage = rb_case_crack_passage(k, &t);
+        passage.wheel = k->coupled ? &wheel : NULL;
         if (k->coupled && !model->bodies.F)
             s = rb_fail(why, RB_EINVAL, "--coupled: fewer than %d contact elements",
                         RB_ROLLING_LARGE);
         else
             s = rb_crack_pass(crack, &passage, &r->history, why);
-        find_notes(c, k, &t, r);
         if (r->history.n > 0)
             r->summary = rb_case_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
@@ -406,10 +424,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         note_end_of_growth(c->units, r);
     }
     rb_crack_free(crack);
-    free(t.x);
-    free(t.load);
-    free(t.ends);
-    rb_rolling_states_free(&t.states);
+    rb_case_crack_track_free(&t);
     return s;
 }
 

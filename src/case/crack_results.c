@@ -148,6 +148,7 @@ void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
 void rb_case_crack_free(rb_case_crack_result *r)
 {
     rb_case_result_free(&r->contact);
+    rb_rolling_states_free(&r->states);
     rb_crack_history_free(&r->history);
     free(r->growth.length);
     r->growth.length = NULL;

@@ -177,6 +177,8 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_say(rb_case_resolve(words, &why), &why);
+    if (code == CLI_CONTINUE)
+        rb_case_store(words, &run.set, own);
     *files = run.args.operands;
     cli_args_free(&run.args);
     return code;

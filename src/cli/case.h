@@ -115,6 +115,9 @@ cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files);
 /* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
 cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files,
                            double *yield_shear);
+/* The same of `rollbem crack`; inputs: of case and crack as JSON, NULL without memory. */
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files,
+                          struct json_t **inputs);
 /* The same of any such command; files: written, how many case files it names. */
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
                          char **argv, rb_case *words, int *files);

@@ -22,10 +22,13 @@ static const char about[] =
     "bounds, and the slip from the step before. Stress (rollbem stress --json) is\n"
     "computed again from the tractions, and hysteresis also from a decomposition of\n"
     "the tractions into waves, which is independent of the library's formula.\n"
+    "Cracks are checked position by position if they were written with --states: the\n"
+    "contact, opening and slip of the faces under its tractions and their own, the\n"
+    "laws of contact, friction and fluid, K_I and K_II, and the summary.\n"
     "Not checked: derivatives, tolerances, free_creepage, iterations, seconds, and\n"
     "the solver. Refused: histories without states, or with friction that depends on\n"
-    "the slip or the temperature, or with an interface that yields; curves, error\n"
-    "bars, units other than mm, N, MPa; CSV.\n"
+    "the slip or the temperature, or with an interface that yields; cracks without\n"
+    "states, coupled or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"
@@ -53,29 +56,45 @@ static const char *other_command(const char *word)
     return NULL;
 }
 
+/* Of a case whose JSON this is. */
+static rb_case_purpose purpose_of(const json_t *root)
+{
+    return json_object_get(root, "crack")    ? RB_CASE_CRACK
+           : json_object_get(root, "maxima") ? RB_CASE_STRESS
+                                             : RB_CASE_SINGLE;
+}
+
 /* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
  * RB_ENOMEM. */
 static rb_status fault_of_command(const json_t *root, char **argv, int argc,
                                   const char *folder, int is_confined, const char **fault)
 {
     const char *other = other_command(argv[1]);
-    const int is_stress = other && strcmp(other, "stress") == 0;
+    const int is_stress = other && strcmp(other, "stress") == 0,
+              is_crack = other && strcmp(other, "crack") == 0;
     double given = NAN; /* yield_shear as printed; NAN: nowhere */
     int files = 0;
+    json_t *inputs = NULL;
     *fault = NULL;
-    if ((other && !is_stress) || is_stress != (json_object_get(root, "maxima") != NULL)) {
+    if ((other && !is_stress && !is_crack) ||
+        is_stress != (json_object_get(root, "maxima") != NULL) ||
+        is_crack != (json_object_get(root, "crack") != NULL)) {
         *fault = "it is another command's";
         return RB_OK;
     }
-    rb_case *words = cli_case_create(is_stress ? RB_CASE_STRESS : RB_CASE_SINGLE);
+    rb_case *words = cli_case_create(purpose_of(root));
     if (!words)
         return RB_ENOMEM;
     if (is_confined)
         rb_case_confine(words, folder);
-    const cli_exit code =
-        is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
-                  : cli_solve_inputs(argc, argv, words, &files);
-    json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
+    cli_exit code;
+    if (is_crack) {
+        code = cli_crack_inputs(argc - 1, argv + 1, words, &files, &inputs);
+    } else {
+        code = is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
+                         : cli_solve_inputs(argc, argv, words, &files);
+        inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
+    }
     const json_t *printed = json_object_get(root, "shakedown");
     const double yield = json_number_value(json_object_get(printed, "yield_shear"));
     const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !inputs);
@@ -130,7 +149,7 @@ static void *noting_malloc(size_t size)
 }
 
 static cli_exit check_json(const char *path, const char *text, size_t size,
-                           const char *folder, int is_confined, rb_case *words)
+                           const char *folder, int is_confined)
 {
     rb_report_certificate found = {0};
     rb_message why = {""};
@@ -148,9 +167,17 @@ static cli_exit check_json(const char *path, const char *text, size_t size,
         return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
                         root ? 1 : error.line, root ? "no object" : error.text);
     }
-    rb_status s = rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    rb_case *words =
+        cli_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
+    rb_status s = RB_ENOMEM;
+    if (words) {
+        if (is_confined)
+            rb_case_confine(words, folder);
+        s = rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    }
     if (s == RB_OK)
         s = compare_command(path, root, folder, is_confined, &found, &why);
+    rb_case_free(words);
     json_decref(root);
     return tell(path, s, &found, &why);
 }
@@ -236,7 +263,7 @@ static cli_exit check_file(const char *path, const check_options *o)
     cli_wait_begin();
     if (words && folder)
         code = first == '{' || first == '['
-                   ? check_json(path, text, size, folder, !o->any_folder, words)
+                   ? check_json(path, text, size, folder, !o->any_folder)
                    : check_table(path, text, words);
     cli_wait_end();
     rb_case_free(words);

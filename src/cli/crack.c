@@ -9,6 +9,7 @@ typedef struct {
     rb_case_crack crack; /* options; first, because the rows of case.h point into it */
     double at;
     const char *open, *orbit;
+    int states;
     rb_case_crack_result result;
 } crack_run;
 
@@ -27,6 +28,9 @@ static const rb_option pictures[] = {
     RB_TEXT_LINE("orbit", PLACE(orbit), "FILE",
                  "picture of K_II over K_I in the last pass: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
+    RB_FLAG_LINE("states", PLACE(states),
+                 "with --json: opening, sliding, tractions and zone of every node of the "
+                 "faces at every position, and the contact, which rollbem check needs"),
 };
 enum { PICTURES = sizeof pictures / sizeof pictures[0] };
 
@@ -53,6 +57,9 @@ static cli_exit check(cli_case_run *run)
     const rb_status s = rb_case_crack_check(run->c, &own->crack, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
+    if (own->states &&
+        (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
+        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
     return own->crack.unloaded && (run->o.plot || own->orbit)
                ? cli_fail(CLI_USAGE, "%s: --unloaded has no positions to draw over",
                           run->o.plot ? "--plot" : "--orbit")
@@ -80,7 +87,12 @@ static void add_inputs(const cli_case_run *run, json_t **inputs)
 
 static void add_json(const cli_case_run *run, json_t **root)
 {
-    rb_report_json_crack(root, &((const crack_run *)run->own)->result);
+    const crack_run *own = run->own;
+    rb_report_json_set(root, "input_hash",
+                       rb_report_json_crack_hash(run->words, &own->crack));
+    rb_report_json_crack(root, &own->result);
+    if (own->states)
+        rb_report_json_crack_faces(root, &own->result);
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
@@ -120,15 +132,20 @@ static void summarise(FILE *out, const cli_case_run *run)
     rb_report_crack_summary(out, &((const crack_run *)run->own)->result);
 }
 
-int cli_crack(int argc, char **argv)
+/* Options of the library, then those of the pictures. */
+static cli_case_command command(void)
 {
     static rb_option options[CLI_COMMAND_OPTIONS_MAX];
-    static const cli_case_command command = {
+    const int n = rb_case_crack_options_n;
+    memcpy(options, rb_case_crack_options, (size_t)n * sizeof *options);
+    memcpy(options + n, pictures, sizeof pictures);
+    return (cli_case_command){
         .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
         .about = about,
         .notes = notes,
         .purpose = RB_CASE_CRACK,
         .options = options,
+        .option_n = n + PICTURES,
         .files = files,
         .check = check,
         .solve = solve,
@@ -137,13 +154,25 @@ int cli_crack(int argc, char **argv)
         .json = add_json,
         .summarise = summarise,
     };
-    const int n = rb_case_crack_options_n;
-    cli_case_command whole = command;
+}
+
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files,
+                          json_t **inputs)
+{
+    const cli_case_command of = command();
     crack_run own = {.crack = rb_case_crack_defaults()};
-    memcpy(options, rb_case_crack_options, (size_t)n * sizeof *options);
-    memcpy(options + n, pictures, sizeof pictures);
-    whole.option_n = n + PICTURES;
-    const cli_exit code = cli_case_run_command(&whole, &own, argc, argv);
+    const cli_exit code = cli_case_inputs(&of, &own, argc, argv, words, case_files);
+    *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
+    if (*inputs)
+        rb_report_json_crack_inputs(inputs, &own.crack, rb_case_resolved(words)->units);
+    return code;
+}
+
+int cli_crack(int argc, char **argv)
+{
+    const cli_case_command of = command();
+    crack_run own = {.crack = rb_case_crack_defaults()};
+    const cli_exit code = cli_case_run_command(&of, &own, argc, argv);
     rb_case_crack_free(&own.result);
     return code;
 }

@@ -20,10 +20,11 @@ void rb_crack_history_free(rb_crack_history *h)
     memset(h, 0, sizeof *h);
 }
 
-/* For n steps. */
-static rb_status history_alloc(const rb_crack *c, size_t n, int coupled,
-                               rb_crack_history *h)
+rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int coupled,
+                                 rb_crack_history *h)
 {
+    const size_t n = (size_t)steps;
+    memset(h, 0, sizeof *h);
     h->nodes = c->n;
     h->x = rb_alloc(n, COLUMNS);
     h->D = rb_alloc(n, 4 * (size_t)c->n);
@@ -46,7 +47,7 @@ static rb_status history_alloc(const rb_crack *c, size_t n, int coupled,
     return RB_OK;
 }
 
-/* In the order of history_alloc. */
+/* In the order of rb_crack_history_alloc. */
 static void record(const rb_crack_state *state, double x, double max_pressure,
                    size_t steps, rb_crack_history *h)
 {
@@ -110,8 +111,8 @@ static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int 
 }
 
 /* What is trapped is the volume at the place where the mouth closes, and near it the
- * crack closes fast: the state becomes that just before this place, by bisection, or, if
- * the mouth does not close, that at the end of the step.  T: room for 4n. */
+ * crack closes fast: the state becomes that just before this place, by bisection.  If the
+ * mouth does not close, it stays as it is.  T: room for 4n. */
 static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
                                   double scale, double *T, rb_crack_state *state,
                                   rb_message *why)
@@ -127,7 +128,10 @@ static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
         s = load_between(c, p, k, part, T, T + 2 * c->n);
         if (s == RB_OK)
             s = rb_crack_step(c, T, RB_CRACK_TRAPPED, 0.0, scale, &trial, why);
-        if (s == RB_OK && trial.zone[0] == RB_ZONE_SEPARATED) {
+        const int is_open = trial.zone[0] == RB_ZONE_SEPARATED;
+        if (part == 1.0 && is_open)
+            break;
+        if (s == RB_OK && is_open) {
             const rb_crack_state passed = *state;
             *state = trial;
             trial = passed;
@@ -161,7 +165,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
     const double scale = largest_stress(p);
     double *T = rb_alloc(4, (size_t)c->n);
     rb_crack_state state = {0};
-    rb_status s = T ? history_alloc(c, (size_t)n, p->wheel != NULL, h) : RB_ENOMEM;
+    rb_status s = T ? rb_crack_history_alloc(c, n, p->wheel != NULL, h) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_state_alloc(c, &state);
     c->faces.warm = c->coupled.warm = 0;

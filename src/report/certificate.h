@@ -36,6 +36,16 @@ const char *rb_certificate_word(const json_t *object, const char *key);
 double rb_certificate_number(const json_t *value);
 double rb_certificate_member(const json_t *object, const char *key);
 
+/* Refuses results of other schemas, kinds (a list of keys, NULL at its end), units or
+ * versions, with error bars, or not solved. */
+rb_status rb_certificate_head(const char *name, const json_t *root,
+                              const char *const *known, rb_message *why);
+/* A value as an option takes it: a word, a number, numbers with commas. */
+void rb_certificate_option_text(const json_t *value, char *text, size_t size);
+/* Sets and resolves words by the inputs, and sees that the same inputs come out. */
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs,
+                                      rb_case *words, rb_message *why);
+
 /* n numbers: a list, and the one that a table has under a heading. */
 rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
                               int n, double *x, rb_message *why);
@@ -88,6 +98,13 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 /* Its columns against those that came out. */
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
+
+/* ---- certificate_crack.c ----------------------------------------------------------- */
+
+/* A crack under the passing contact, with its faces. */
+rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
+                               rb_case *words, rb_report_certificate *found,
+                               rb_message *why);
 
 /* ---- certificate_power.c ----------------------------------------------------------- */
 

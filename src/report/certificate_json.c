@@ -7,17 +7,9 @@
 
 /* ---- What can be checked ----------------------------------------------------------- */
 
-/* Results of `rollbem` itself, in mm, N, MPa. */
-static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
+rb_status rb_certificate_head(const char *name, const json_t *root,
+                              const char *const *known, rb_message *why)
 {
-    static const char *const known[] = {
-        "schema", "version", "command", "conventions", "notes", "units", "input_hash",
-        "inputs", "summary", "table", "history", "depth", "maxima", "grid", "points",
-        "shakedown",
-        /* not judged; the result beside them is */
-        "derivatives", "without_derivatives", "derivatives_over_x", "derivatives_are",
-        "tolerances"};
-    const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *summary = json_object_get(root, "summary");
     const char *key;
@@ -28,17 +20,48 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     json_object_foreach((json_t *)root, key, value)
     {
         size_t k = 0;
-        while (k < sizeof known / sizeof *known && strcmp(key, known[k]) != 0)
+        while (known[k] && strcmp(key, known[k]) != 0)
             k++;
-        if (k == sizeof known / sizeof *known)
+        if (!known[k])
             return rb_fail(why, RB_EFORMAT,
                            "%s: cannot be checked: results with '%s' (only single cases, "
-                           "histories and stress without error bars can)",
+                           "histories, stress and cracks without error bars can)",
                            name, key);
     }
     if (!json_is_object(inputs) || !json_is_object(summary) ||
         !json_is_object(json_object_get(root, "table")))
         return rb_certificate_refuse(name, "inputs, summary or table is missing", why);
+    if (json_is_true(json_object_get(inputs, "error")) ||
+        json_object_get(summary, "errors") ||
+        json_is_number(json_object_get(inputs, "accuracy")))
+        return rb_certificate_refuse(name, "error bars take solutions on other meshes",
+                                     why);
+    if (strcmp(rb_certificate_word(inputs, "units"), "mm") != 0 ||
+        strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
+        return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
+    if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
+        return rb_certificate_refuse(name, "its status is not solved", why);
+    if (strcmp(rb_certificate_word(root, "version"), RB_VERSION) != 0)
+        return rb_certificate_refuse(name, "it is of another version of rollbem", why);
+    return RB_OK;
+}
+
+/* Results of `rollbem` itself. */
+static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
+{
+    static const char *const known[] = {
+        "schema", "version", "command", "conventions", "notes", "units", "input_hash",
+        "inputs", "summary", "table", "history", "depth", "maxima", "grid", "points",
+        "shakedown",
+        /* not judged; the result beside them is */
+        "derivatives", "without_derivatives", "derivatives_over_x", "derivatives_are",
+        "tolerances", NULL};
+    const json_t *history = json_object_get(root, "history");
+    const json_t *inputs = json_object_get(root, "inputs");
+    const rb_status s = rb_certificate_head(name, root, known, why);
+
+    if (s != RB_OK)
+        return s;
     const int has_steps =
         strcmp(rb_certificate_word(inputs, "formulation"), "transient") == 0 ||
         rb_certificate_word(inputs, "history")[0] ||
@@ -55,18 +78,6 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
                   "`stress`, with --json --states"
                 : "its last state depends on the steps before it: take --states",
             why);
-    if (json_is_true(json_object_get(inputs, "error")) ||
-        json_object_get(summary, "errors") ||
-        json_is_number(json_object_get(inputs, "accuracy")))
-        return rb_certificate_refuse(name, "error bars take solutions on other meshes",
-                                     why);
-    if (strcmp(rb_certificate_word(inputs, "units"), "mm") != 0 ||
-        strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
-        return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
-    if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
-        return rb_certificate_refuse(name, "its status is not solved", why);
-    if (strcmp(rb_certificate_word(root, "version"), RB_VERSION) != 0)
-        return rb_certificate_refuse(name, "it is of another version of rollbem", why);
     return RB_OK;
 }
 
@@ -85,8 +96,7 @@ static void say_what_is_not_judged(const rb_certificate *c, const json_t *root)
 
 /* ---- The case again ---------------------------------------------------------------- */
 
-/* A value as an option takes it: a word, a number, numbers with commas. */
-static void option_text(const json_t *value, char *text, size_t size)
+void rb_certificate_option_text(const json_t *value, char *text, size_t size)
 {
     if (json_is_string(value))
         snprintf(text, size, "%s", json_string_value(value));
@@ -141,16 +151,16 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
         if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
             (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
             continue;
-        option_text(value, text, sizeof text);
+        rb_certificate_option_text(value, text, sizeof text);
         s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
     }
     return s == RB_OK ? rb_case_resolve(words, why) : s;
 }
 
-/* Sees that the same inputs come out.  What follows from others, such as the mesh of
+/* What follows from others, such as the mesh of
  * steady rolling, is given as well where it is another one: hence the second round. */
-static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
-                              rb_message *why)
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs,
+                                      rb_case *words, rb_message *why)
 {
     json_t *now = rb_report_json_inputs(words), *value;
     rb_status s = now ? RB_OK : RB_ENOMEM;
@@ -259,7 +269,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK && n < 3)
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
-        s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
+        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words,
+                                        why);
     if (s == RB_OK)
         s = compare_hash(&c, json_object_get(root, "input_hash"), words);
     if (s == RB_OK && history)

@@ -1,6 +1,6 @@
 /* The certificate of a result of --all-solutions: each solution is checked separately, as
  * the result of a case with the same inputs, and the solutions must differ. */
-#include "report/internal.h"
+#include "report/certificate.h"
 
 #include "rollbem/case.h"
 
@@ -95,6 +95,8 @@ rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t 
     char label[400];
 
     memset(found, 0, sizeof *found);
+    if (json_object_get(root, "crack"))
+        return rb_certificate_crack(out, name, root, words, found, why);
     if (!all)
         return rb_report_certify(out, name, root, words, found, why);
     if (!json_is_array(all) || json_array_size(all) == 0)

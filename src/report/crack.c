@@ -35,6 +35,36 @@ rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
     return rb_report_end_columns(&c, grows ? r->growth.n : r->history.n, 1, &columns);
 }
 
+/* ---- Nodes ------------------------------------------------------------------------- */
+
+typedef struct {
+    const rb_case_crack_result *r;
+    double *hat, *x, *y, *t_x, *t_y; /* of the nodes; hat owns them all */
+    double at;                       /* where the contact shall stand, half-widths */
+} view;
+
+static rb_status see(const rb_case_crack_result *r, view *v, rb_message *why)
+{
+    rb_crack *crack = NULL;
+    const size_t n = (size_t)r->history.nodes;
+    rb_status s = rb_crack_create(&r->shape, &crack, why);
+    v->r = r;
+    v->hat = rb_alloc(n, 5);
+    if (s == RB_OK && !v->hat)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        v->x = v->hat + n;
+        v->y = v->x + n;
+        v->t_x = v->y + n;
+        v->t_y = v->t_x + n;
+        rb_crack_places(crack, v->x, v->y, v->hat, v->t_x, v->t_y);
+    }
+    rb_crack_free(crack);
+    return s;
+}
+
+/* ---- JSON -------------------------------------------------------------------------- */
+
 static json_t *numbers(const rb_case_crack_summary *s)
 {
     json_t *object = json_object();
@@ -87,6 +117,59 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
         rb_report_json_set(&grown, "surfaced", json_boolean(r->growth.surfaced));
         rb_report_json_set(root, "growth", grown);
     }
+}
+
+/* A list per step: the N or T half of values of 2n nodes over `by`, or zones. */
+static json_t *lists_of(const rb_crack_history *h, const double *values, const int *zones,
+                        const double *by)
+{
+    const size_t n = (size_t)h->nodes;
+    json_t *lists = json_array();
+
+    for (size_t k = 0; k < (size_t)h->n; k++) {
+        json_t *list = json_array();
+        for (size_t j = 0; j < n; j++)
+            rb_report_json_append(
+                &list, zones ? json_integer(zones[k * n + j])
+                             : rb_report_json_number(values[k * 2 * n + j] / by[j]));
+        rb_report_json_append(&lists, list);
+    }
+    return lists;
+}
+
+void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
+{
+    const rb_crack_history *h = &r->history;
+    const int n = h->nodes;
+    json_t *faces = NULL; /* without memory */
+    view v = {0};
+
+    if (see(r, &v, NULL) == RB_OK) {
+        faces = json_object();
+        double *const one = v.t_x;
+        rb_report_json_set(&faces, "x_mm", rb_report_json_numbers(n, v.x));
+        rb_report_json_set(&faces, "y_mm", rb_report_json_numbers(n, v.y));
+        rb_report_json_set(&faces, "length_mm", rb_report_json_numbers(n, v.hat));
+        for (int j = 0; j < n; j++)
+            one[j] = 1.0;
+        rb_report_json_set(&faces, "opening_mm", lists_of(h, h->D, NULL, one));
+        rb_report_json_set(&faces, "sliding_mm", lists_of(h, h->D + n, NULL, one));
+        rb_report_json_set(&faces, "p_MPa", lists_of(h, h->r, NULL, v.hat));
+        rb_report_json_set(&faces, "q_MPa", lists_of(h, h->r + n, NULL, v.hat));
+        rb_report_json_set(&faces, "zone", lists_of(h, NULL, h->zone, NULL));
+        rb_report_json_set(&faces, "fluid_volume_mm2",
+                           rb_report_json_numbers(h->n, h->fluid_volume));
+    }
+    rb_report_json_set(root, "faces", faces);
+    if (r->contact.solution.n > 0)
+        rb_report_json_set(root, "contact_table",
+                           rb_report_json_table(&r->contact.solution));
+    if (r->contact.history.n > 0) {
+        json_t *history = rb_report_json_history(&r->contact.history);
+        rb_report_json_set(&history, "states", rb_report_json_states(&r->states));
+        rb_report_json_set(root, "history", history);
+    }
+    free(v.hat);
 }
 
 /* ---- For people -------------------------------------------------------------------- */
@@ -206,34 +289,6 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
         }
     }
     fputs("EOD\n", out);
-}
-
-typedef struct {
-    const rb_case_crack_result *r;
-    double *hat, *x, *y, *t_x, *t_y; /* of the nodes; hat owns them all */
-    double at;                       /* where the contact shall stand, half-widths */
-} view;
-
-static rb_status see(const rb_case_crack_result *r, view *v, rb_message *why)
-{
-    rb_crack *crack = NULL;
-    const size_t n = (size_t)r->history.nodes;
-    if (r->history.n < 1)
-        return rb_fail(why, RB_EINVAL, "no positions to draw");
-    rb_status s = rb_crack_create(&r->shape, &crack, why);
-    v->r = r;
-    v->hat = rb_alloc(n, 5);
-    if (s == RB_OK && !v->hat)
-        s = RB_ENOMEM;
-    if (s == RB_OK) {
-        v->x = v->hat + n;
-        v->y = v->x + n;
-        v->t_x = v->y + n;
-        v->t_y = v->t_x + n;
-        rb_crack_places(crack, v->x, v->y, v->hat, v->t_x, v->t_y);
-    }
-    rb_crack_free(crack);
-    return s;
 }
 
 static void write_title(FILE *out, const view *v, rb_report_place place)

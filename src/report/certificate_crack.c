@@ -1,0 +1,589 @@
+/* The certificate of a crack: the contact is checked as a result of its own; from its
+ * tractions and those of the faces that are printed the openings and the slips are
+ * computed again at every position, then the laws of the faces and of the fluid, the
+ * stress intensities and what the pass comes to.  Nothing is solved. */
+#include "report/certificate.h"
+#include "rollbem/contact.h"
+#include "rollbem/crack.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+static const double EDGE_CRACK = 1.1215222552; /* Koiter: K_I/sqrt(pi a), unit tension */
+static const double TOLERANCE = 1e-9;          /* of the scaled laws */
+enum { DIRECTIONS = 3600 };
+
+typedef struct {
+    rb_certificate c; /* of whose fields only those of the output are used */
+    const json_t *root;
+    const rb_resolved_case *resolved;
+    rb_case_crack crack;
+    rb_case_crack_result r; /* what is printed of contact and faces, and what follows */
+    rb_case_crack_track track;
+    rb_crack *body;
+    rb_crack_history again; /* computed */
+    double *T, *hat;        /* 2n: load; n */
+    double *length, *force; /* n: typical D and r of a node */
+    double exact;           /* of D over its length */
+    double per_D;           /* K over D next to a tip */
+} judge;
+
+/* ---- Inputs ------------------------------------------------------------------------ */
+
+static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
+{
+    static const char *const known[] = {
+        "schema",     "version",       "command", "conventions", "notes",   "units",
+        "input_hash", "inputs",        "crack",   "contact",     "summary", "table",
+        "faces",      "contact_table", "history", NULL};
+
+    if (json_object_get(root, "growth"))
+        return rb_certificate_refuse(
+            name, "a crack that grows: the faces at its other lengths are not printed",
+            why);
+    if (!json_is_object(json_object_get(root, "faces")))
+        return rb_certificate_refuse(
+            name, "its stress intensities follow from the faces: take --states", why);
+    return rb_certificate_head(name, root, known, why);
+}
+
+/* The inputs of the case alone, in mm, N, MPa; those of the crack go into j->crack. NULL:
+ * refused, or no memory. */
+static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
+{
+    const json_t *inputs = json_object_get(j->root, "inputs");
+    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, &j->crack,
+                               NULL, NULL};
+    json_t *own = json_copy((json_t *)inputs), *again = json_object();
+    rb_message reason = {""};
+    const char *key;
+    json_t *value;
+
+    *s = own && again ? RB_OK : RB_ENOMEM;
+    j->crack = rb_case_crack_defaults();
+    for (int k = 0; k < set.n && *s == RB_OK; k++) {
+        char text[400];
+        const char *name = set.options[k].name;
+        value = json_object_get(inputs, name);
+        if (set.options[k].kind == RB_OPTION_GROUP || !value || json_is_null(value))
+            continue;
+        rb_certificate_option_text(value, text, sizeof text);
+        *s = rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name, text, &reason);
+        if (*s == RB_EINVAL)
+            *s = rb_certificate_refuse(j->c.name, reason.text, why);
+    }
+    if (*s == RB_OK) {
+        rb_report_json_crack_inputs(&again, &j->crack, RB_UNITS_MM);
+        *s = again ? RB_OK : RB_ENOMEM;
+    }
+    json_object_foreach(again, key, value)
+    {
+        if (*s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
+            *s = rb_fail(why, RB_EFORMAT,
+                         "%s: cannot be checked: '%s' of inputs cannot be built again",
+                         j->c.name, key);
+        json_object_del(own, key);
+    }
+    json_decref(again);
+    if (*s == RB_OK && j->crack.coupled)
+        *s = rb_certificate_refuse(
+            j->c.name, "the pressures of a contact that feels its crack are not printed",
+            why);
+    if (*s == RB_OK)
+        return own;
+    json_decref(own);
+    return NULL;
+}
+
+/* ---- Contact ----------------------------------------------------------------------- */
+
+/* The contact as a result of its own, with the notes that come first. */
+static json_t *contact_result(const judge *j, const rb_case *words, json_t *inputs)
+{
+    static const char *const shared[] = {"schema", "version", "conventions", "units"};
+    json_t *one = json_object();
+
+    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++)
+        rb_report_json_set(&one, shared[k],
+                           json_incref(json_object_get(j->root, shared[k])));
+    rb_report_json_set(&one, "inputs", json_incref(inputs));
+    rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
+    rb_report_json_set(&one, "summary", json_incref(json_object_get(j->root, "contact")));
+    rb_report_json_set(&one, "table",
+                       json_incref(json_object_get(j->root, "contact_table")));
+    if (json_object_get(j->root, "history"))
+        rb_report_json_set(&one, "history",
+                           json_incref(json_object_get(j->root, "history")));
+    return one;
+}
+
+static rb_status check_contact(judge *j, rb_case *words, json_t *inputs, rb_message *why)
+{
+    rb_report_certificate own = {0};
+    json_t *hash = NULL;
+
+    if (!j->crack.unloaded && !json_object_get(j->root, "contact_table"))
+        return rb_certificate_refuse(j->c.name, "it has no contact_table", why);
+    rb_status s = rb_certificate_rebuild_case(j->c.name, inputs, words, why);
+    if (s == RB_OK && !j->crack.unloaded) {
+        json_t *one = contact_result(j, words, inputs);
+        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why)
+                : RB_ENOMEM;
+        json_decref(one);
+    }
+    if (s == RB_OK) {
+        j->c.found->violations += own.violations;
+        j->c.found->numbers += own.numbers;
+        j->c.found->residual = own.residual;
+        j->resolved = rb_case_resolved(words);
+        hash = rb_report_json_crack_hash(words, &j->crack);
+        s = hash ? rb_case_crack_check(j->resolved, &j->crack, why) : RB_ENOMEM;
+    }
+    if (s == RB_OK && !json_equal(hash, json_object_get(j->root, "input_hash")))
+        rb_certificate_violated(&j->c, "inputs, or a file that they name, are not those "
+                                       "of the result (input_hash)");
+    json_decref(hash);
+    return s;
+}
+
+/* ---- What is printed --------------------------------------------------------------- */
+
+/* n numbers of each of the steps, `apart` numbers from step to step. */
+static rb_status read_lists(const judge *j, const json_t *object, const char *key,
+                            int steps, int n, size_t apart, double *to, rb_message *why)
+{
+    const json_t *lists = json_object_get(object, key);
+    rb_status s = RB_OK;
+
+    if ((int)json_array_size(lists) != steps)
+        return rb_fail(why, RB_EFORMAT, "%s: expected %d steps in %s", j->c.name, steps,
+                       key);
+    for (int k = 0; k < steps && s == RB_OK; k++)
+        s = rb_certificate_list(j->c.name, json_array_get(lists, (size_t)k), key, n,
+                                to + (size_t)k * apart, why);
+    return s;
+}
+
+/* Elements and tractions of the contact, of one state or of all steps, where the track
+ * looks for them. */
+static rb_status read_contact(judge *j, rb_message *why)
+{
+    const json_t *table = json_object_get(j->root, "contact_table"),
+                 *history = json_object_get(j->root, "history"),
+                 *states = json_object_get(history, "states");
+    const int n = (int)json_array_size(json_object_get(table, "x_mm"));
+    const int steps = (int)json_array_size(json_object_get(states, "p_MPa"));
+    const char *name = j->c.name;
+    rb_rolling_states *to = &j->r.states;
+    rb_rolling_history *run = &j->r.contact.history;
+    rb_rolling_solution *one = &j->r.contact.solution;
+    rb_status s = rb_rolling_states_alloc(n, steps > 0 ? steps : 1, to);
+
+    if (s == RB_OK)
+        s = rb_certificate_column(name, table, "x_mm", n, to->x, why);
+    if (s == RB_OK)
+        s = rb_certificate_column(name, table, "h_mm", n, to->h, why);
+    if (s == RB_OK && steps == 0) {
+        s = rb_certificate_column(name, table, "p_MPa", n, to->p, why);
+        if (s == RB_OK)
+            s = rb_certificate_column(name, table, "q_MPa", n, to->q, why);
+        one->n = n;
+        one->x = to->x; /* lent, see end */
+        one->h = to->h;
+        one->p = to->p;
+        one->q = to->q;
+    } else if (s == RB_OK) {
+        s = read_lists(j, states, "p_MPa", steps, n, (size_t)n, to->p, why);
+        if (s == RB_OK)
+            s = read_lists(j, states, "q_MPa", steps, n, (size_t)n, to->q, why);
+        run->distance = rb_alloc((size_t)steps, 1);
+        if (s == RB_OK)
+            s = run->distance ? rb_certificate_column(name, history, "distance", steps,
+                                                      run->distance, why)
+                              : RB_ENOMEM;
+        run->half_width = rb_certificate_member(history, "half_width");
+    }
+    return s;
+}
+
+/* The table, and the faces at every position. */
+static rb_status read_history(judge *j, rb_message *why)
+{
+    const json_t *faces = json_object_get(j->root, "faces"),
+                 *table = json_object_get(j->root, "table");
+    rb_crack_history *h = &j->r.history;
+    const int n = h->nodes, steps = h->n;
+    const size_t apart = 2 * (size_t)n;
+    double *zone = rb_alloc((size_t)steps, (size_t)n);
+    rb_status s = zone ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = read_lists(j, faces, "opening_mm", steps, n, apart, h->D, why);
+    if (s == RB_OK)
+        s = read_lists(j, faces, "sliding_mm", steps, n, apart, h->D + n, why);
+    if (s == RB_OK)
+        s = read_lists(j, faces, "p_MPa", steps, n, apart, h->r, why);
+    if (s == RB_OK)
+        s = read_lists(j, faces, "q_MPa", steps, n, apart, h->r + n, why);
+    if (s == RB_OK)
+        s = read_lists(j, faces, "zone", steps, n, (size_t)n, zone, why);
+    if (s == RB_OK)
+        s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps,
+                                  h->fluid_volume, why);
+    for (int k = 0; k < rb_case_crack_columns.n && s == RB_OK; k++) {
+        const rb_rolling_result *row = &rb_case_crack_columns.row[k];
+        double *column = *(double *const *)(void *)((char *)h + row->offset);
+        if (column)
+            s = rb_certificate_column(j->c.name, table, row->name, steps, column, why);
+    }
+    for (int i = 0; i < steps * n && s == RB_OK; i++) {
+        if (zone[i] >= 0.0 && zone[i] <= 3.0 && zone[i] == floor(zone[i]))
+            h->zone[i] = (int)zone[i];
+        else
+            s = rb_fail(why, RB_EFORMAT, "%s: faces: zone %g", j->c.name, zone[i]);
+    }
+    for (int i = 0; i < 2 * steps * n; i++) /* nodal forces */
+        h->r[i] *= j->hat[i % n];
+    free(zone);
+    return s;
+}
+
+/* ---- The crack again --------------------------------------------------------------- */
+
+/* K over D of the node next to a tip: from as many elements along a crack of 90 degrees
+ * under unit tension, at the surface or deep below it, whose K_I is known. */
+static rb_status find_per_D(judge *j, rb_message *why)
+{
+    rb_crack_shape straight = j->r.shape;
+    const double dx = straight.path.x[1] - straight.path.x[0],
+                 dy = straight.path.y[1] - straight.path.y[0], a = hypot(dx, dy);
+    const int is_deep = j->crack.depth > 0.0;
+    rb_crack *known = NULL;
+
+    straight.full_plane = is_deep;
+    straight.path = rb_crack_straight(0.0, 0.0, a, 90.0);
+    const rb_status s = rb_crack_create(&straight, &known, why);
+    if (s == RB_OK) {
+        const int n = rb_crack_nodes(known);
+        const double D =
+            cblas_ddot(n, rb_crack_flexibility(known) + n - 1, 2 * n, j->hat, 1);
+        j->per_D = (is_deep ? sqrt(0.5 * PI * a) : EDGE_CRACK * sqrt(PI * a)) / D;
+    }
+    rb_crack_free(known);
+    return s;
+}
+
+/* Typical displacements and forces of the nodes, as the solver scales them. */
+static void set_scales(judge *j)
+{
+    const int n = rb_crack_nodes(j->body);
+    const double *F = rb_crack_flexibility(j->body);
+    double stress = fabs(j->crack.remote_stress), widest = 0.0, stiffest = 0.0;
+
+    for (int k = 0; k < j->track.loads; k++)
+        for (int i = 0; i < j->track.load[k].n; i++)
+            stress = fmax(stress,
+                          fmax(fabs(j->track.load[k].p[i]), fabs(j->track.load[k].q[i])));
+    for (int i = 0; i < n; i++) {
+        widest = fmax(widest, j->hat[i]);
+        stiffest = fmax(stiffest, 1.0 / sqrt(F[i + (size_t)i * 2 * (size_t)n]));
+    }
+    for (int i = 0; i < n; i++) {
+        const double scale = 1.0 / sqrt(F[i + (size_t)i * 2 * (size_t)n]);
+        const double size = (stress > 0.0 ? stress : 1.0) * widest / stiffest;
+        j->length[i] = size / scale;
+        j->force[i] = size * scale;
+    }
+    const double printed =
+        rb_certificate_member(json_object_get(j->root, "summary"), "residual");
+    j->exact = 10.0 * fmax(printed < 1e-10 ? printed : 1e-10, 1e-13);
+}
+
+static rb_status rebuild(judge *j, rb_message *why)
+{
+    rb_status s = j->crack.unloaded ? RB_OK : read_contact(j, why);
+
+    if (s == RB_OK)
+        s = rb_case_crack_follow(j->resolved, &j->crack, &j->r, &j->track, why);
+    if (s == RB_OK)
+        s = rb_crack_create(&j->r.shape, &j->body, why);
+    if (s != RB_OK)
+        return s;
+    const int n = rb_crack_nodes(j->body), steps = j->track.n * j->r.passes;
+    j->T = rb_alloc((size_t)n, 5);
+    s = j->T ? rb_crack_history_alloc(j->body, steps, 0, &j->r.history) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_crack_history_alloc(j->body, steps, 0, &j->again);
+    if (s != RB_OK)
+        return s;
+    j->hat = j->T + 2 * n;
+    j->length = j->hat + n;
+    j->force = j->length + n;
+    j->r.history.n = j->again.n = steps;
+    rb_crack_places(j->body, NULL, NULL, j->hat, NULL, NULL);
+    set_scales(j);
+    s = read_history(j, why);
+    return s == RB_OK ? find_per_D(j, why) : s;
+}
+
+/* ---- Laws -------------------------------------------------------------------------- */
+
+/* D = F (T + r + p_f e) of step k. */
+static rb_status displace(judge *j, int k, rb_message *why)
+{
+    const rb_crack_history *h = &j->r.history;
+    const rb_case_crack_track *t = &j->track;
+    const int n = h->nodes, step = k % t->n;
+    const rb_bem_edge_load *load =
+        t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
+    const rb_status s =
+        rb_crack_load(j->body, load, t->x[step], j->crack.remote_stress, j->T);
+
+    if (s != RB_OK)
+        return rb_fail(why, s, "step %d: %s", k + 1, rb_status_text(s));
+    for (int i = 0; i < 2 * n; i++)
+        j->T[i] += h->r[(size_t)k * 2 * (size_t)n + (size_t)i] +
+                   (i < n ? h->fluid_pressure[k] * j->hat[i] : 0.0);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, 2 * n, 1.0,
+                rb_crack_flexibility(j->body), 2 * n, j->T, 1, 0.0,
+                j->again.D + (size_t)k * 2 * (size_t)n, 1);
+    return RB_OK;
+}
+
+/* 1: the fluid comes and goes.  Where it is shut in, its pressure may open the mouth. */
+static int is_open(const judge *j, int k)
+{
+    const rb_crack_history *h = &j->r.history;
+    return h->zone[(size_t)k * (size_t)h->nodes] == RB_ZONE_SEPARATED &&
+           h->fluid_pressure[k] == 0.0;
+}
+
+/* 1: slips of step k do not count from those that are printed before it, because the
+ * place where the mouth closes lies between. */
+static int follows_closing(const judge *j, int k)
+{
+    return j->crack.locate_closing && k % j->track.n > 0 && is_open(j, k - 1) &&
+           !is_open(j, k);
+}
+
+/* Contact and friction of node i in step k. */
+static void check_node(judge *j, int k, int i)
+{
+    const rb_crack_history *h = &j->r.history;
+    const int n = h->nodes, zone = h->zone[(size_t)k * (size_t)n + (size_t)i];
+    const size_t N = (size_t)k * 2 * (size_t)n + (size_t)i, T = N + (size_t)n;
+    const double gap = j->again.D[N], mu = j->crack.friction, p = h->r[N], q = h->r[T];
+    const double slip = h->D[T] - (k > 0 ? h->D[T - 2 * (size_t)n] : 0.0);
+    const double length = j->length[i], force = j->force[i];
+    const double ps = p / force, qs = q / force, ls = slip / length,
+                 most = mu * fmax(ps, 0.0);
+    double off = fabs(fmin(gap / length, ps));
+
+    off = fmax(off, fabs(qs) - mu * ps);
+    if (!follows_closing(j, k))
+        off = fmax(off, fabs(qs - fmax(-most, fmin(most, qs - ls))));
+    if (!(off <= TOLERANCE))
+        rb_certificate_violated(&j->c,
+                                "faces: node %d: opening %.3g, pressure force %.3g, "
+                                "friction force %.3g, slip %.3g (off by %.2g)",
+                                i + 1, gap, p, q, slip, off);
+    if ((zone == RB_ZONE_SEPARATED) != (p <= TOLERANCE * force) ||
+        (zone == RB_ZONE_SLIP_NEGATIVE && fabs(qs + most) > TOLERANCE) ||
+        (zone == RB_ZONE_SLIP_POSITIVE && fabs(qs - most) > TOLERANCE) ||
+        (zone == RB_ZONE_STICK && !follows_closing(j, k) && fabs(ls) > TOLERANCE))
+        rb_certificate_violated(&j->c, "faces: zone of node %d is %d", i + 1, zone);
+    if (zone != RB_ZONE_SEPARATED)
+        j->again.D[N] = 0.0;
+    j->again.residual[k] = fmax(j->again.residual[k], off);
+}
+
+/* The rule of the fluid (C7). */
+static void check_fluid(judge *j, int k)
+{
+    rb_crack_history *h = &j->r.history;
+    const rb_case_crack_track *t = &j->track;
+    const int n = h->nodes, step = k % t->n;
+    const double p_f = h->fluid_pressure[k],
+                 volume = cblas_ddot(n, j->hat, 1, h->D + (size_t)k * 2 * (size_t)n, 1);
+    const double before = k > 0 ? h->fluid_volume[k - 1] : 0.0, V = h->fluid_volume[k];
+    const double slack = TOLERANCE * cblas_ddot(n, j->hat, 1, j->length, 1);
+    double want = 0.0;
+
+    if (j->crack.fluid == RB_CRACK_PRESSURE && t->loads > 0) {
+        const rb_bem_edge_load *load = &t->load[t->loads > 1 ? step : 0];
+        const double mouth = j->r.shape.path.x[0] - t->x[step];
+        for (int i = 0; i < load->n; i++)
+            if (load->x[i] <= mouth && mouth < load->x[i + 1])
+                want = load->p[i];
+    }
+    if (j->crack.fluid != RB_CRACK_TRAPPED) {
+        rb_certificate_expect(&j->c, "fluid_pressure", 0, p_f, want, 1e-9 * want);
+        rb_certificate_expect(&j->c, "faces.fluid_volume_mm2", 0, V, 0.0, 0.0);
+        return;
+    }
+    if (is_open(j, k))
+        rb_certificate_expect(&j->c, "faces.fluid_volume_mm2", 0, V, volume, slack);
+    else if (!follows_closing(j, k)) /* there it is that of the place in between */
+        rb_certificate_expect(&j->c, "faces.fluid_volume_mm2", 0, V, before, 0.0);
+    if (p_f < 0.0 || volume < V - slack || (p_f > 0.0 && fabs(volume - V) > slack))
+        rb_certificate_violated(&j->c,
+                                "fluid: pressure %.3g, volume of the crack %.17g, of the "
+                                "fluid %.17g",
+                                p_f, volume, V);
+}
+
+static void set_row(judge *j, int k)
+{
+    rb_crack_history *to = &j->again;
+    const rb_crack_history *h = &j->r.history;
+    const int n = h->nodes;
+    const double *D = to->D + (size_t)k * 2 * (size_t)n;
+
+    to->x[k] = j->track.x[k % j->track.n];
+    to->K_I[k] = j->per_D * D[n - 1];
+    to->K_II[k] = j->per_D * D[2 * n - 1];
+    if (to->K_I_upper) {
+        to->K_I_upper[k] = j->per_D * D[0];
+        to->K_II_upper[k] = j->per_D * D[n];
+    }
+    for (int i = 0; i < n; i++) {
+        const int zone = h->zone[(size_t)k * (size_t)n + (size_t)i];
+        to->open_length[k] += zone == RB_ZONE_SEPARATED ? j->hat[i] : 0.0;
+        to->stick_length[k] += zone == RB_ZONE_STICK ? j->hat[i] : 0.0;
+    }
+    to->fluid_pressure[k] = h->fluid_pressure[k];
+}
+
+/* Everything that is printed of step k against what was computed. */
+static void compare_step(judge *j, int k)
+{
+    const rb_crack_history *h = &j->r.history, *again = &j->again;
+    const int n = h->nodes;
+
+    for (int i = 0; i < 2 * n; i++) {
+        const size_t at = (size_t)k * 2 * (size_t)n + (size_t)i;
+        rb_certificate_expect(&j->c, i < n ? "faces.opening_mm" : "faces.sliding_mm",
+                              i % n + 1, h->D[at], again->D[at],
+                              1e-9 * fabs(again->D[at]) + j->exact * j->length[i % n]);
+    }
+    for (int r = 0; r < rb_case_crack_columns.n; r++) {
+        const rb_rolling_result *row = &rb_case_crack_columns.row[r];
+        if (!rb_rolling_has_column(row, h))
+            continue;
+        const double want = rb_rolling_entry(row, again, k);
+        const double size = row->error_bar ? j->per_D * j->exact * j->length[n - 1]
+                                           : 1e-12 * j->r.half_width;
+        rb_certificate_expect(&j->c, row->name, 0, rb_rolling_entry(row, h, k), want,
+                              1e-9 * fabs(want) + size);
+    }
+}
+
+/* ---- Summary ----------------------------------------------------------------------- */
+
+/* The largest tension ahead of the tip by trying all directions, which no formula for the
+ * direction enters. */
+static void check_direction(judge *j)
+{
+    const rb_crack_history *h = &j->r.history;
+    const double printed =
+        rb_certificate_member(json_object_get(j->root, "summary"), "K_theta_max");
+    double most = 0.0, size = 0.0;
+
+    for (int k = h->n - j->track.n; k < h->n; k++)
+        for (int i = 0; i < DIRECTIONS; i++) {
+            const double theta = PI * (2.0 * i / DIRECTIONS - 1.0), c = cos(0.5 * theta);
+            most = fmax(most, c * (h->K_I[k] * c * c - 1.5 * h->K_II[k] * sin(theta)));
+            size = fmax(size, fmax(fabs(h->K_I[k]), fabs(h->K_II[k])));
+        }
+    rb_certificate_expect(&j->c, "summary.K_theta_max by trying directions", 0, printed,
+                          most, 3e-6 * size);
+}
+
+static double slack_of_summary(const rb_certificate *c, const char *key, double want)
+{
+    (void)c;
+    return strcmp(key, "residual") == 0 ? TOLERANCE : 1e-12 * fabs(want);
+}
+
+/* What the program would print of the printed table, notes, places of the nodes. */
+static rb_status compare_rest(judge *j)
+{
+    static const char *const nodes[] = {"x_mm", "y_mm", "length_mm"};
+    const json_t *faces = json_object_get(j->root, "faces");
+    rb_crack_history *h = &j->r.history;
+    json_t *again = json_object();
+
+    memcpy(h->residual, j->again.residual, (size_t)h->n * sizeof *h->residual);
+    j->c.found->residual =
+        fmax(j->c.found->residual, rb_norm_inf((size_t)h->n, h->residual));
+    j->r.summary = rb_case_crack_summarise(h, j->r.passes);
+    j->r.contact.solution.n = 0; /* judged as a result of its own */
+    rb_report_json_crack(&again, &j->r);
+    rb_report_json_crack_faces(&again, &j->r);
+    if (!again)
+        return RB_ENOMEM;
+    rb_certificate_compare(&j->c, "summary", 0, json_object_get(j->root, "summary"),
+                           json_object_get(again, "summary"), slack_of_summary);
+    rb_certificate_compare(&j->c, "crack", 0, json_object_get(j->root, "crack"),
+                           json_object_get(again, "crack"), slack_of_summary);
+    for (size_t k = 0; k < sizeof nodes / sizeof *nodes; k++)
+        rb_certificate_compare(&j->c, nodes[k], 0, json_object_get(faces, nodes[k]),
+                               json_object_get(json_object_get(again, "faces"), nodes[k]),
+                               slack_of_summary);
+    if (json_object_size(faces) != json_object_size(json_object_get(again, "faces")) ||
+        json_object_size(json_object_get(j->root, "table")) !=
+            json_object_size(json_object_get(again, "table")))
+        rb_certificate_violated(&j->c, "table or faces: other columns than expected");
+    json_decref(again);
+    check_direction(j);
+    return RB_OK;
+}
+
+/* ---- The whole --------------------------------------------------------------------- */
+
+rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
+                               rb_case *words, rb_report_certificate *found,
+                               rb_message *why)
+{
+    judge j = {.c = {.out = out, .name = name, .found = found}, .root = root};
+    rb_message reason = {""};
+    json_t *inputs = NULL;
+
+    memset(found, 0, sizeof *found);
+    rb_status s = check_kind(name, root, why);
+    if (s == RB_OK)
+        inputs = split_inputs(&j, &s, why);
+    if (s == RB_OK)
+        s = check_contact(&j, words, inputs, why);
+    if (s == RB_OK)
+        s = rebuild(&j, &reason);
+    for (int k = 0; k < j.r.history.n && s == RB_OK; k++) {
+        j.c.step = k + 1;
+        s = displace(&j, k, &reason);
+        for (int i = 0; i < j.r.history.nodes && s == RB_OK; i++)
+            check_node(&j, k, i);
+        if (s == RB_OK) {
+            check_fluid(&j, k);
+            set_row(&j, k);
+            compare_step(&j, k);
+        }
+    }
+    j.c.step = 0;
+    if (s == RB_OK)
+        s = compare_rest(&j);
+    json_decref(inputs);
+    rb_case_crack_track_free(&j.track);
+    rb_crack_history_free(&j.again);
+    rb_crack_free(j.body);
+    free(j.T);
+    memset(&j.r.contact.solution, 0, sizeof j.r.contact.solution); /* it was lent */
+    rb_case_crack_free(&j.r);
+    return s != RB_OK && reason.text[0]
+               ? rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
+                         "%s: cannot be checked: %s", name, reason.text)
+           : s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", name)
+                            : s;
+}
