@@ -59,10 +59,12 @@ static rb_status certify(const json_t *root, rb_report_certificate *found,
                          rb_message *why)
 {
     FILE *lines = tmpfile();
-    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    rb_case *words =
+        rb_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
     assert_non_null(lines);
     assert_non_null(words);
-    const rb_status s = rb_report_certify(lines, "result", root, words, found, why);
+    const rb_status s =
+        rb_report_certify_solutions(lines, "result", root, words, found, why);
     rb_case_free(words);
     fclose(lines);
     return s;
@@ -991,7 +993,12 @@ TEST(whatever_is_changed_is_noticed)
              "--relaxation-ratio 1" STATES,
         "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --grid 2x2 "
         "--shakedown --yield-shear 300" STEADY,
-        "stress " TINY "--load 100 --creep-ratio 0.5 --points near.txt" STEADY};
+        "stress " TINY "--load 100 --creep-ratio 0.5 --points near.txt" STEADY,
+        "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
+        "--crack-elements 8 --steps 30 --passes 2 --fluid trapped --creep-ratio "
+        "-3" STEADY STATES,
+        "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
+        "--crack-elements 8 --crack-depth 0.3 --increments 3 --shift 1e-4" STATES};
     tampering t = {.changes = 0};
     write_controls();
     assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n' > near.txt"), 0);

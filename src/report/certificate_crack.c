@@ -100,52 +100,59 @@ static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
 
 /* ---- Contact ----------------------------------------------------------------------- */
 
-/* The contact as a result of its own, with the notes that come first. */
-static json_t *contact_result(const judge *j, const rb_case *words, json_t *inputs)
+/* The case, and whether all inputs are those of the result. */
+static rb_status settle(judge *j, rb_case *words, const json_t *inputs, rb_message *why)
 {
-    static const char *const shared[] = {"schema", "version", "conventions", "units"};
-    json_t *one = json_object();
-
-    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++)
-        rb_report_json_set(&one, shared[k],
-                           json_incref(json_object_get(j->root, shared[k])));
-    rb_report_json_set(&one, "inputs", json_incref(inputs));
-    rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
-    rb_report_json_set(&one, "summary", json_incref(json_object_get(j->root, "contact")));
-    rb_report_json_set(&one, "table",
-                       json_incref(json_object_get(j->root, "contact_table")));
-    if (json_object_get(j->root, "history"))
-        rb_report_json_set(&one, "history",
-                           json_incref(json_object_get(j->root, "history")));
-    return one;
-}
-
-static rb_status check_contact(judge *j, rb_case *words, json_t *inputs, rb_message *why)
-{
-    rb_report_certificate own = {0};
-    json_t *hash = NULL;
-
-    if (!j->crack.unloaded && !json_object_get(j->root, "contact_table"))
-        return rb_certificate_refuse(j->c.name, "it has no contact_table", why);
     rb_status s = rb_certificate_rebuild_case(j->c.name, inputs, words, why);
-    if (s == RB_OK && !j->crack.unloaded) {
-        json_t *one = contact_result(j, words, inputs);
-        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why)
-                : RB_ENOMEM;
-        json_decref(one);
-    }
-    if (s == RB_OK) {
-        j->c.found->violations += own.violations;
-        j->c.found->numbers += own.numbers;
-        j->c.found->residual = own.residual;
-        j->resolved = rb_case_resolved(words);
-        hash = rb_report_json_crack_hash(words, &j->crack);
-        s = hash ? rb_case_crack_check(j->resolved, &j->crack, why) : RB_ENOMEM;
-    }
+    json_t *hash = s == RB_OK ? rb_report_json_crack_hash(words, &j->crack) : NULL;
+
+    if (s != RB_OK)
+        return s;
+    j->resolved = rb_case_resolved(words);
+    s = hash ? rb_case_crack_check(j->resolved, &j->crack, why) : RB_ENOMEM;
     if (s == RB_OK && !json_equal(hash, json_object_get(j->root, "input_hash")))
         rb_certificate_violated(&j->c, "inputs, or a file that they name, are not those "
                                        "of the result (input_hash)");
     json_decref(hash);
+    return s;
+}
+
+/* The notes on the contact come before those on the crack. */
+static json_t *notes_of_contact(const judge *j)
+{
+    const json_t *printed = json_object_get(j->root, "notes");
+    json_t *notes = json_array();
+
+    for (size_t k = 0; k + (size_t)j->r.notes < json_array_size(printed); k++)
+        rb_report_json_append(&notes, json_incref(json_array_get(printed, k)));
+    return notes;
+}
+
+/* The contact as a result of its own. */
+static rb_status check_contact(judge *j, rb_case *words, json_t *inputs, rb_message *why)
+{
+    static const char *const shared[][2] = {
+        {"schema", "schema"},   {"version", "version"},
+        {"units", "units"},     {"conventions", "conventions"},
+        {"contact", "summary"}, {"contact_table", "table"},
+        {"history", "history"}};
+    rb_report_certificate own = {0};
+    json_t *one = json_object();
+
+    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
+        json_t *part = json_object_get(j->root, shared[k][0]);
+        if (part)
+            rb_report_json_set(&one, shared[k][1], json_incref(part));
+    }
+    rb_report_json_set(&one, "notes", notes_of_contact(j));
+    rb_report_json_set(&one, "inputs", json_incref(inputs));
+    rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
+    const rb_status s =
+        one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why) : RB_ENOMEM;
+    json_decref(one);
+    j->c.found->violations += own.violations;
+    j->c.found->numbers += own.numbers;
+    j->c.found->residual = own.residual;
     return s;
 }
 
@@ -180,6 +187,8 @@ static rb_status read_contact(judge *j, rb_message *why)
     rb_rolling_states *to = &j->r.states;
     rb_rolling_history *run = &j->r.contact.history;
     rb_rolling_solution *one = &j->r.contact.solution;
+    if (n < 3)
+        return rb_fail(why, RB_EFORMAT, "contact_table has no elements");
     rb_status s = rb_rolling_states_alloc(n, steps > 0 ? steps : 1, to);
 
     if (s == RB_OK)
@@ -308,11 +317,20 @@ static rb_status rebuild(judge *j, rb_message *why)
 
     if (s == RB_OK)
         s = rb_case_crack_follow(j->resolved, &j->crack, &j->r, &j->track, why);
+    const json_t *places = json_object_get(json_object_get(j->root, "faces"), "x_mm"),
+                 *x = json_object_get(json_object_get(j->root, "table"), "x");
+    const int n = j->crack.elements - (j->crack.depth > 0.0);
+    const double steps_wanted = (double)j->track.n * j->r.passes;
+    const int steps = (int)json_array_size(x);
+    if (s == RB_OK && /* before anything large is computed */
+        ((int)json_array_size(places) != n || steps != steps_wanted))
+        return rb_fail(why, RB_EFORMAT,
+                       "expected %d nodes in faces, %.0f positions in table", n,
+                       steps_wanted);
     if (s == RB_OK)
         s = rb_crack_create(&j->r.shape, &j->body, why);
     if (s != RB_OK)
         return s;
-    const int n = rb_crack_nodes(j->body), steps = j->track.n * j->r.passes;
     j->T = rb_alloc((size_t)n, 5);
     s = j->T ? rb_crack_history_alloc(j->body, steps, 0, &j->r.history) : RB_ENOMEM;
     if (s == RB_OK)
@@ -539,6 +557,13 @@ static rb_status compare_rest(judge *j)
         rb_certificate_violated(&j->c, "table or faces: other columns than expected");
     json_decref(again);
     check_direction(j);
+    const json_t *notes = json_object_get(j->root, "notes");
+    const size_t all = json_array_size(notes), own = (size_t)j->r.notes;
+    for (size_t k = 0; k < own; k++) {
+        const json_t *note = all >= own ? json_array_get(notes, all - own + k) : NULL;
+        if (!json_is_string(note) || strcmp(json_string_value(note), j->r.note[k]) != 0)
+            rb_certificate_violated(&j->c, "notes are not those of this result");
+    }
     return RB_OK;
 }
 
@@ -557,9 +582,11 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK)
         inputs = split_inputs(&j, &s, why);
     if (s == RB_OK)
-        s = check_contact(&j, words, inputs, why);
+        s = settle(&j, words, inputs, why);
     if (s == RB_OK)
         s = rebuild(&j, &reason);
+    if (s == RB_OK && !j.crack.unloaded)
+        s = check_contact(&j, words, inputs, why);
     for (int k = 0; k < j.r.history.n && s == RB_OK; k++) {
         j.c.step = k + 1;
         s = displace(&j, k, &reason);
