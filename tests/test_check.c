@@ -907,7 +907,8 @@ typedef struct {
 /* The command line is the program's to read. */
 static void expect_noticed(tampering *t, const char *path)
 {
-    const int is_program = strstr(path, "/command") || strstr(path, "yield_shear");
+    const int is_program = strstr(path, "/command") || strstr(path, "yield_shear") ||
+                           json_object_get(t->root, "solutions");
     rb_report_certificate found;
     rb_message why = {""};
     t->changes++;
@@ -998,10 +999,27 @@ TEST(whatever_is_changed_is_noticed)
         "--crack-elements 8 --steps 30 --passes 2 --fluid trapped --creep-ratio "
         "-3" STEADY STATES,
         "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
-        "--crack-elements 8 --crack-depth 0.3 --increments 3 --shift 1e-4" STATES};
+        "--crack-elements 8 --crack-depth 0.3 --increments 3 --shift 1e-4" STATES,
+        TINY
+        "--support halfplane --radius-b -200 --young-b 3e4 --plane stress --approach "
+        "1e-3 --shift 1e-5 --increments 2" STATES,
+        TINY "--support hub --hub-ratio 0.6 --cover-thickness 5 --core-young 2e5 --load "
+             "100 --creep-ratio 0.4 --relaxation-time 1e-3 --relaxation-ratio 1 --speed "
+             "1000" STEADY,
+        TINY "--support halfplane --load 100 --creep-ratio 0.4 --conductivity 50 "
+             "--heat-capacity 3.6 --speed 20 --interlayer-tangential 1e-6" STEADY,
+        TINY "--support halfplane --load 100 --shift 1e-4 --interlayer-tangential 1e-6 "
+             "--yield-stress 10 --hardening 1e4",
+        TINY "--support halfplane --load 100 --creep-ratio 0.4 --gap bumps.txt" STEADY,
+        TINY "--support halfplane --load 100 --creep-ratio 0.4 --speed 1000 "
+             "--friction-law exponential --mu-fall 0.1 --slip-scale 10 "
+             "--all-solutions" STEADY};
     tampering t = {.changes = 0};
     write_controls();
-    assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n' > near.txt"), 0);
+    assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n' > near.txt; awk 'BEGIN {for (x "
+                           "= -3; x < 3.01; x += 0.05) print x, x * x / 100 + 0.001 * "
+                           "cos(12 * x)}' > bumps.txt"),
+                     0);
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         t.given = kinds[k];
         t.root = run_json(kinds[k]);
@@ -1014,7 +1032,7 @@ TEST(whatever_is_changed_is_noticed)
             const char *key;
             json_object_foreach(parts, key, part)
             {
-                if (json_is_object(part) && part != inputs)
+                if (part != inputs)
                     tamper(&t, part, key);
             }
             json_decref(parts);
@@ -1025,6 +1043,48 @@ TEST(whatever_is_changed_is_noticed)
     }
     assert_true(t.changes > 400);
     assert_int_equal(t.missed, 0);
+}
+
+/* Of every other command, in one line. */
+TEST(results_of_other_commands_are_refused)
+{
+    static const char half[] = "--support halfplane --similar --load 500 "
+                               "--contact-elements 12 --formulation steady ";
+    static const struct {
+        const char *command, *options, *part;
+    } other[] = {
+        {"curve", "--from 0 --to 1 --points 3", "results with 'curve'"},
+        {"sweep", "--creep-ratio 0.4 --vary-1 'mu 0.1,0.2'", "(only single cases,"},
+        {"wear", "--creep-ratio 0.4 --cycles 1e4 --wear-coefficient 1e-8", "'wear'"},
+        {"crack", "--creep-ratio 0.4 --crack-length 1 --crack-angle 30", "--states"},
+        {"design", "--minimise max_pressure --over radius=20:100", "'design'"},
+        {"fit", "creep.tsv --fit mu", "'parameters'"},
+    };
+    static const char *const without_case[] = {
+        "example bar --json",
+        "example truss --json",
+        "lcp lcp.txt --json",
+        "friction two-blocks.dat --json",
+        "compare two-blocks.dat --json",
+        "verify --json",
+        "examples --json",
+    };
+    char line[500];
+    write_file("creep.tsv", "creep_ratio\tforce_ratio\n0.2\t-0.36\n0.4\t-0.64\n"
+                            "0.7\t-0.91\n");
+    write_file("lcp.txt", "2\n2 1\n1 2\n-1\n-1\n");
+    assert_int_equal(
+        shell("cp \"${R%/*}\"/../examples/friction/two-blocks.dat two-blocks.dat"), 0);
+    for (size_t k = 0; k < sizeof other / sizeof *other; k++) {
+        snprintf(line, sizeof line, "\"$R\" %s %s%s --json --quiet", other[k].command,
+                 half, other[k].options);
+        check_says(line, 65, other[k].part);
+        assert_int_equal(shell("\"$R\" check r.json 2>&1 | wc -l | grep -qx 1"), 0);
+    }
+    for (size_t k = 0; k < sizeof without_case / sizeof *without_case; k++) {
+        snprintf(line, sizeof line, "\"$R\" %s", without_case[k]);
+        check_says(line, 65, "(only single cases, histories, stress");
+    }
 }
 
 /* ---- Files that somebody else names ------------------------------------------------ */

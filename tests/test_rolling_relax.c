@@ -610,4 +610,56 @@ TEST(what_fades_is_known_to_rounding)
     }
 }
 
+/* Under a given approach a step that is long beside tau/(1 + f) leaves less pressure than
+ * the relaxed bodies have, or none; that is said, with the remedy, and of no other step.
+ */
+TEST(a_step_that_relaxes_too_much_is_said)
+{
+    static const struct {
+        rb_rolling_formulation formulation;
+        double tau; /* in steps */
+        const char *remedy;
+    } steps[] = {{RB_TRANSIENT, 1.0, "as many --contact-elements."},
+                 {RB_TRANSIENT, 2.0, "take 5 times as many --contact-elements."},
+                 {RB_TRANSIENT, 10.0, NULL},
+                 {RB_TRANSIENT, 100.0, NULL},
+                 {RB_STATIC, 1.0, "take 0.019 s as --time-step."},
+                 {RB_STATIC, 10.0, NULL}};
+    static const double time[2] = {0.0, 1.0}, approach[2] = {0.5, 0.5};
+    const rb_rolling_program at_rest = {.n = 2, .time = time, .approach = approach};
+
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+        rb_rolling_case rc = relaxing(20);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_rolling_solution s;
+        const int rolls = steps[k].formulation == RB_TRANSIENT;
+        rc.formulation = steps[k].formulation;
+        rc.approach = 0.5;
+        rc.distance = 1.0;
+        rc.creep = 0.0;
+        rc.speed = 1.0;
+        rc.time_step = 0.1;
+        const double step = rolls ? 2.0 * rb_rolling_derive(&rc).half_width / 20.0 : 0.1;
+        rc.a.memory = (rb_rolling_memory){1, {steps[k].tau * step}, {10.0}};
+        CHECK_STATUS(
+            rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL),
+            RB_OK);
+        CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
+        const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
+        const double left = h.normal_load[1] / h.normal_load[0];
+        int said = 0;
+        for (int i = 0; i < list.n; i++)
+            said |= strncmp(list.text[i], "In one step (", 13) == 0 &&
+                    strstr(list.text[i], steps[k].remedy ? steps[k].remedy : "") != NULL;
+        if (said != (steps[k].remedy != NULL))
+            fail_msg("%d: %d notes: %s", (int)k, list.n, list.n ? list.text[0] : "");
+        if (steps[k].remedy ? !(left < 1.0 / 11.0) : !(left > 1.0 / 11.0))
+            fail_msg("%d: %g left", (int)k, left);
+        rb_rolling_solution_free(&s);
+        rb_rolling_history_free(&h);
+        rb_rolling_model_free(&model);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -30,7 +30,11 @@ rb_status rb_certificate_head(const char *name, const json_t *root,
     }
     if (!json_is_object(inputs) || !json_is_object(summary) ||
         !json_is_object(json_object_get(root, "table")))
-        return rb_certificate_refuse(name, "inputs, summary or table is missing", why);
+        return rb_certificate_refuse(name,
+                                     "inputs, summary or table is missing (only single "
+                                     "cases, histories, stress and "
+                                     "cracks without error bars can)",
+                                     why);
     if (json_is_true(json_object_get(inputs, "error")) ||
         json_object_get(summary, "errors") ||
         json_is_number(json_object_get(inputs, "accuracy")))

@@ -93,12 +93,55 @@ static void note_thin(rb_rolling_note_list *list, const rb_rolling_case *rc,
                 280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
 }
 
+/* What the displacement by the pressure before a step grows in it, as a part of the
+ * glassy one (V6): beyond 1 the pressure behind it would have to pull under a given
+ * approach. */
+static double overshoot_of_step(const rb_rolling_case *rc, double step)
+{
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    double glassy = 0.0, left = 0.0;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
+        const double compliance = (1.0 - material.poisson) / material.shear;
+        glassy += compliance;
+        for (int k = 0; k < bodies[b]->memory.n; k++)
+            left += compliance * bodies[b]->memory.ratio[k] *
+                    rb_bem_fading_over(bodies[b]->memory.time[k], step).before;
+    }
+    return left / glassy;
+}
+
+/* Bodies that relax roll by an element in a step. */
+static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                              const rb_rolling_solution *s)
+{
+    static const double much = 0.8;
+    const int rolls = rc->formulation == RB_TRANSIENT;
+
+    if (rc->formulation == RB_STEADY || !rb_rolling_relaxes(rc) ||
+        !isnan(s->load_error) || s->n == 0)
+        return;
+    const double step =
+        rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
+    const double overshoot = step > 0.0 ? overshoot_of_step(rc, step) : 0.0;
+    if (overshoot > much)
+        add(list,
+            "In one step (%s%.2g s) the bodies relax so much that under the given "
+            "approach the pressure may fall too far, to zero even, and come back: take "
+            "%.2g %s.",
+            rolls ? "one element, " : "", step,
+            rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
+            rolls ? "times as many --contact-elements" : "s as --time-step");
+}
+
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
                                            const rb_rolling_solution *s)
 {
     rb_rolling_note_list list = {.n = 0};
     note_strain(&list, rc, s);
     note_thin(&list, rc, s);
+    note_short_memory(&list, rc, s);
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
     const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (rc->formulation == RB_STATIC && creeps)
