@@ -8,6 +8,7 @@
 #include <ctype.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 enum { MAX_TEXT = 200000 };
 
@@ -195,15 +196,18 @@ static inline int have_octave(void)
  * sanitizers; NULL where there is none. */
 static inline const char *python_of_pages(void)
 {
-    static const char *known[] = {"python3", "/usr/bin/python3"};
+    static const char *known[] = {"python3", "/usr/bin/python3"}, *found;
+    static int looked = 0;
     const char *build = getenv("B");
+    if (looked++)
+        return found;
     if (run("nm -D %s/librollbem.so 2>/dev/null | grep -q __asan_init",
             build ? build : "build") == 0)
         return NULL;
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    for (size_t k = 0; k < sizeof known / sizeof *known && !found; k++)
         if (run("%s -c 'import numpy' 2>/dev/null", known[k]) == 0)
-            return known[k];
-    return NULL;
+            found = known[k];
+    return found;
 }
 
 /* The folder where blocks run holds links to the build folder, the examples, the docs and
@@ -216,81 +220,96 @@ static inline int link_folder(const char *folder)
                build ? build : "build", folder, folder);
 }
 
-/* The command that runs the file `snippet` of a language; NULL where it cannot be run
- * here. */
-static inline const char *interpreter_of(const char *language)
+/* Runs the Python blocks that a page has, named by their lines, one after the other in
+ * one process: what a block prints goes to the file printed-LINE.  Ends with the number
+ * of blocks that raise something. */
+static inline int run_python(const char *folder, const char *lines)
 {
-    static char python[300];
-    static int looked = 0;
-    if (strcmp(language, "sh") == 0)
-        return "sh -e snippet >printed 2>&1";
-    if (strcmp(language, "octave") == 0)
-        return have_octave()
-                   ? "octave --no-gui --no-init-file --quiet snippet >printed 2>errors"
-                   : NULL;
-    if (!looked++) {
-        const char *found = python_of_pages();
-        if (found)
-            snprintf(python, sizeof python,
-                     "PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
-                     "PYTHONDONTWRITEBYTECODE=1 "
-                     "%s -W ignore snippet >printed 2>errors || { cat errors >>printed; "
-                     "false; }",
-                     found);
-    }
-    return python[0] ? python : NULL;
+    static const char program[] =
+        "import contextlib, sys, traceback, warnings\n"
+        "warnings.simplefilter('ignore')\n"
+        "wrong = 0\n"
+        "for line in sys.argv[1:]:\n"
+        "    with open('printed-' + line, 'w') as out, contextlib.redirect_stdout(out):\n"
+        "        try:\n"
+        "            exec(compile(open('block-' + line).read(), 'block', 'exec'), "
+        "{'__name__': '__main__'})\n"
+        "        except Exception:\n"
+        "            wrong += 1\n"
+        "            traceback.print_exc(file=out)\n"
+        "sys.exit(wrong)\n";
+    char path[100];
+    snprintf(path, sizeof path, "%s/blocks.py", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(program, file);
+    assert_int_equal(fclose(file), 0);
+    return run(
+        "cd %s && PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
+        "PYTHONDONTWRITEBYTECODE=1 %s blocks.py%s 2>errors || { cat errors; false; }",
+        folder, python_of_pages(), lines);
 }
 
-static inline int is_program(const part *p)
+static inline int is_in(const part *p, const char *language)
 {
-    static const char *known[] = {"sh", "python", "octave"};
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        if (strcmp(p->language, known[k]) == 0)
-            return 1;
-    return 0;
+    return strcmp(p->language, language) == 0;
 }
 
-/* Runs the blocks of a page, in order, in the folder.  How many there are, and how many
- * print something else than the page shows. */
+/* Runs the blocks of a page in the folder: those of the shell and of Octave in order,
+ * then those of Python.  How many there are, and how many print something else than the
+ * page shows. */
 static inline int run_page(const char *page, const char *folder, int *wrong)
 {
     static char text[MAX_TEXT], got[MAX_TEXT];
-    char path[100];
+    char path[100], python[2000] = "";
     const char *at = text;
-    int line = 1, blocks = 0, printed = 0;
+    int line = 1, blocks = 0;
     part p;
     slurp(page, text);
     while (next_part(&at, &line, &p)) {
-        if (!p.language[0]) {
-            printed = printed && is_blank(&p);
-            continue;
-        }
-        if (strcmp(p.language, "text") == 0) {
-            if (printed)
-                *wrong += differs(page, &p, got);
-            continue;
-        }
-        if (!is_program(&p))
+        if (!is_in(&p, "sh") && !is_in(&p, "octave") && !is_in(&p, "python"))
             continue;
         blocks++;
-        const char *interpreter = interpreter_of(p.language);
-        printed = interpreter != NULL;
-        if (!printed)
-            continue;
-        snprintf(path, sizeof path, "%s/snippet", folder);
+        snprintf(path, sizeof path, "%s/block-%d", folder, p.line);
         FILE *file = fopen(path, "w");
         assert_non_null(file);
         fwrite(p.text, 1, p.length, file);
         assert_int_equal(fclose(file), 0);
-        const int code = run("cd %s && %s", folder, interpreter);
-        snprintf(path, sizeof path, "%s/printed", folder);
-        slurp(path, got);
-        if (code) {
-            print_error("%s:%d ends with code %d: %s\n", page, p.line, code, got);
-            ++*wrong;
-        }
+        int code = 0;
+        if (is_in(&p, "sh"))
+            code =
+                run("cd %s && sh -e block-%d >printed-%d 2>&1", folder, p.line, p.line);
+        else if (is_in(&p, "octave") && have_octave())
+            code = run(
+                "cd %s && octave --no-gui --no-init-file --quiet block-%d >printed-%d "
+                "2>errors",
+                folder, p.line, p.line);
+        else if (is_in(&p, "python") && python_of_pages())
+            snprintf(python + strlen(python), sizeof python - strlen(python), " %d",
+                     p.line);
+        if (code)
+            print_error("%s:%d ends with code %d\n", page, p.line, code);
+        *wrong += code != 0;
     }
-    return blocks;
+    if (python[0]) {
+        const int raised = run_python(folder, python);
+        if (raised)
+            print_error("%s: %d blocks of Python raise something\n", page, raised);
+        *wrong += raised != 0;
+    }
+    int printed = 0; /* the line of the block that the next ```text is of */
+    for (at = text, line = 1; next_part(&at, &line, &p);)
+        if (!p.language[0])
+            printed = is_blank(&p) ? printed : 0;
+        else if (is_in(&p, "text")) {
+            snprintf(path, sizeof path, "%s/printed-%d", folder, printed);
+            if (printed && access(path, F_OK) == 0) {
+                slurp(path, got);
+                *wrong += differs(page, &p, got);
+            }
+        } else
+            printed = p.line;
+    return run("rm -f %s/printed-* %s/block-*", folder, folder) ? -1 : blocks;
 }
 
 #endif

@@ -24,7 +24,7 @@ TEST(blocks_print_what_the_pages_show)
 /* The test above leaves them out where they cannot be run; this one says so. */
 TEST(blocks_in_python_are_run)
 {
-    if (!interpreter_of("python")) {
+    if (!python_of_pages()) {
         print_message("blocks in Python are left out: no NumPy here (apt-get install "
                       "python3-numpy), "
                       "or a library with sanitizers\n");
