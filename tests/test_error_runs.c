@@ -157,7 +157,9 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
     const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS};
     rb_rolling_curve own, errors, run[2];
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &range, &own, &errors, &why), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &why),
+        RB_OK);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
         CHECK_STATUS(rb_rolling_curve_solve(&coarser, &range, &run[k], &why), RB_OK);

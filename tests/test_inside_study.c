@@ -223,7 +223,7 @@ TEST(nothing_is_halved_below_its_least)
     CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &why), RB_EINVAL);
     assert_true(isnan(errors.scalar.normal_load));
     CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2},
-                                              &curve, &bars, &why),
+                                              NULL, NULL, &curve, &bars, &why),
                  RB_EINVAL);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;

@@ -76,7 +76,7 @@ static rb_status draw(void *context)
 {
     rb_rolling_curve curve, errors;
     const rb_status s = rb_rolling_curve_with_errors(
-        context, &(rb_rolling_range){0, 0.1, 0.2, 2}, &curve, &errors, NULL);
+        context, &(rb_rolling_range){0, 0.1, 0.2, 2}, NULL, NULL, &curve, &errors, NULL);
     rb_rolling_curve_free(&curve);
     rb_rolling_curve_free(&errors);
     return s;

@@ -314,8 +314,9 @@ TEST(error_bars_of_curves_hold_the_truth)
         tally t = {.wide = fitted ? 20.0 : 10.0};
         rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.contact_elements = 80;
-        CHECK_STATUS(rb_rolling_curve_with_errors(
-                         &rc, &(rb_rolling_range){0, 0.03, 0.97, 100}, &c, &e, NULL),
+        CHECK_STATUS(rb_rolling_curve_with_errors(&rc,
+                                                  &(rb_rolling_range){0, 0.03, 0.97, 100},
+                                                  NULL, NULL, &c, &e, NULL),
                      RB_OK);
         assert_int_equal(e.n, 100);
         for (int k = 0; k < c.n; k++)
@@ -402,7 +403,7 @@ TEST(every_failed_allocation_is_reported)
         rb_rolling_curve c, e;
         alloc_fail_after(count);
         const rb_status s = rb_rolling_curve_with_errors(
-            &rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, &c, &e, NULL);
+            &rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, NULL, NULL, &c, &e, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)

@@ -67,10 +67,10 @@ static rb_status curve_over(rb_rolling_variable over, double from, double to, ta
 {
     const rb_rolling_range range = {.over = over, .from = from, .to = to, .points = 2};
     rb_rolling_curve curve, errors;
-    const rb_status s =
-        t->rc.contact_elements < 12
-            ? rb_rolling_curve_solve(&t->rc, &range, &curve, &t->why)
-            : rb_rolling_curve_with_errors(&t->rc, &range, &curve, &errors, &t->why);
+    const rb_status s = t->rc.contact_elements < 12
+                            ? rb_rolling_curve_solve(&t->rc, &range, &curve, &t->why)
+                            : rb_rolling_curve_with_errors(&t->rc, &range, NULL, NULL,
+                                                           &curve, &errors, &t->why);
     rb_rolling_curve_free(&curve);
     if (t->rc.contact_elements >= 12)
         rb_rolling_curve_free(&errors);

@@ -1249,11 +1249,16 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                                        rb_rolling_errors *errors, int *elements,
                                        rb_message *why);
 
+/* The number of coarser runs whose differences are the error bars: 2, with wheels 3. */
+int rb_rolling_error_runs(const rb_rolling_case *rc);
+
 /* Computes a curve and its errors: errors->force_ratio[k] and the other columns belong to
  * the k-th creepage; errors->residual has no meaning.  This takes twice as long as the
- * curve alone.  Free both in any case. */
+ * curve alone.  point (may be NULL) also sees the points of the coarser curves.  Free
+ * both in any case. */
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
                                        const rb_rolling_range *range,
+                                       rb_rolling_point *point, void *context,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);
 

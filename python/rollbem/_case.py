@@ -510,20 +510,23 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
 
 
 def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
-          points: int = 61, over: str = "creep-ratio", **options: Any) -> Union[Curve, "list[Curve]"]:
+          points: int = 61, over: str = "creep-ratio", *, progress: Progress = None,
+          **options: Any) -> Union[Curve, "list[Curve]"]:
     """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
 
-    With several ``mu`` a list of curves.
+    With several ``mu`` a list of curves.  ``progress(done, total)`` is called with the number of points
+    now and then, for each curve anew.
     """
     case = _case(case, options)
     mu = case.options.get("mu")
     if mu is not None and np.ndim(mu) == 1:
-        return [curve(case.but(mu=value), start, stop, points, over) for value in _values.vector("mu", mu)]
+        return [curve(case.but(mu=value), start, stop, points, over, progress=progress)
+                for value in _values.vector("mu", mu)]
     handle = case.handle("curve")
     handle.check(handle.ask("rb_api_resolve"))
     status = handle.run("rb_api_curve_over", _values.word("over", over, "creep-ratio, creep or speed"),
                         _values.number("start", start), _values.number("stop", stop),
-                        _values.whole("points", points))
+                        _values.whole("points", points), progress=progress)
     if status < SOLVED:
         raise handle.error(status)
     return _kept(Curve(case, handle, over), handle, status)

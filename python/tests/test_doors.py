@@ -3,6 +3,7 @@
 import ast
 import importlib
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -126,6 +127,8 @@ def test_progress_is_told_while_it_runs():
     assert seen[-1] == (60, 60) and seen == sorted(seen) and {total for _, total in seen} == {60}
     for call, total in ((lambda p: rollbem.history({"distance": [0, 2], "creep_ratio": [0, 0.4]}, steps=50, load=500.0,
                                                    support="halfplane", progress=p), 51),
+                        (lambda p: rollbem.curve(points=40, support="halfplane", load=500.0, progress=p), 40),
+                        (lambda p: rollbem.curve(points=10, support="halfplane", load=500.0, error=True, progress=p), 30),
                         (lambda p: rollbem.wear(coefficient=1e-10, slide=1e6, steps=6, progress=p, **PRESSED), 6)):
         seen.clear()
         call(lambda *at: seen.append(at))

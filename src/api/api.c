@@ -686,6 +686,16 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 
 /* ---- Further questions ------------------------------------------------------------- */
 
+/* Counts the points of a curve, and ends it where the caller has had enough. */
+static rb_status count_point(const rb_rolling_model *model, int k, void *context,
+                             rb_message *why)
+{
+    (void)model, (void)k;
+    rb_api *a = context;
+    a->done++;
+    return a->stopped ? rb_fail(why, RB_INTERRUPTED, "interrupted") : RB_OK;
+}
+
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
@@ -700,14 +710,20 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
                                     points};
     rb_api_call_begins();
     rb_status s = check_refusals(a, &a->why);
+    a->total = (c->error ? 1 + rb_rolling_error_runs(&c->rc) : 1) *
+               (range.over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&c->rc)
+                    ? 2 * points
+                    : points);
     if (s == RB_OK)
         s = !variable->name
                 ? rb_fail(&a->why, RB_EINVAL,
                           "--over: expected creep-ratio, creep or speed, got '%.100s'",
                           over)
-            : c->error ? rb_rolling_curve_with_errors(&c->rc, &range, &a->curve,
-                                                      &a->curve_errors, &a->why)
-                       : rb_rolling_curve_solve(&c->rc, &range, &a->curve, &a->why);
+            : c->error
+                ? rb_rolling_curve_with_errors(&c->rc, &range, count_point, a, &a->curve,
+                                               &a->curve_errors, &a->why)
+                : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve,
+                                           &a->why);
     rb_api_call_ends();
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
 }

@@ -115,8 +115,9 @@ static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                              rb_rolling_curve *errors, rb_message *why)
 {
     const rb_rolling_range range = range_of(r);
-    return with_errors ? rb_rolling_curve_with_errors(rc, &range, points, errors, why)
-                       : rb_rolling_curve_solve(rc, &range, points, why);
+    return with_errors
+               ? rb_rolling_curve_with_errors(rc, &range, NULL, NULL, points, errors, why)
+               : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
 /* words NULL: without derivatives, as those of a picture. */

@@ -6,10 +6,9 @@
 
 /* ---- errors.c ---------------------------------------------------------------------- */
 
-/* The coarser runs whose differences are the error: 2, with wheels 3 = RB_ERROR_RUNS. */
+/* The largest number of rb_rolling_error_runs. */
 enum { RB_ERROR_RUNS = 3 };
-int rb_rolling_error_runs(const rb_rolling_case *rc);
-/* The case of the k-th of them. */
+/* The case of the k-th coarser run. */
 rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
 /* RB_EINVAL where the case has too few elements to be halved. */
 rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);

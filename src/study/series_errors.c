@@ -34,6 +34,7 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
 
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
                                        const rb_rolling_range *range,
+                                       rb_rolling_point *point, void *context,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why)
 {
@@ -44,10 +45,10 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
     memset(curve, 0, sizeof *curve);
     memset(errors, 0, sizeof *errors);
     if (s == RB_OK)
-        s = rb_rolling_curve_solve(rc, range, curve, why);
+        s = rb_rolling_curve_observe(rc, range, point, context, curve, why);
     for (int k = 0; k < runs && s == RB_OK; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-        s = rb_rolling_curve_solve(&coarser, range, &run[k], why);
+        s = rb_rolling_curve_observe(&coarser, range, point, context, &run[k], why);
     }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, curve->n, errors);
