@@ -777,10 +777,8 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
                                    rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
-/* A variant that is also solved, from the zones and friction coefficients of the state
- * `start` (NULL: the model's). */
+/* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                   const rb_contact_state *start,
                                    rb_rolling_model *variant, rb_message *why);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */

@@ -59,7 +59,8 @@ void rb_sensitivity_rate_free(rb_sensitivity_rate *rate);
 void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
                              rb_sensitivity_rate *to);
 /* Residual of the equations of the model's zones at the unknowns of the variant, in the
- * form of a rate (but not a difference). */
+ * form of a rate (but not a difference): rb_sensitivity_tangent gives a step of Newton's
+ * method for the variant with the matrix of the model. */
 void rb_sensitivity_residual(const rb_rolling_model *base,
                              const rb_rolling_model *variant, rb_sensitivity_rate *left);
 
@@ -101,8 +102,9 @@ typedef struct {
 const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
                                                         double step);
 
-/* Computes the rate of the equations with respect to the input; mu: derivative of the
- * largest friction coefficient.  rate: overwritten; free it in any case. */
+/* Computes the rate of the equations with respect to the input, for fits, from two values
+ * of the input instead of four (seven digits); mu: derivative of the largest friction
+ * coefficient.  rate: overwritten; free it in any case. */
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why);
 

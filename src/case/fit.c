@@ -21,11 +21,12 @@ static const double CORRELATED = 0.95;
 /* A measured point.  Points that share elements have these and their flexibility from
  * the first of them. */
 typedef struct {
-    int first;              /* number of the point with the elements */
-    rb_rolling_model base;  /* with the elements, if it is this one */
-    rb_rolling_model now;   /* solved with the present numbers: a variant of the base, or
-                               of `now` of the first point */
-    rb_contact_state start; /* its last solution; p NULL: none yet */
+    int first;             /* number of the point with the elements */
+    rb_rolling_model base; /* with the elements, if it is this one */
+    /* Solved with the last numbers and with the present ones: a variant of the base, or
+     * of the first point's; and its factors. */
+    rb_rolling_model solved[2];
+    rb_sensitivity *factors[2];
 } point;
 
 /* A case with number `varied` (-1: none) changed to `value`, as it was resolved for a
@@ -45,6 +46,8 @@ typedef struct {
     int n, points, offset; /* parameters; which one is the offset of creepage, or -1 */
     const rb_option *option[RB_CASE_FIT_MAX], *creep, *load, *speed, *temperature;
     point *at;       /* points */
+    int last;        /* which of `solved` all points have; the other one is under way; -1:
+                        none have */
     resolved *known; /* RESOLVED_MAX: cases with the present numbers */
     int known_n;
     double *f, *J; /* points; points x n: residuals and their derivatives */
@@ -138,6 +141,13 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc,
     return s;
 }
 
+/* The model whose elements those of a solution are. */
+static const rb_rolling_model *model_below(const problem *p, int k, int which)
+{
+    const int first = p->at[k].first;
+    return first == k ? &p->at[k].base : &p->at[first].solved[which];
+}
+
 /* The force in the measure of the data. */
 static double measure(const problem *p, const rb_rolling_model *model)
 {
@@ -151,23 +161,20 @@ static double measure(const problem *p, const rb_rolling_model *model)
 
 /* The derivatives of the force at a solved point with respect to all parameters: one
  * adjoint solve. */
-static rb_status differentiate(problem *p, const double *theta, int k, double *row,
-                               rb_message *why)
+static rb_status differentiate(problem *p, const double *theta, int k,
+                               const rb_rolling_model *model, const rb_sensitivity *s,
+                               double *row, rb_message *why)
 {
-    const rb_rolling_model *model = &p->at[k].now;
     const rb_contact_problem *q = &model->problem;
     const double P = rb_contact_load(q, &model->state), f = measure(p, model);
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
     const double scale = p->data->measure == RB_CASE_FORCE ? 1.0
                          : ratio                           ? 1.0 / (q->mu * P)
                                                            : 1.0 / P;
-    rb_sensitivity *s = NULL;
     rb_contact_state weight = {0};
     rb_sensitivity_rate adjoint = {0}, rate = {0};
-    rb_status status = rb_sensitivity_create(model, 0, &s, why);
+    rb_status status = rb_contact_state_alloc(q->n, &weight);
 
-    if (status == RB_OK)
-        status = rb_contact_state_alloc(q->n, &weight);
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(q->n, &adjoint);
     for (int i = 0; i < q->n && status == RB_OK; i++) {
@@ -191,8 +198,44 @@ static rb_status differentiate(problem *p, const double *theta, int k, double *r
     }
     rb_sensitivity_rate_free(&adjoint);
     rb_contact_state_free(&weight);
-    rb_sensitivity_free(s);
     return status;
+}
+
+/* Newton's method with the matrix of the last solution, whose zones v has: while these
+ * stay, it needs no new matrix.  RB_MAXITER: they do not stay, or v is far away. */
+static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensitivity *s,
+                                    rb_rolling_model *v, rb_message *why)
+{
+    enum { STEPS_MOST = 8 };
+    const double enough = 0.01 * v->rc->contact.tol;
+    rb_contact_state step = {0};
+    rb_sensitivity_rate left = {0};
+    rb_contact_violation violation;
+    double change = INFINITY;
+    rb_status status = rb_contact_state_alloc(last->mesh.n, &step);
+
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(last->mesh.n, &left);
+    for (int k = 0; k < STEPS_MOST && change > enough && status == RB_OK; k++) {
+        rb_sensitivity_residual(last, v, &left);
+        status = rb_sensitivity_tangent(s, &left, 1, &step, why);
+        if (status != RB_OK)
+            break;
+        const double before = change;
+        change =
+            rb_norm_inf((size_t)step.n, step.q) / rb_contact_friction_scale(&v->problem);
+        rb_rolling_variant_set(&v->state, &step, 1.0, &v->state);
+        status = rb_rolling_variant_complete(v, why);
+        if (!(change < 0.5 * before))
+            break;
+    }
+    if (status == RB_OK)
+        status = rb_contact_residual(&v->problem, &v->state, &violation);
+    v->state.residual = violation.scaled;
+    rb_contact_state_free(&step);
+    rb_sensitivity_rate_free(&left);
+    return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER
+                                                                        : status;
 }
 
 /* Solves a point; the first of those that share elements makes the flexibility.  A point
@@ -201,23 +244,36 @@ static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k,
                              rb_message *why)
 {
     point *at = &p->at[k];
-    const rb_rolling_model *of = at->first == k ? &at->base : &p->at[at->first].now;
-    const point *before = k > 0 && p->at[k - 1].first == at->first ? at - 1 : at;
-    const rb_contact_state *start = at->start.p ? &at->start : &before->start;
-    rb_status s =
-        rb_rolling_variant_solve(of, rc, start->p ? start : NULL, &at->now, why);
+    const int now = p->last == 0;
+    const rb_rolling_model *of = model_below(p, k, now);
+    const rb_rolling_model *from = p->last >= 0 ? &at->solved[p->last]
+                                   : at->first < k && p->at[k - 1].first == at->first
+                                       ? &p->at[k - 1].solved[now]
+                                       : of;
+    rb_rolling_model *v = &at->solved[now];
+    rb_status s = rb_rolling_variant_place(of, rc, 0.0, 1.0, v, why);
 
-    if (s == RB_OK && !at->start.p)
-        s = rb_contact_state_alloc(at->now.mesh.n, &at->start);
-    if (s == RB_OK)
-        rb_rolling_variant_set(&at->now.state, NULL, 0.0, &at->start);
-    return s;
+    if (s == RB_OK) {
+        rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
+        s = rb_rolling_variant_complete(v, why);
+    }
+    if (s != RB_OK)
+        return s;
+    s = p->last < 0 ? RB_MAXITER : solve_with_factors(from, at->factors[p->last], v, why);
+    if (s > 0) {
+        rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
+        s = rb_rolling_variant_complete(v, why);
+        s = s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
+    }
+    return s == RB_OK ? rb_sensitivity_create(v, 0, &at->factors[now], why) : s;
 }
 
 /* The residual of a point and its row of derivatives. */
 static rb_status evaluate_point(problem *p, const double *theta, int k, rb_message *why)
 {
     const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
+    const int now = p->last == 0;
+    const rb_rolling_model *model = &p->at[k].solved[now];
     place at = {p, theta, k, -1};
     double row[RB_CASE_FIT_MAX], kappa = NAN;
     rb_rolling_case rc;
@@ -225,35 +281,44 @@ static rb_status evaluate_point(problem *p, const double *theta, int k, rb_messa
 
     if (s == RB_OK)
         s = solve_point(p, &rc, k, why);
-    if (s == RB_OK) {
-        p->fit->model[k] = measure(p, &p->at[k].now);
-        p->f[k] = (p->fit->model[k] - p->data->force[k]) / sigma;
-        if (rb_rolling_law_depends_on_state(&rc))
-            s = rb_rolling_law_kappa(&p->at[k].now, &kappa);
-        p->kappa = fmax(p->kappa, kappa);
-    }
+    if (s == RB_OK && rb_rolling_law_depends_on_state(&rc))
+        s = rb_rolling_law_kappa(model, &kappa);
     if (s == RB_OK)
-        s = differentiate(p, theta, k, row, why);
-    for (int j = 0; j < p->n && s == RB_OK; j++)
+        s = differentiate(p, theta, k, model, p->at[k].factors[now], row, why);
+    if (s != RB_OK)
+        return s;
+    p->kappa = fmax(p->kappa, kappa);
+    p->fit->model[k] = measure(p, model);
+    p->f[k] = (p->fit->model[k] - p->data->force[k]) / sigma;
+    for (int j = 0; j < p->n; j++)
         p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma;
     return s;
+}
+
+/* Frees the solutions of all points: the last ones or those under way. */
+static void release(problem *p, int which)
+{
+    for (int k = p->points - 1; k >= 0 && which >= 0; k--) {
+        point *at = &p->at[k];
+        rb_sensitivity_free(at->factors[which]);
+        at->factors[which] = NULL;
+        rb_rolling_variant_free(model_below(p, k, which), &at->solved[which]);
+    }
 }
 
 /* chi^2 and all rows; a trial: INFINITY where a point has no solution. */
 static rb_status evaluate(problem *p, const double *theta, int is_trial, double *chi2,
                           rb_message *why)
 {
+    const int now = p->last == 0;
     rb_status s = RB_OK;
 
     p->kappa = 0.0;
     p->known_n = 0;
     for (int k = 0; k < p->points && s == RB_OK; k++)
         s = evaluate_point(p, theta, k, why);
-    for (int k = p->points - 1; k >= 0; k--) {
-        point *at = &p->at[k];
-        rb_rolling_variant_free(at->first == k ? &at->base : &p->at[at->first].now,
-                                &at->now);
-    }
+    release(p, s == RB_OK ? p->last : now);
+    p->last = s == RB_OK ? now : p->last;
     *chi2 = s == RB_OK ? dot(p->points, p->f, p->f) : INFINITY;
     return s != RB_ENOMEM && is_trial ? RB_OK : s;
 }
@@ -279,6 +344,8 @@ static rb_status place_elements(problem *p, const double *theta, int *moved,
 
     *moved = 0;
     p->known_n = 0;
+    release(p, p->last);
+    p->last = -1;
     for (int k = 0; k < p->points && s == RB_OK; k++) {
         point *of = &p->at[k];
         place at = {p, theta, k, -1};
@@ -298,8 +365,6 @@ static rb_status place_elements(problem *p, const double *theta, int *moved,
                              ((size_t)mesh->n + 1) * sizeof *mesh->ends) != 0;
         rb_rolling_model_free(&of->base);
         of->base = fresh;
-        if (of->start.p && of->start.n != p->at[of->first].base.mesh.n)
-            rb_contact_state_free(&of->start);
     }
     return s;
 }
@@ -746,6 +811,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                  .n = fit->n,
                  .points = data->n,
                  .offset = -1,
+                 .last = -1,
                  .creep = rb_case_option(data->is_ratio ? "creep-ratio" : "creep"),
                  .load = rb_case_option("load"),
                  .speed = rb_case_option("speed"),
@@ -793,10 +859,9 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             "several solutions; give friction a memory (--memory), or fit that too",
             p.kappa);
     fit->status = s;
-    for (size_t k = 0; p.at && k < points; k++) {
+    release(&p, p.last);
+    for (size_t k = 0; p.at && k < points; k++)
         rb_rolling_model_free(&p.at[k].base);
-        rb_contact_state_free(&p.at[k].start);
-    }
     free(p.at);
     free(p.known);
     free(p.f);

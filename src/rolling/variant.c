@@ -174,8 +174,8 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
 /* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
  * only where all results stay right. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                        int by_formula, motion moved, const rb_contact_state *start,
-                        rb_rolling_model *v, rb_message *why)
+                        int by_formula, motion moved, rb_rolling_model *v,
+                        rb_message *why)
 {
     /* The formula must know how the flexibility changes.  kappa of a law asks for the
      * matrix itself. */
@@ -208,34 +208,33 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
     if (s == RB_OK)
         s = rb_contact_state_alloc(of->mesh.n, &v->state);
     if (s == RB_OK)
-        rb_rolling_variant_set(start, NULL, 0.0, &v->state);
+        rb_rolling_variant_set(&of->state, NULL, 0.0, &v->state);
     return s == RB_OK ? rb_rolling_variant_complete(v, why) : s;
 }
 
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 2, (motion){shift, scale}, &of->state, v, why);
+    return create(of, of->rc, 2, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    double shift, double scale, rb_rolling_model *v,
                                    rb_message *why)
 {
-    return create(of, rc, 0, (motion){shift, scale}, &of->state, v, why);
+    return create(of, rc, 0, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     int results, rb_rolling_model *v, rb_message *why)
 {
-    return create(of, rc, results ? 2 : 1, at_rest, &of->state, v, why);
+    return create(of, rc, results ? 2 : 1, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                   const rb_contact_state *start, rb_rolling_model *v,
-                                   rb_message *why)
+                                   rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, 0, at_rest, start ? start : &of->state, v, why);
+    const rb_status s = create(of, rc, 0, at_rest, v, why);
     return s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
 }
 

@@ -24,6 +24,7 @@ enum { PLACES = RB_SENSITIVITY_PLACES };
 
 static const rb_sensitivity_stencil middle = {
     4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
+static const rb_sensitivity_stencil nearest = {2, {-1, 1}, {-0.5, 0.5}};
 static const rb_sensitivity_stencil ahead = {
     5, {0, 1, 2, 3, 4}, {-25 / 12., 48 / 12., -36 / 12., 16 / 12., -3 / 12.}};
 static const rb_sensitivity_stencil behind = {
@@ -161,6 +162,8 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
     rb_status status = choose_places(s, input, &v, why);
 
     memset(rate, 0, sizeof *rate);
+    if (v.at.n == middle.n)
+        v.at = nearest;
     if (status == RB_OK)
         status = variants_create(s->model, input, 0, &v, why);
     if (status == RB_OK)

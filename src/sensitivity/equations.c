@@ -40,11 +40,14 @@ void rb_sensitivity_residual(const rb_rolling_model *base,
     const rb_contact_state *state = &variant->state;
 
     rb_contact_kinematics(p, state, left->gap, left->slip);
-    memcpy(left->bound, p->bound, (size_t)left->n * sizeof *left->bound);
-    if (p->yield) {
+    if (p->yield)
         rb_contact_yielded(p, state->plastic, left->yield);
-        for (int i = 0; i < left->n; i++)
-            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
+    for (int i = 0; i < left->n; i++) {
+        const int slides = base->state.zone[i] > RB_ZONE_STICK;
+        const double q = slides ? fabs(state->q[i]) : 0.0;
+        left->bound[i] = p->bound[i] - (q > 0.0 ? q / state->p[i] : 0.0);
+        if (p->yield)
+            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]) - q;
     }
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;

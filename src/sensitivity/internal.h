@@ -47,9 +47,12 @@ rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc);
 
 typedef struct rb_sensitivity_factors {
     int contacts, size;
+    int first;           /* size of the first of two diagonal blocks: p and delta, if they
+                            do not depend on q and xi; otherwise size */
     int *contact;        /* contacts: element numbers; owned */
     int *zone;           /* n: zones for which they were computed; owned */
-    double *J, *unknown; /* size x size: LU; size: scales of the unknowns; owned */
+    double *J, *unknown; /* size x size: LU of the diagonal blocks, in the order p, delta,
+                            q, xi; size: scales of the unknowns; owned */
     double *row;         /* size: scales of the equations; owned */
     int *pivot;          /* owned */
 } rb_sensitivity_factors;

@@ -105,7 +105,7 @@ static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, i
     for (int c = 0; c < f->contacts; c++) {
         const size_t at = (size_t)f->contact[c];
         r[(size_t)c * ld] += times * K.S[(size_t)j + at * n];
-        r[(size_t)(f->contacts + c) * ld] += times * K.S[(size_t)j + (n + at) * n];
+        r[(size_t)(f->contacts + 1 + c) * ld] += times * K.S[(size_t)j + (n + at) * n];
     }
     r[(size_t)(f->size - 1) * ld] += times * p->e_T[j];
 }
@@ -118,21 +118,21 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     const int m = f->contacts, i = f->contact[c], zone = f->zone[i];
     const size_t n = (size_t)s->n, ld = (size_t)f->size, ldf = (size_t)K.ldf;
-    double *gap = f->J + c, *tangential = f->J + m + c, *force = weight + n;
+    double *gap = f->J + c, *tangential = f->J + m + 1 + c, *force = weight + n;
 
     for (int k = 0; k < m; k++) {
         const size_t at = (size_t)f->contact[k];
         gap[(size_t)k * ld] = K.F[(size_t)i + at * ldf];
-        gap[(size_t)(m + k) * ld] = K.F[(size_t)i + (n + at) * ldf];
+        gap[(size_t)(m + 1 + k) * ld] = K.F[(size_t)i + (n + at) * ldf];
     }
-    gap[(size_t)(2 * m) * ld] = -1.0;
+    gap[(size_t)m * ld] = -1.0;
     f->row[c] = p->gap_length;
-    f->row[m + c] = zone == RB_ZONE_STICK ? p->slip_length : p->stress;
+    f->row[m + 1 + c] = zone == RB_ZONE_STICK ? p->slip_length : p->stress;
     if (zone == RB_ZONE_STICK) {
         add_slip(s, f, i, 1.0, tangential);
         return;
     }
-    tangential[(size_t)(m + c) * ld] = 1.0;
+    tangential[(size_t)(m + 1 + c) * ld] = 1.0;
     if (slides(zone))
         tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
     dependence(s, f->zone, i, weight, force);
@@ -140,7 +140,7 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
         if (weight[j] != 0.0)
             add_slip(s, f, j, weight[j], tangential);
     for (int k = 0; k < m; k++)
-        tangential[(size_t)(m + k) * ld] += force[f->contact[k]];
+        tangential[(size_t)(m + 1 + k) * ld] += force[f->contact[k]];
 }
 
 double rb_sensitivity_xi_by_load(const rb_rolling_model *model)
@@ -164,7 +164,7 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     const rb_contact_problem *p = &model->problem;
     const int m = f->contacts, law = rb_rolling_law_depends_on_state(rc);
     const size_t ld = (size_t)f->size;
-    double *normal = f->J + 2 * m, *tangential = normal + 1;
+    double *normal = f->J + m, *tangential = f->J + 2 * m + 1;
     const double share =
         p->force_given && law && p->axle == 0.0 && !isnan(rc->force_ratio)
             ? rc->force_ratio * p->mu
@@ -173,10 +173,10 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c];
         const double carried = share + p->force_ratio * p->bound[i];
-        double *of_p = tangential + (size_t)c * ld, *of_q = of_p + (size_t)m * ld;
+        double *of_p = tangential + (size_t)c * ld, *of_q = of_p + (size_t)(m + 1) * ld;
         if (p->load_given) {
             normal[(size_t)c * ld] = p->load_N[i];
-            normal[(size_t)(m + c) * ld] = p->load_T[i];
+            normal[(size_t)(m + 1 + c) * ld] = p->load_T[i];
         }
         *of_p = -carried * p->load_N[i];
         *of_q = -carried * p->load_T[i];
@@ -186,10 +186,10 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
         }
     }
     if (!p->load_given)
-        normal[(size_t)(2 * m) * ld] = 1.0;
+        normal[(size_t)m * ld] = 1.0;
     if (!p->force_given)
         tangential[(size_t)(2 * m + 1) * ld] = 1.0;
-    f->row[2 * m] = p->load_given ? p->load : p->gap_length;
+    f->row[m] = p->load_given ? p->load : p->gap_length;
     f->row[2 * m + 1] = p->force_given ? p->mu * p->stress * model->bodies.f.h[0]
                                        : p->slip_length / p->e_T[0];
 }
@@ -211,14 +211,53 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
     fill_controls(s, f);
     free(room);
     for (int j = 0; j < size; j++) {
-        f->unknown[j] = j < 2 * m    ? p->stress
-                        : j == 2 * m ? p->gap_length
-                                     : p->slip_length / p->e_T[0];
+        f->unknown[j] = j == m          ? p->gap_length
+                        : j == size - 1 ? p->slip_length / p->e_T[0]
+                                        : p->stress;
         for (int i = 0; i < size; i++)
             f->J[i + (size_t)j * (size_t)size] *= f->unknown[j] / f->row[i];
     }
-    return rb_lapack_status(
-        LAPACKE_dgetrf(LAPACK_COL_MAJOR, size, size, f->J, size, f->pivot));
+    /* the normal equations alone determine p and delta where friction does not change
+     * them */
+    f->first = m + 1;
+    for (int j = m + 1; j < size; j++)
+        for (int i = 0; i < m + 1; i++)
+            if (f->J[i + (size_t)j * (size_t)size] != 0.0)
+                f->first = size;
+    const int k = f->first, rest = size - k;
+    rb_status status = rb_lapack_status(
+        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
+    if (status == RB_OK && rest > 0)
+        status = rb_lapack_status(LAPACKE_dgetrf_work(
+            LAPACK_COL_MAJOR, rest, rest, f->J + (size_t)k * (size_t)(size + 1), size,
+            f->pivot + k));
+    return status;
+}
+
+/* J x = x, or J' x = x. */
+static rb_status back_substitute(const rb_sensitivity_factors *f, char transposed,
+                                 double *x)
+{
+    const int k = f->first, rest = f->size - k, ld = f->size;
+    const double *of_p = f->J + k, *last = of_p + (size_t)k * (size_t)ld;
+    int info = 0;
+
+    if (transposed == 'T' && rest > 0) {
+        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', rest, 1, last, ld, f->pivot + k,
+                                   x + k, ld);
+        cblas_dgemv(CblasColMajor, CblasTrans, rest, k, -1.0, of_p, ld, x + k, 1, 1.0, x,
+                    1);
+    }
+    if (info == 0)
+        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, k, 1, f->J, ld, f->pivot,
+                                   x, ld);
+    if (transposed == 'N' && rest > 0 && info == 0) {
+        cblas_dgemv(CblasColMajor, CblasNoTrans, rest, k, -1.0, of_p, ld, x, 1, 1.0,
+                    x + k, 1);
+        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', rest, 1, last, ld, f->pivot + k,
+                                   x + k, ld);
+    }
+    return rb_lapack_status(info);
 }
 
 rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_factors *f,
@@ -234,22 +273,21 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c], zone = f->zone[i];
         x[c] = -rate->gap[i] / f->row[c];
-        x[m + c] = (zone == RB_ZONE_STICK ? -rate->slip[i]
-                    : slides(zone)        ? sign_of(zone) * rate->bound[i] * state->p[i]
-                                          : sign_of(zone) * rate->yield[i]) /
-                   f->row[m + c];
+        x[m + 1 + c] = (zone == RB_ZONE_STICK ? -rate->slip[i]
+                        : slides(zone) ? sign_of(zone) * rate->bound[i] * state->p[i]
+                                       : sign_of(zone) * rate->yield[i]) /
+                       f->row[m + 1 + c];
     }
-    x[2 * m] = -rate->normal;
+    x[m] = -rate->normal;
     x[2 * m + 1] = -rate->tangential;
-    const rb_status status = rb_lapack_status(LAPACKE_dgetrs_work(
-        LAPACK_COL_MAJOR, 'N', f->size, 1, f->J, f->size, f->pivot, x, f->size));
+    const rb_status status = back_substitute(f, 'N', x);
     for (int i = 0; i < s->n; i++)
         tangent->p[i] = tangent->q[i] = 0.0;
     for (int c = 0; c < m; c++) {
         tangent->p[f->contact[c]] = f->unknown[c] * x[c];
-        tangent->q[f->contact[c]] = f->unknown[m + c] * x[m + c];
+        tangent->q[f->contact[c]] = f->unknown[m + 1 + c] * x[m + 1 + c];
     }
-    tangent->delta = f->unknown[2 * m] * x[2 * m];
+    tangent->delta = f->unknown[m] * x[m];
     tangent->xi = f->unknown[2 * m + 1] * x[2 * m + 1];
     free(x);
     return status;
@@ -269,16 +307,15 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
         return rb_fail(why, RB_ENOMEM, "out of memory for an adjoint");
     for (int c = 0; c < m; c++) {
         x[c] = f->unknown[c] * weight->p[f->contact[c]];
-        x[m + c] = f->unknown[m + c] * weight->q[f->contact[c]];
+        x[m + 1 + c] = f->unknown[m + 1 + c] * weight->q[f->contact[c]];
     }
-    x[2 * m] = f->unknown[2 * m] * weight->delta;
+    x[m] = f->unknown[m] * weight->delta;
     x[2 * m + 1] = f->unknown[2 * m + 1] * weight->xi;
-    const rb_status status = rb_lapack_status(LAPACKE_dgetrs_work(
-        LAPACK_COL_MAJOR, 'T', f->size, 1, f->J, f->size, f->pivot, x, f->size));
+    const rb_status status = back_substitute(f, 'T', x);
     memset(adjoint->gap, 0, 4 * (size_t)s->n * sizeof *adjoint->gap);
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c], zone = f->zone[i];
-        const double tangential = x[m + c] / f->row[m + c];
+        const double tangential = x[m + 1 + c] / f->row[m + 1 + c];
         adjoint->gap[i] = -x[c] / f->row[c];
         if (zone == RB_ZONE_STICK)
             adjoint->slip[i] = -tangential;
@@ -287,7 +324,7 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
         else
             adjoint->yield[i] = sign_of(zone) * tangential;
     }
-    adjoint->normal = -x[2 * m];
+    adjoint->normal = -x[m];
     adjoint->tangential = -x[2 * m + 1];
     free(x);
     return status;

@@ -372,7 +372,7 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     status = rc->mesh == RB_MESH_UNIFORM
-                 ? rb_rolling_variant_solve(model, &freely, NULL, v, why)
+                 ? rb_rolling_variant_solve(model, &freely, v, why)
                  : rb_rolling_model_create(&freely, v, why);
     return status == RB_OK ? create(v, &s->free_rolling, why) : status;
 }
