@@ -72,6 +72,22 @@ static void contacts_of_hertz(void **state)
     rb_case_free(c);
 }
 
+/* Beyond 700 N/mm the contact leaves its zone: the search stays where solutions are, and
+ * says why it does not go on. */
+static void search_stays_where_solutions_are(void **state)
+{
+    rb_message why = {""};
+    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes",
+                                               "load", "500", "mesh", "uniform", "zone",
+                                               "1", "contact-elements", "40", NULL});
+    rb_design d = {.n = 0, .largest = 1};
+    CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &why), RB_MAXITER);
+    assert_true(d.variable[0].value > 600.0 && d.variable[0].value < 800.0);
+    assert_non_null(strstr(why.text, "zone: the contact is not within"));
+    rb_design_free(&d);
+    rb_case_free(c);
+}
+
 /* The values of a table of the gap: pressure that is the same all over the span. */
 static void uniform_pressure(void **state)
 {
@@ -132,6 +148,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contacts_of_hertz),
+        cmocka_unit_test(search_stays_where_solutions_are),
         cmocka_unit_test(uniform_pressure),
         cmocka_unit_test(what_is_refused),
     };

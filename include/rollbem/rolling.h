@@ -660,7 +660,7 @@ typedef struct {
 } rb_rolling_carried;
 
 /* Everything between case and solution, kept for further solves on the same mesh. */
-typedef struct {
+typedef struct rb_rolling_model {
     const rb_rolling_case *rc; /* a constant copy of the case, in a history of the last
                                   step's; borrows the profile; owned */
     rb_rolling_plan plan;      /* of the present mesh and bodies */
@@ -681,6 +681,9 @@ typedef struct {
     int iterations;  /* of all solves so far */
     int same_bodies; /* 1: `bodies` need not be built again for `rc` on the same mesh */
     rb_rolling_carried carried;
+    struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was
+                                        computed on elements of its own; otherwise NULL;
+                                        owned */
 } rb_rolling_model;
 
 /* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,
@@ -757,9 +760,12 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
  * residuals. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
+/* The same without the residuals, which stay 0. */
+rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
+                                      rb_rolling_solution *solution, rb_message *why);
 
 /* A variant of a solved model: a case that differs slightly from the model's in some
- * number, on the same elements, with the model's state and zones.  If the flexibility is
+ * number, on the same elements, with the model's state and zones, to be completed.  If the flexibility is
  * the same, it is borrowed from the model.  RB_INACCURATE: the number of elements outside
  * the contact differs.  results: 0 if only the equations are needed. variant:
  * overwritten; free it in any case. */
@@ -790,8 +796,9 @@ void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *varia
 void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *along,
                             double part, rb_contact_state *variant);
 /* Computes from them slip (0 in stick), friction coefficients and Hertz's half-width of
- * the variant. */
-rb_status rb_rolling_variant_complete(rb_rolling_model *variant, rb_message *why);
+ * the variant.  gap, slip: n, of all elements; NULL: not wanted. */
+rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap,
+                                      double *slip, rb_message *why);
 
 /* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
  * single element, or a step, may have several solutions.  RB_ENOMEM. */

@@ -58,11 +58,11 @@ void rb_sensitivity_rate_free(rb_sensitivity_rate *rate);
 /* to += times rate. */
 void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
                              rb_sensitivity_rate *to);
-/* Residual of the equations of the model's zones at the unknowns of the variant, in the
- * form of a rate (but not a difference): rb_sensitivity_tangent gives a step of Newton's
- * method for the variant with the matrix of the model. */
-void rb_sensitivity_residual(const rb_rolling_model *base,
-                             const rb_rolling_model *variant, rb_sensitivity_rate *left);
+/* Completes the variant.  Residual of the equations of the model's zones at its unknowns,
+ * in the form of a rate (but not a difference): bound and yield are those of the variant,
+ * from which a residual proper would subtract what the tractions ask for. */
+rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
+                                  rb_sensitivity_rate *left, rb_message *why);
 
 /* D2: J y' = -R'.  y': derivatives of p, q, delta, xi for a growing (side 1) or falling
  * (-1) input; both are equal if no element is degenerate.  RB_MAXITER: the zones of a

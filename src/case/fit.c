@@ -217,18 +217,25 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(last->mesh.n, &left);
     for (int k = 0; k < STEPS_MOST && change > enough && status == RB_OK; k++) {
-        rb_sensitivity_residual(last, v, &left);
-        status = rb_sensitivity_tangent(s, &left, 1, &step, why);
+        const double before = change;
+        status = rb_sensitivity_residual(last, v, &left, why);
+        for (int i = 0; i < left.n && status == RB_OK; i++)
+            if (last->state.zone[i] > RB_ZONE_STICK && v->state.p[i] > 0.0) {
+                left.bound[i] -= fabs(v->state.q[i]) / v->state.p[i];
+                left.yield[i] -= fabs(v->state.q[i]);
+            }
+        if (status == RB_OK)
+            status = rb_sensitivity_tangent(s, &left, 1, &step, why);
         if (status != RB_OK)
             break;
-        const double before = change;
         change =
             rb_norm_inf((size_t)step.n, step.q) / rb_contact_friction_scale(&v->problem);
         rb_rolling_variant_set(&v->state, &step, 1.0, &v->state);
-        status = rb_rolling_variant_complete(v, why);
         if (!(change < 0.5 * before))
             break;
     }
+    if (status == RB_OK)
+        status = rb_rolling_variant_complete(v, NULL, NULL, why);
     if (status == RB_OK)
         status = rb_contact_residual(&v->problem, &v->state, &violation);
     v->state.residual = violation.scaled;
@@ -253,16 +260,13 @@ static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k,
     rb_rolling_model *v = &at->solved[now];
     rb_status s = rb_rolling_variant_place(of, rc, 0.0, 1.0, v, why);
 
-    if (s == RB_OK) {
-        rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
-        s = rb_rolling_variant_complete(v, why);
-    }
     if (s != RB_OK)
         return s;
+    rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
     s = p->last < 0 ? RB_MAXITER : solve_with_factors(from, at->factors[p->last], v, why);
     if (s > 0) {
         rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
-        s = rb_rolling_variant_complete(v, why);
+        s = rb_rolling_variant_complete(v, NULL, NULL, why);
         s = s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
     }
     return s == RB_OK ? rb_sensitivity_create(v, 0, &at->factors[now], why) : s;

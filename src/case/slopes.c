@@ -379,8 +379,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
     for (int k = 0; k < v->of.n && status == RB_OK; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
         rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
-        status = rb_rolling_variant_complete(at, why);
-        rb_sensitivity_residual(base, at, &left);
+        status = rb_sensitivity_residual(base, at, &left, why);
         rb_sensitivity_rate_add(&left, v->of.weight[k] / v->step, &v->rate);
     }
     rb_sensitivity_rate_free(&left);
@@ -390,7 +389,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
         rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step,
                                &at->state);
-        status = rb_rolling_variant_complete(at, why);
+        status = rb_rolling_variant_complete(at, NULL, NULL, why);
         if (status == RB_OK)
             rb_rolling_follower_end(v->at[k]);
     }

@@ -216,7 +216,9 @@ typedef struct {
     double *gradient; /* (1 + constraints) x n, row by row */
     double *best;     /* n: of the evaluation with the least value that meets all */
     double best_value;
-    int known; /* 1: of x */
+    int known;         /* 1: of x */
+    int failed;        /* 1: at x there is no solution */
+    rb_message reason; /* why not; "": no evaluation has failed */
     rb_rolling_profile *profile[PROFILES];
     int profiles;
     rb_status status;
@@ -442,12 +444,19 @@ static double call(unsigned n, const double *u, double *gradient, void *context)
         x[j] = v[j].low + u[j] * (v[j].high - v[j].low);
         same = same && x[j] == p->x[j];
     }
-    if (!same && p->status == RB_OK)
-        p->status = evaluate(p, x);
+    if (!same && p->status == RB_OK) {
+        const rb_status s = evaluate(p, x);
+        p->failed = s != RB_OK;
+        p->reason = p->failed ? *p->why : p->reason;
+        p->status = s == RB_ENOMEM || s == RB_INTERRUPTED ? s : RB_OK;
+    }
     free(x);
     p->known = p->status == RB_OK;
-    if (p->status != RB_OK) {
+    if (p->status != RB_OK)
         nlopt_force_stop(f->opt);
+    if (p->status != RB_OK || p->failed) { /* the line search takes a shorter step */
+        for (unsigned j = 0; j < n && gradient; j++)
+            gradient[j] = 0.0;
         return HUGE_VAL;
     }
     for (unsigned j = 0; j < n && gradient; j++)
@@ -494,9 +503,10 @@ static rb_status search(problem *p)
             fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
         const nlopt_result r = nlopt_optimize(opt, u, &least);
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
-            p->status =
-                rb_fail(p->why, RB_MAXITER, "design: not converged after %d evaluations",
-                        d->evaluations);
+            p->status = rb_fail(
+                p->why, RB_MAXITER, "design: not converged after %d evaluations%s%s",
+                d->evaluations, *p->reason.text ? "; some have no solution: " : "",
+                p->reason.text);
         else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
             p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",
                                 nlopt_result_to_string(r));

@@ -194,11 +194,10 @@ static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
     s->hierarchical |= isnan(rb_bem_system_rcond(system));
 }
 
-static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
+/* Who has found the solution, and in what time. */
+static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_state *state = &model->state;
-    rb_contact_violation violation = {0};
-    const rb_status status = rb_contact_residual(&model->problem, state, &violation);
 
     s->status = state->status;
     s->solver = state->solver;
@@ -208,15 +207,10 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
     add_boundary(model->bodies.system_b, s);
     s->lcp_form = state->lcp_form;
     s->iterations = model->iterations;
-    s->residual = violation.scaled;
-    s->residual_gap = violation.gap;
-    s->residual_slip = violation.slip;
-    s->residual_friction = violation.friction;
     s->seconds_assembly = model->bodies.seconds_assembly;
     s->seconds_factor = model->bodies.seconds_factor;
     s->seconds_condense = model->bodies.seconds_condense;
     s->seconds_lcp = model->seconds_lcp;
-    return status;
 }
 
 /* Steady rolling heats by the current solution; of a transient the steps have followed
@@ -249,8 +243,8 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
     return status;
 }
 
-rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
-                                    rb_message *why)
+rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
+                                      rb_rolling_solution *s, rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
@@ -259,9 +253,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
 
     if (status == RB_OK) {
         s->formulation = model->rc->formulation;
-        status = set_proof(model, s);
-    }
-    if (status == RB_OK) {
+        set_counts(model, s);
         s->free_creepage = NAN;
         set_forces(model, s);
         status = set_table(model, s);
@@ -322,5 +314,26 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
         status = set_temperature(model, s, why);
     if (status != RB_OK)
         rb_rolling_solution_free(s);
+    return status;
+}
+
+rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                    rb_message *why)
+{
+    rb_contact_violation violation;
+    rb_status status = rb_rolling_variant_solution(model, s, why);
+
+    if (status != RB_OK)
+        return status;
+    status = rb_contact_residual(&model->problem, &model->state, &violation);
+    s->residual = violation.scaled;
+    s->residual_gap = violation.gap;
+    s->residual_slip = violation.slip;
+    s->residual_friction = violation.friction;
+    if (status != RB_OK) {
+        rb_rolling_solution_free(s);
+        rb_fail(why, status, "out of memory for the residuals of %d elements",
+                model->mesh.n);
+    }
     return status;
 }

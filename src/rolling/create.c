@@ -50,17 +50,22 @@ static rb_rolling_case without_force(const rb_rolling_model *model)
     return rc;
 }
 
-/* On a mesh of its own: a fitted one belongs to the contact that rolls freely. */
-static rb_status roll_freely_anew(const rb_rolling_model *model, double *creepage,
+/* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  The model
+ * is kept for derivatives. */
+static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage,
                                   rb_message *why)
 {
     const rb_rolling_case rc = without_force(model);
-    rb_rolling_model freely;
-    const rb_status s = rb_rolling_model_create(&rc, &freely, why);
 
+    rb_rolling_forget_free_rolling(model);
+    model->freely = calloc(1, sizeof *model->freely);
+    if (!model->freely)
+        return RB_ENOMEM;
+    const rb_status s = rb_rolling_model_create(&rc, model->freely, why);
     if (s == RB_OK)
-        *creepage = freely.state.xi;
-    rb_rolling_model_free(&freely);
+        *creepage = model->freely->state.xi;
+    else
+        rb_rolling_forget_free_rolling(model);
     return s;
 }
 

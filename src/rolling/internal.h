@@ -284,6 +284,8 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
  * point of a curve; mesh, bodies and problem are not changed. */
 rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
                                     rb_message *why);
+/* Frees model->freely. */
+void rb_rolling_forget_free_rolling(rb_rolling_model *model);
 
 /* ---- create.c ---------------------------------------------------------------------- */
 

@@ -6,6 +6,14 @@
 
 enum { RATIO_ROUNDS = 40 };
 
+void rb_rolling_forget_free_rolling(rb_rolling_model *model)
+{
+    if (model->freely)
+        rb_rolling_model_free(model->freely);
+    free(model->freely);
+    model->freely = NULL;
+}
+
 rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
                                     rb_message *why)
 {
@@ -16,6 +24,7 @@ rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_ca
     *copy = *rc;
     free((void *)model->rc);
     model->rc = copy;
+    rb_rolling_forget_free_rolling(model);
     return RB_OK;
 }
 
@@ -35,6 +44,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_mesh_free(&model->mesh);
     free(model->carried.temperature);
     free(model->carried.yielded);
+    rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }
 

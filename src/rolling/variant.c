@@ -209,7 +209,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
         s = rb_contact_state_alloc(of->mesh.n, &v->state);
     if (s == RB_OK)
         rb_rolling_variant_set(&of->state, NULL, 0.0, &v->state);
-    return s == RB_OK ? rb_rolling_variant_complete(v, why) : s;
+    return s;
 }
 
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
@@ -222,7 +222,8 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
                                    double shift, double scale, rb_rolling_model *v,
                                    rb_message *why)
 {
-    return create(of, rc, 0, (motion){shift, scale}, v, why);
+    const rb_status s = create(of, rc, 0, (motion){shift, scale}, v, why);
+    return s == RB_OK ? rb_rolling_variant_complete(v, NULL, NULL, why) : s;
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
@@ -234,7 +235,7 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, 0, at_rest, v, why);
+    const rb_status s = rb_rolling_variant_place(of, rc, 0.0, 1.0, v, why);
     return s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
 }
 
@@ -258,7 +259,7 @@ rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_
     if (s != RB_OK)
         return s;
     rb_rolling_variant_set(&of->state, NULL, 0.0, &v->state);
-    return rb_rolling_variant_complete(v, why);
+    return rb_rolling_variant_complete(v, NULL, NULL, why);
 }
 
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
@@ -292,17 +293,20 @@ void rb_rolling_variant_set(const rb_contact_state *from, const rb_contact_state
     to->lcp_form = from->lcp_form;
 }
 
-rb_status rb_rolling_variant_complete(rb_rolling_model *v, rb_message *why)
+rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *slip,
+                                      rb_message *why)
 {
     rb_contact_state *state = &v->state;
     rb_contact_problem *p = &v->problem;
     const rb_rolling_case *rc = v->rc;
-    double *gap = rb_alloc((size_t)state->n, 1);
+    double *room = rb_alloc((size_t)state->n, 1);
 
-    if (!gap)
+    if (!room)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d elements", state->n);
-    rb_contact_kinematics(p, state, gap, state->lambda);
-    free(gap);
+    rb_contact_kinematics(p, state, gap ? gap : room, state->lambda);
+    if (slip)
+        memcpy(slip, state->lambda, (size_t)state->n * sizeof *slip);
+    free(room);
     for (int i = 0; i < state->n; i++) {
         state->lambda[i] *= state->zone[i] != RB_ZONE_STICK;
         state->plastic[i] =

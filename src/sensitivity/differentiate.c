@@ -142,13 +142,13 @@ static rb_status variants_create(const rb_rolling_model *base,
 }
 
 /* D2: how the equations change while the unknowns stay. */
-static rb_status rates(const variants *v, rb_sensitivity_rate *rate)
+static rb_status rates(variants *v, rb_sensitivity_rate *rate, rb_message *why)
 {
     rb_sensitivity_rate left;
     rb_status s = rb_sensitivity_rate_alloc(v->base->mesh.n, &left);
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
-        rb_sensitivity_residual(v->base, &v->model[k], &left);
+        s = rb_sensitivity_residual(v->base, &v->model[k], &left, why);
         rb_sensitivity_rate_add(&left, v->at.weight[k] / v->step, rate);
     }
     rb_sensitivity_rate_free(&left);
@@ -169,7 +169,7 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, rate);
     if (status == RB_OK)
-        status = rates(&v, rate);
+        status = rates(&v, rate, why);
     *mu = 0.0;
     for (int k = 0; k < v.at.n && status == RB_OK; k++)
         *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
@@ -244,9 +244,9 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
         rb_rolling_variant_set(&v->base->state, tangent, v->at.place[k] * v->step,
                                &v->model[k].state);
-        s = rb_rolling_variant_complete(&v->model[k], why);
+        s = rb_rolling_variant_complete(&v->model[k], NULL, NULL, why);
         if (s == RB_OK)
-            s = rb_rolling_model_solution(&v->model[k], &moved[k], why);
+            s = rb_rolling_variant_solution(&v->model[k], &moved[k], why);
     }
     if (s == RB_OK)
         combine(&v->at, v->step, moved);
@@ -410,7 +410,7 @@ static rb_status differentiate_free(const rb_sensitivity *freely,
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(freely->n, &rate);
     if (status == RB_OK)
-        status = rates(&v, &rate);
+        status = rates(&v, &rate, why);
     if (status == RB_OK)
         status = rb_contact_state_alloc(freely->n, tangent);
     if (status == RB_OK)
@@ -484,7 +484,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)
-        status = rates(&v, &d->rate);
+        status = rates(&v, &d->rate, why);
     for (int k = from; k <= to && status == RB_OK; k++) {
         const int side = k ? 1 : -1;
         d->has[k] = 1;

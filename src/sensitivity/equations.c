@@ -33,21 +33,20 @@ void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
 }
 
 /* Controls scaled as the unknowns of the base are. */
-void rb_sensitivity_residual(const rb_rolling_model *base,
-                             const rb_rolling_model *variant, rb_sensitivity_rate *left)
+rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
+                                  rb_sensitivity_rate *left, rb_message *why)
 {
     const rb_contact_problem *p = &variant->problem, *scale = &base->problem;
     const rb_contact_state *state = &variant->state;
+    const rb_status s = rb_rolling_variant_complete(variant, left->gap, left->slip, why);
 
-    rb_contact_kinematics(p, state, left->gap, left->slip);
-    if (p->yield)
+    if (s != RB_OK)
+        return s;
+    memcpy(left->bound, p->bound, (size_t)left->n * sizeof *left->bound);
+    if (p->yield) {
         rb_contact_yielded(p, state->plastic, left->yield);
-    for (int i = 0; i < left->n; i++) {
-        const int slides = base->state.zone[i] > RB_ZONE_STICK;
-        const double q = slides ? fabs(state->q[i]) : 0.0;
-        left->bound[i] = p->bound[i] - (q > 0.0 ? q / state->p[i] : 0.0);
-        if (p->yield)
-            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]) - q;
+        for (int i = 0; i < left->n; i++)
+            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
     }
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;
@@ -57,6 +56,7 @@ void rb_sensitivity_residual(const rb_rolling_model *base,
                p->force - p->force_ratio * rb_contact_capacity(p, state)) /
                   (scale->mu * scale->stress * base->bodies.f.h[0])
             : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
+    return RB_OK;
 }
 
 /* ---- The law ----------------------------------------------------------------------- */
@@ -134,6 +134,8 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
         status = rb_rolling_variant_create(model, model->rc, 1, &v, why);
+    if (status == RB_OK)
+        status = rb_rolling_variant_complete(&v, NULL, NULL, why);
     if (status == RB_OK)
         status = fill_law(s, &v, room, why);
     rb_rolling_variant_free(model, &v);

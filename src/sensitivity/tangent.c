@@ -368,6 +368,8 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     if (rc->formulation != RB_STEADY || !(rb_rolling_largest_mu(rc) > 0.0) ||
         !rb_contact_operator_response(model->problem.op).coupled)
         return RB_OK;
+    if (model->freely) /* the solve has found it */
+        return create(model->freely, &s->free_rolling, why);
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
