@@ -765,10 +765,10 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
                                       rb_rolling_solution *solution, rb_message *why);
 
 /* A variant of a solved model: a case that differs slightly from the model's in some
- * number, on the same elements, with the model's state and zones, to be completed.  If the flexibility is
- * the same, it is borrowed from the model.  RB_INACCURATE: the number of elements outside
- * the contact differs.  results: 0 if only the equations are needed. variant:
- * overwritten; free it in any case. */
+ * number, on the same elements, with the model's state and zones, to be completed.  If
+ * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
+ * of elements outside the contact differs.  results: 0 if only the equations are needed.
+ * variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     int results, rb_rolling_model *variant,
                                     rb_message *why);

@@ -13,7 +13,7 @@
 #include <nlopt.h>
 #endif
 
-enum { EVALUATIONS = 200, PROFILES = 12 };
+enum { EVALUATIONS = 200, PROFILES = 12, SEARCHES = 5 };
 /* Constraints may be missed by this part of their bounds. */
 static const double MISSED = 1e-6;
 
@@ -477,9 +477,6 @@ static rb_status search(problem *p)
         nlopt_destroy(opt);
         return rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
     }
-    for (int j = 0; j < d->n; j++)
-        u[j] = (d->variable[j].start - d->variable[j].low) /
-               (d->variable[j].high - d->variable[j].low);
     for (int k = 0; k <= d->constraints; k++) {
         const rb_design_constraint *c = k ? &d->constraint[k - 1] : NULL;
         f[k] = (function){p, opt, k, d->largest ? -1.0 : 1.0, 0.0};
@@ -501,7 +498,19 @@ static rb_status search(problem *p)
         p->known = 1;
         f[0].scale /=
             fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
-        const nlopt_result r = nlopt_optimize(opt, u, &least);
+        /* A step without progress may end a search early: again from the best. */
+        nlopt_result r = NLOPT_FTOL_REACHED;
+        double before = INFINITY;
+        for (int k = 0; k < SEARCHES && p->status == RB_OK &&
+                        (r == NLOPT_FTOL_REACHED || r == NLOPT_ROUNDOFF_LIMITED) &&
+                        (k == 0 || p->best_value < before - 1e-7 * fabs(before));
+             k++) {
+            for (int j = 0; j < d->n; j++)
+                u[j] = (p->best[j] - d->variable[j].low) /
+                       (d->variable[j].high - d->variable[j].low);
+            before = p->best_value;
+            r = nlopt_optimize(opt, u, &least);
+        }
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
             p->status = rb_fail(
                 p->why, RB_MAXITER, "design: not converged after %d evaluations%s%s",
