@@ -264,10 +264,10 @@ TEST(acceleration_solves_a_linear_iteration)
     const double b[M] = {1.0, -2.0, 0.5, 3.0};
     unsigned seed = 21;
     double matrix[M * M], r[M] = {0.0}, u[M], start[M];
-    rb_friction_anderson a;
+    rb_anderson a;
     for (int k = 0; k < M * M; k++)
         matrix[k] = 0.6 * uniform(&seed); /* on its own it need not converge */
-    CHECK_STATUS(rb_friction_anderson_init(M, &a), RB_OK);
+    CHECK_STATUS(rb_anderson_init(M, &a), RB_OK);
     for (int k = 0; k < M + 3; k++) {
         memcpy(start, r, sizeof r);
         for (int i = 0; i < M; i++) {
@@ -277,7 +277,7 @@ TEST(acceleration_solves_a_linear_iteration)
         }
         for (int i = 0; i < M; i++)
             u[i] = 2.0 * r[i] - 1.0;
-        rb_friction_anderson_step(&a, start, r, u);
+        rb_anderson_step(&a, start, r, u);
     }
     for (int i = 0; i < M; i++) {
         double next = b[i];
@@ -286,23 +286,23 @@ TEST(acceleration_solves_a_linear_iteration)
         CHECK_ABS(r[i], next, 1e-8, "fixed point, r[%d]", i);
         CHECK_ABS(u[i], 2.0 * r[i] - 1.0, 1e-8, "u goes along, u[%d]", i);
     }
-    rb_friction_anderson_free(&a);
+    rb_anderson_free(&a);
 }
 
 TEST(acceleration_goes_back_where_it_was_led_astray)
 {
     static const double led_to[] = {1.0, 1.5, 40.0};
     double r[1] = {0.0}, u[1] = {0.0}, start[1];
-    rb_friction_anderson a;
-    CHECK_STATUS(rb_friction_anderson_init(1, &a), RB_OK);
+    rb_anderson a;
+    CHECK_STATUS(rb_anderson_init(1, &a), RB_OK);
     for (int k = 0; k < 3; k++) {
         start[0] = k == 1 ? 1.0 : r[0];
         r[0] = u[0] = led_to[k];
-        rb_friction_anderson_step(&a, start, r, u);
+        rb_anderson_step(&a, start, r, u);
     }
     CHECK_ABS(r[0], 1.5, 0.0, "the last point before the extrapolation");
     CHECK_ABS(u[0], 1.5, 0.0, "with its velocity");
-    rb_friction_anderson_free(&a);
+    rb_anderson_free(&a);
 }
 
 /* A pile: every contact pressed by its neighbours, W_NN tridiagonal. */

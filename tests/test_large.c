@@ -30,6 +30,40 @@ static rb_rolling_case steady(pairing pair, int elements)
     return rc;
 }
 
+/* ---- Friction laws
+ * --------------------------------------------------------------------- */
+
+/* The law's coefficients are followed from coarse elements to fine ones, and so is the
+ * creepage of a force; the matrix begins on the fine elements, at rest. */
+TEST(a_law_that_is_followed_equals_one_begun_at_rest)
+{
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = steady(k % 2 ? SIMILAR : DISSIMILAR, 200);
+        rb_rolling_solution followed = {0}, begun = {0};
+        rb_message why;
+        rc.friction.law = RB_FRICTION_exponential;
+        rc.friction.fall[0] = 0.1;
+        rc.friction.slip_scale[0] = 2.0;
+        rc.speed = 1000.0;
+        if (k > 1) {
+            rc.creep_ratio = NAN;
+            rc.force_ratio = -0.5;
+        }
+        CHECK_STATUS(rb_rolling_solve(&rc, &followed, &why), RB_OK);
+        rc.contact.solver = RB_SOLVER_LEMKE;
+        CHECK_STATUS(rb_rolling_solve(&rc, &begun, &why), RB_OK);
+        CHECK_REL(followed.creepage, begun.creepage, 1e-9, "creepage");
+        CHECK_REL(followed.force_ratio, begun.force_ratio, 1e-9, "force");
+        CHECK_ABS(followed.free_creepage, begun.free_creepage, 1e-12, "free rolling");
+        for (int i = 0; i < followed.n; i++) {
+            assert_int_equal(followed.zone[i], begun.zone[i]);
+            CHECK_ABS(followed.q[i], begun.q[i], 1e-9 * begun.max_pressure, "q of %d", i);
+        }
+        rb_rolling_solution_free(&followed);
+        rb_rolling_solution_free(&begun);
+    }
+}
+
 /* ---- Against the dense path -------------------------------------------------------- */
 
 /* The model's problem once more, with the matrix. */

@@ -150,6 +150,31 @@ double rb_norm_inf(size_t n, const double *x);
  * differ. */
 double rb_norm_1(size_t n, const double *x, size_t stride);
 
+/* sum x_i y_i over n, in an order that does not depend on addresses. */
+double rb_dot(size_t n, const double *x, const double *y);
+
+/* Anderson's acceleration of a fixed-point iteration.  init: memory for m numbers; free
+ * it in any case. */
+#define RB_ANDERSON_DEPTH 5
+
+typedef struct {
+    int m, used, next;    /* number of stored differences, place of the next one */
+    int known;            /* 1: there was a step before */
+    double *f, *r, *u;    /* m: this step and its result; in the memory of f, like the
+                             following arrays */
+    double *df, *dr, *du; /* m x DEPTH */
+    double size;          /* ||f|| */
+    double gram[RB_ANDERSON_DEPTH][RB_ANDERSON_DEPTH];
+} rb_anderson;
+
+rb_status rb_anderson_init(int m, rb_anderson *a);
+void rb_anderson_free(rb_anderson *a);
+void rb_anderson_forget(rb_anderson *a);
+/* An iteration has led from start to r, and to u, which is affine in r (NULL: there is no
+ * such vector); the function replaces r and u by the values from which the next iteration
+ * starts. */
+void rb_anderson_step(rb_anderson *a, const double *start, double *r, double *u);
+
 RB_PUBLIC_END
 
 #endif

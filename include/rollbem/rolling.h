@@ -678,7 +678,9 @@ typedef struct rb_rolling_model {
     double half_width; /* Hertz's half-width of the last computed load; used in the creep
                           ratio */
     double seconds_lcp;
-    int iterations;  /* of all solves so far */
+    int iterations; /* of all solves so far */
+    int follows; /* 1: friction and creepage are, until the next solve, those of the case
+                    on other elements */
     int same_bodies; /* 1: `bodies` need not be built again for `rc` on the same mesh */
     rb_rolling_carried carried;
     struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was

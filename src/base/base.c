@@ -193,6 +193,19 @@ double rb_norm_1(size_t n, const double *x, size_t stride)
     return norm;
 }
 
+/* Four sums at a time: one would wait for each addition before it starts the next. */
+double rb_dot(size_t n, const double *x, const double *y)
+{
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t k = 0;
+    for (; k + 4 <= n; k += 4)
+        for (size_t i = 0; i < 4; i++)
+            sum[i] += x[k + i] * y[k + i];
+    for (; k < n; k++)
+        sum[0] += x[k] * y[k];
+    return sum[0] + sum[1] + (sum[2] + sum[3]);
+}
+
 uint64_t rb_hash(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *byte = data;

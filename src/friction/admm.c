@@ -32,7 +32,7 @@ typedef struct {
     int k, limit, next;  /* next: when the penalty is looked at */
     int begun, factored;
     double cost; /* of the first factorisation at most; 0 once it is done */
-    rb_friction_anderson anderson;
+    rb_anderson anderson;
 } admm;
 
 /* z, y and s from the state x = z + y */
@@ -68,7 +68,7 @@ static rb_status factor(admm *a)
 static void finish_admm(void *state)
 {
     admm *a = state;
-    rb_friction_anderson_free(&a->anderson);
+    rb_anderson_free(&a->anderson);
     rb_friction_system_free(&a->system);
     free(a->A);
 }
@@ -96,7 +96,7 @@ static rb_status start_admm(rb_friction_task *task, int variant, void *state)
         a->B[i * d + i % d] = 1.0;
     memcpy(a->x, task->r, m * sizeof(double));
     split(a);
-    rb_status st = rb_friction_anderson_init(task->m, &a->anderson);
+    rb_status st = rb_anderson_init(task->m, &a->anderson);
     if (st == RB_OK)
         st = rb_friction_system_init_local(task, &a->system);
     return st;
@@ -121,7 +121,7 @@ static rb_status iterate(admm *a)
         a->primal += unit * unit * (a->r[i] - z) * (a->r[i] - z);
         a->dual += unit * unit * (a->x[i] - a->before[i]) * (a->x[i] - a->before[i]);
     }
-    rb_friction_anderson_step(&a->anderson, a->before, a->x, a->r);
+    rb_anderson_step(&a->anderson, a->before, a->x, a->r);
     split(a);
     t->info->flops += a->system.flops + (46.0 + 8.0 * a->anderson.used) * t->m;
     a->system.flops = 0.0;
@@ -141,7 +141,7 @@ static rb_status balance(admm *a)
     for (int i = 0; i < a->task->m; i++) /* P y, the velocity, stays */
         a->x[i] = a->z[i] + a->y[i] * before / a->penalty;
     split(a);
-    rb_friction_anderson_forget(&a->anderson);
+    rb_anderson_forget(&a->anderson);
     return factor(a);
 }
 

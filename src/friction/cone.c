@@ -2,24 +2,6 @@
 
 #include <math.h>
 
-/* Four sums at a time: one would wait for each addition before it starts the next. */
-static inline double dot(size_t n, const double *x, const double *y)
-{
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    size_t k = 0;
-    for (; k + 4 <= n; k += 4)
-        for (size_t i = 0; i < 4; i++)
-            sum[i] += x[k + i] * y[k + i];
-    for (; k < n; k++)
-        sum[0] += x[k] * y[k];
-    return sum[0] + sum[1] + (sum[2] + sum[3]);
-}
-
-double rb_friction_dot(size_t n, const double *x, const double *y)
-{
-    return dot(n, x, y);
-}
-
 /* Sums of squares in this range have lost nothing to overflow or underflow. */
 static inline int is_safe(double sum)
 {
@@ -28,7 +10,7 @@ static inline int is_safe(double sum)
 
 double rb_friction_norm(size_t n, const double *x)
 {
-    double sum = dot(n, x, x);
+    double sum = rb_dot(n, x, x);
     if (is_safe(sum))
         return sqrt(sum);
     const double largest = rb_norm_inf(n, x);

@@ -11,7 +11,7 @@
 
 /* Anderson's acceleration, where the sweeps are accelerated and the first did not do. */
 typedef struct {
-    rb_friction_anderson anderson;
+    rb_anderson anderson;
     double *start;   /* m: r before the sweep; owns kept too */
     double *kept;    /* 2 m: r and u after the sweep of the least change */
     double least;    /* that change (14) */
@@ -80,7 +80,7 @@ static void finish_sweeps(void *state)
 {
     sweeper *s = state;
     if (s->faster) {
-        rb_friction_anderson_free(&s->faster->anderson);
+        rb_anderson_free(&s->faster->anderson);
         free(s->faster->start);
         free(s->faster);
     }
@@ -189,7 +189,7 @@ static rb_status start_acceleration(sweeper *s)
     a->kept = a->start + m;
     a->rest = REST;
     a->fresh = 1;
-    return a->start ? rb_friction_anderson_init(s->task->m, &a->anderson) : RB_ENOMEM;
+    return a->start ? rb_anderson_init(s->task->m, &a->anderson) : RB_ENOMEM;
 }
 
 /* The next sweep starts from where the last ones point to. */
@@ -211,14 +211,14 @@ static rb_status accelerate(sweeper *s, double change)
         const size_t m = (size_t)s->task->m;
         memcpy(s->task->r, a->kept, m * sizeof(double));
         memcpy(s->task->u, a->kept + m, m * sizeof(double));
-        rb_friction_anderson_forget(&a->anderson);
+        rb_anderson_forget(&a->anderson);
         a->plain = a->rest;
         a->rest *= 2;
         a->fresh = 1;
         return RB_OK;
     }
     if (!a->fresh) {
-        rb_friction_anderson_step(&a->anderson, a->start, t->r, t->u);
+        rb_anderson_step(&a->anderson, a->start, t->r, t->u);
         t->info->flops += (6.0 + 8.0 * a->anderson.used) * t->m;
     }
     a->fresh = 0;

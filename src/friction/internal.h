@@ -31,7 +31,6 @@ double rb_friction_natural_norm(const rb_friction_problem *problem, const double
  * overflow or underflow. */
 double rb_friction_size(const rb_friction_problem *problem, const double *rho,
                         const double *r, double *work);
-double rb_friction_dot(size_t n, const double *x, const double *y);
 double rb_friction_norm(size_t n, const double *x);
 /* ||x - y|| */
 double rb_friction_distance(size_t n, const double *x, const double *y);
@@ -223,28 +222,6 @@ void rb_friction_task_seen(rb_friction_task *task, double error);
 int rb_friction_prove(rb_friction_task *task);
 /* Restores r, v and info->solver of the best iterate, if there is one. */
 void rb_friction_task_recall(rb_friction_task *task);
-
-/* ---- Anderson's acceleration (anderson.c) ------------------------------------------ */
-
-#define RB_FRICTION_ANDERSON_DEPTH 5
-
-typedef struct {
-    int m, used, next;    /* number of stored differences, place of the next one */
-    int known;            /* 1: there was a step before */
-    double *f, *r, *u;    /* m: this step and its result; in the memory of f, like the
-                             following arrays */
-    double *df, *dr, *du; /* m x DEPTH */
-    double size;          /* ||f|| */
-    double gram[RB_FRICTION_ANDERSON_DEPTH][RB_FRICTION_ANDERSON_DEPTH];
-} rb_friction_anderson;
-
-rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a);
-void rb_friction_anderson_free(rb_friction_anderson *a);
-void rb_friction_anderson_forget(rb_friction_anderson *a);
-/* An iteration has led from start to r with velocities u; the function replaces r and u
- * by the values from which the next iteration starts. */
-void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
-                               double *u);
 
 /* ---- Functions whose roots are solutions (functions.c) ----------------------------- */
 

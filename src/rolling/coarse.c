@@ -24,6 +24,40 @@ static double interpolated(const rb_rolling_mesh *mesh, const double *value, dou
     return value[j] + (value[other] - value[j]) * (x - here) / (there - here);
 }
 
+/* Only one state is possible with the friction law. */
+static int is_unique(const rb_rolling_model *model)
+{
+    double kappa;
+
+    return model->rc->formulation == RB_STEADY && model->rc->friction.heat <= 0.0 &&
+           rb_rolling_law_kappa(model, &kappa) == RB_OK && kappa < 1.0;
+}
+
+double *rb_rolling_friction_of(const rb_rolling_model *model)
+{
+    return rb_rolling_law_depends_on_state(model->rc) && model->state.status == RB_OK &&
+                   is_unique(model)
+               ? rb_copy((size_t)model->problem.n, model->problem.bound)
+               : NULL;
+}
+
+void rb_rolling_follow_friction(const rb_rolling_mesh *mesh, const double *bound,
+                                rb_rolling_model *fine)
+{
+    rb_contact_problem *p = &fine->problem;
+    const double *ends = fine->mesh.ends;
+
+    for (int i = 0, j = 0; i < p->n && bound; i++) {
+        const double x = 0.5 * (ends[i] + ends[i + 1]);
+        while (j < mesh->n - 1 && mesh->ends[j + 1] < x)
+            j++;
+        p->bound[i] = interpolated(mesh, bound, x, j);
+    }
+    if (bound)
+        rb_contact_set_friction(p, p->mu, p->bound);
+    fine->follows = bound != NULL;
+}
+
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                            const rb_contact_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_contact_state *fine)

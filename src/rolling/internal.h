@@ -278,6 +278,14 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
                            const rb_contact_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_contact_state *fine);
 
+/* The friction coefficients (n; owned by the caller) of a solved model; NULL: those of
+ * the case, or the law may have other states, or no memory. */
+double *rb_rolling_friction_of(const rb_rolling_model *model);
+/* Interpolates them from the mesh to a model on other elements, whose next solve follows
+ * them; NULL: none. */
+void rb_rolling_follow_friction(const rb_rolling_mesh *mesh, const double *bound,
+                                rb_rolling_model *fine);
+
 /* ---- model.c ----------------------------------------------------------------------- */
 
 /* Sets another case on the same elements, for the next step of a history or the next

@@ -157,18 +157,24 @@ static double enough_of(const rb_rolling_model *model)
     return fmax(0.1 * model->rc->contact.tol, fmax(model->problem.rounding, 1e-14));
 }
 
-/* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v.
+/* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v.  Near a
+ * solution, where the changes fall by themselves, rounds of many elements, without a
+ * matrix, are accelerated.
  * RB_MAXITER: they still change. */
 static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 {
     enum { ROUNDS = 200 };
+    static const double NEAR = 0.05, FALLS = 0.7;
     rb_contact_problem *p = &model->problem;
     rb_contact_state *state = &model->state;
     const double enough = enough_of(model);
+    const int large = !rb_contact_operator_matrix(p->op).F;
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
     relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY};
-    rb_status s = mu ? RB_OK : RB_ENOMEM;
+    rb_anderson faster;
+    rb_status s = rb_anderson_init(large ? p->n : 0, &faster);
 
+    s = mu ? s : RB_ENOMEM;
     r.step = mu ? mu + p->n : NULL;
     for (int k = 0; k < ROUNDS && s == RB_OK && change > enough; k++) {
         s = rb_rolling_problem_solve(p, model->rc, warm || k > 0, state, why);
@@ -179,8 +185,9 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
             break;
         /* The natural residual that coefficients in the place of the problem's would
          * leave. */
-        change = 0.0;
+        const double before = change;
 
+        change = 0.0;
         for (int i = 0; i < p->n; i++)
             change = fmax(change,
                           fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
@@ -208,9 +215,16 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
                 r.step[i] = mu[i] - p->bound[i];
                 mu[i] = p->bound[i] + r.part * r.step[i];
             }
+            if (large && r.part == 1.0 && change < NEAR && change < FALLS * before)
+                rb_anderson_step(&faster, p->bound, mu, NULL);
+            else
+                rb_anderson_forget(&faster);
+            for (int i = 0; i < p->n; i++)
+                mu[i] = fmax(mu[i], 0.0);
         }
         rb_contact_set_friction(p, p->mu, mu);
     }
+    rb_anderson_free(&faster);
     free(mu);
     return s == RB_OK && change > enough
                ? rb_fail(why, RB_MAXITER,
@@ -422,11 +436,44 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
     return s == RB_OK ? measure(model, why) : s;
 }
 
+/* From the solution of the same case on other elements: the force is reached close to its
+ * creepage.  RB_MAXITER: it is not. */
+static rb_status follow_force(rb_rolling_model *model)
+{
+    enum { ROUNDS = 40 };
+    static const double CLOSE = 0.02;
+    rb_contact_problem *p = &model->problem;
+    const double xi = model->state.xi;
+    const double unit = rb_rolling_sliding_creepage(model->rc, p);
+    double before = INFINITY, small = 0.0;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < ROUNDS && s == RB_OK && fabs(p->force - before) > small; k++) {
+        before = p->force;
+        s = go_round(model, 1, NULL);
+        set_force(model);
+        small = 0.1 * fmax(model->rc->contact.tol, p->rounding) *
+                rb_contact_capacity(p, &model->state);
+    }
+    if (s == RB_OK && !(fabs(model->state.xi - xi) <= CLOSE * unit))
+        s = RB_MAXITER;
+    return s == RB_OK ? measure(model, NULL) : s;
+}
+
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
 {
-    const rb_status s =
-        model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
+    const int follows = model->follows;
+    rb_status s = RB_MAXITER;
 
+    model->follows = 0;
+    if (model->problem.force_given && follows) {
+        s = follow_force(model);
+        if (s > 0)
+            rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
+    }
+    if (s > 0)
+        s = model->problem.force_given ? solve_force(model, why)
+                                       : iterate(model, warm, why);
     return model->state.status = s;
 }
 

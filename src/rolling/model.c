@@ -123,6 +123,11 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     if (s >= 0)
         rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh,
                               &model->state);
+    if (s == RB_OK) {
+        double *bound = rb_rolling_friction_of(&coarse);
+        rb_rolling_follow_friction(&coarse.mesh, bound, model);
+        free(bound);
+    }
     model->iterations += coarse.iterations;
     rb_rolling_model_free(&coarse);
     return s < 0 ? s : RB_OK;
@@ -175,6 +180,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                      model->rc->mesh == RB_MESH_ALIGNED;
     rb_rolling_mesh old_mesh = model->mesh;
     rb_contact_state old = model->state;
+    double *bound = near ? rb_rolling_friction_of(model) : NULL;
 
     memset(&model->state, 0, sizeof model->state);
     rb_contact_problem_free(&model->problem);
@@ -184,10 +190,12 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     memset(mesh, 0, sizeof *mesh);
     rb_status s = set_up(model, kept, why);
     const int large = s == RB_OK && !model->bodies.F;
-    if (large && near)
+    if (large && near) {
         rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
-    else if (large)
+        rb_rolling_follow_friction(&old_mesh, bound, model);
+    } else if (large)
         s = start_from_coarse(model, why);
+    free(bound);
     rb_contact_state_free(&old);
     rb_rolling_mesh_free(&old_mesh);
     if (s == RB_OK)

@@ -2,21 +2,29 @@
  * last steps f = g(r) - r are combined so that the sum is as small as possible, and the
  * same combination of the g is the next r.  For a linear iteration this is GMRES.  u is
  * combined in the same way, because it is affine in r. */
-#include "friction/internal.h"
+#include "rollbem/base.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define DEPTH RB_FRICTION_ANDERSON_DEPTH
+#define DEPTH RB_ANDERSON_DEPTH
 #define REGULARISATION 1e-12 /* of the trace of the normal equations */
 /* An extrapolation after which the step is this much longer led astray. */
 #define WORST_GROWTH 2.0
 
-rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a)
+static double distance(size_t n, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; k++)
+        sum += (x[k] - y[k]) * (x[k] - y[k]);
+    return sqrt(sum);
+}
+
+rb_status rb_anderson_init(int m, rb_anderson *a)
 {
     const size_t size = (size_t)m;
-    *a = (rb_friction_anderson){.m = m, .f = rb_alloc(size, 3 * DEPTH + 3)};
+    *a = (rb_anderson){.m = m, .f = rb_alloc(size, 3 * DEPTH + 3)};
     if (!a->f)
         return RB_ENOMEM;
     a->r = a->f + size;
@@ -27,14 +35,14 @@ rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a)
     return RB_OK;
 }
 
-void rb_friction_anderson_free(rb_friction_anderson *a)
+void rb_anderson_free(rb_anderson *a)
 {
     free(a->f);
-    *a = (rb_friction_anderson){0};
+    *a = (rb_anderson){0};
 }
 
 /* x: the solution of gram x = x, by Cholesky; 0 where it has no pivot left. */
-static int solve_normal_equations(const rb_friction_anderson *a, double *x)
+static int solve_normal_equations(const rb_anderson *a, double *x)
 {
     const int n = a->used;
     double L[DEPTH][DEPTH], trace = 0.0;
@@ -61,20 +69,20 @@ static int solve_normal_equations(const rb_friction_anderson *a, double *x)
     return 1;
 }
 
-void rb_friction_anderson_forget(rb_friction_anderson *a)
+void rb_anderson_forget(rb_anderson *a)
 {
     a->used = a->next = a->known = 0;
 }
 
-void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
-                               double *u)
+void rb_anderson_step(rb_anderson *a, const double *start, double *r, double *u)
 {
     const size_t m = (size_t)a->m, bytes = m * sizeof(double);
-    const double size = rb_friction_distance(m, r, start);
+    const double size = distance(m, r, start);
     if (a->used && size > WORST_GROWTH * a->size) {
         memcpy(r, a->r, bytes);
-        memcpy(u, a->u, bytes);
-        rb_friction_anderson_forget(a);
+        if (u)
+            memcpy(u, a->u, bytes);
+        rb_anderson_forget(a);
         return;
     }
     if (a->known) {
@@ -83,25 +91,27 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
         for (size_t k = 0; k < m; k++) {
             a->df[at + k] = r[k] - start[k] - a->f[k];
             a->dr[at + k] = r[k] - a->r[k];
-            a->du[at + k] = u[k] - a->u[k];
+            if (u)
+                a->du[at + k] = u[k] - a->u[k];
         }
         if (a->used < DEPTH)
             a->used++;
         for (int i = 0; i < a->used; i++)
             a->gram[i][a->next] = a->gram[a->next][i] =
-                rb_friction_dot(m, a->df + (size_t)i * m, a->df + at);
+                rb_dot(m, a->df + (size_t)i * m, a->df + at);
         a->next = (a->next + 1) % DEPTH;
     }
     for (size_t k = 0; k < m; k++)
         a->f[k] = r[k] - start[k];
     memcpy(a->r, r, bytes);
-    memcpy(a->u, u, bytes);
+    if (u)
+        memcpy(a->u, u, bytes);
     a->size = size;
     a->known = 1;
     if (a->used) {
         double weight[DEPTH];
         for (int i = 0; i < a->used; i++)
-            weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
+            weight[i] = rb_dot(m, a->df + (size_t)i * m, a->f);
         if (!solve_normal_equations(a, weight)) {
             a->used = a->next = 0;
             return;
@@ -110,7 +120,8 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
             const double *dr = a->dr + (size_t)i * m, *du = a->du + (size_t)i * m;
             for (size_t k = 0; k < m; k++) {
                 r[k] -= weight[i] * dr[k];
-                u[k] -= weight[i] * du[k];
+                if (u)
+                    u[k] -= weight[i] * du[k];
             }
         }
     }
