@@ -10,8 +10,10 @@
 
 enum { WORDS_MAX = 40 };
 
-static const cli_command commands[] = {
-    {"sweep", cli_sweep, ""}, {"stress", cli_stress, ""}, {"", cli_solve, ""}};
+static const cli_command commands[] = {{"sweep", cli_sweep, ""},
+                                       {"crack", cli_crack, ""},
+                                       {"stress", cli_stress, ""},
+                                       {"", cli_solve, ""}};
 
 /* As main does, but results go to a file that nobody reads and failures are kept. */
 static void begin(void)
@@ -160,16 +162,20 @@ static int asks_for_more(const char *text, const char *option, double most)
     return 0;
 }
 
-/* What the program writes of each kind of result, made once; kind: 0 ... 3. */
+/* What the program writes of each kind of result, made once; ANY_BYTES is no kind. */
+enum { KINDS = 6, ANY_BYTES = 4, STRESS = 2, CRACK = 5 };
 static const char *result_of_kind(int kind, size_t *size)
 {
-    static char *text[4];
-    static size_t length[4];
-    static char *const lines[4][24] = {
+    static char *text[KINDS];
+    static size_t length[KINDS];
+    static char *const lines[KINDS][24] = {
         {"--creep-ratio", "0.4", "--formulation", "steady", "--json"},
         {"--shift", "1e-4", "--increments", "2", "--states", "--json"},
         {"stress", "--shift", "1e-4", "--grid", "2x2", "--shakedown", "--json"},
-        {"--creep-ratio", "0.4", "--formulation", "steady", "--mesh", "uniform"}};
+        {"--creep-ratio", "0.4", "--formulation", "steady", "--mesh", "uniform"},
+        {NULL},
+        {"crack", "--crack-elements", "4", "--steps", "24", "--fluid", "trapped",
+         "--states", "--json"}};
     static char *const common[] = {
         "--support", "halfplane",          "--load", "100",      "--mu",     "0.3",
         "--quiet",   "--contact-elements", "5",      "--output", "reference"};
@@ -183,8 +189,9 @@ static const char *result_of_kind(int kind, size_t *size)
         argv[argc] = NULL;
         cli_end(); /* results quote this command line */
         fuzz_require(cli_begin(commands, argc, argv) &&
-                         (kind == 2 ? cli_stress(argc - 1, argv + 1)
-                                    : cli_solve(argc, argv)) == CLI_OK,
+                         (kind == STRESS  ? cli_stress(argc - 1, argv + 1)
+                          : kind == CRACK ? cli_crack(argc - 1, argv + 1)
+                                          : cli_solve(argc, argv)) == CLI_OK,
                      "the result is there");
         text[kind] = fuzz_read("reference", &length[kind]);
     }
@@ -214,30 +221,31 @@ static char *edited(fuzz_bytes *b, const char *text, size_t *size)
     return now;
 }
 
-/* A result or a table, edited (first byte: which), or any bytes behind a 4: valid,
+/* A result or a table, edited (first byte: which), or any bytes behind ANY_BYTES: valid,
  * violated or refused with a reason. */
 void fuzz_check(const uint8_t *data, size_t size)
 {
     fuzz_bytes b = {data, data + size};
     char *argv[] = {"check", "result", NULL};
     begin();
-    const int kind = fuzz_choice(&b, 5);
+    const int kind = fuzz_choice(&b, KINDS);
     size_t n = (size_t)(b.end - b.at);
     char *text;
-    if (kind == 4)
+    if (kind == ANY_BYTES)
         text = fuzz_text(b.at, n);
     else {
         const char *whole = result_of_kind(kind, &n);
         text = edited(&b, whole, &n);
     }
     if (!asks_for_more(text, "outer-elements", 200.0) &&
-        !asks_for_more(text, "hub-ratio", 0.9)) {
+        !asks_for_more(text, "hub-ratio", 0.9) &&
+        !asks_for_more(text, "crack-elements", 100.0)) {
         fuzz_keep("result", text, n);
         const int code = cli_check(2, argv);
         fuzz_require(code == CLI_OK || code == CLI_UNSOLVED || code == CLI_DATA,
                      "an exit code is a documented one");
         fuzz_require(code < CLI_USAGE || cli_kept_failure()[0], "a refusal says why");
-        fuzz_require(code == CLI_OK || kind == 4 || size > 1,
+        fuzz_require(code == CLI_OK || kind == ANY_BYTES || size > 1,
                      "what nobody edited is valid");
     }
     free(text);
