@@ -387,6 +387,58 @@ static void passes_of_a_contact(void **state)
     }
 }
 
+/* A crack below the surface, which opens at its upper end and slides at both, under the
+ * tractions of Carter: half of the contact sticks, mu 0.3, braked.  K/p0 of an
+ * independent program (tests share nothing with it): 80 constant displacement
+ * discontinuities, collocated; real fields of dislocations, the surface freed by
+ * Flamant's solution integrated over it; active sets and projected Gauss-Seidel. */
+static void below_the_surface_under_carter(void **state)
+{
+    static const struct {
+        int step;
+        double K_I_upper, K_II_upper, K_II;
+    } want[] = {{50, 0.0, 0.036418, -0.009954},
+                {60, 0.0, 0.322678, 0.244568},
+                {70, 0.0, 0.293120, 0.413131},
+                {83, 0.005122, -0.000879, 0.175429},
+                {100, 0.019191, 0.003301, -0.050692}};
+    double x[STEPS], most[2] = {0.0};
+    hertz load;
+    set_hertz(0.0, &load);
+    for (int i = 0; i < STRIPS;
+         i++) { /* the stick zone is that of a contact half as wide */
+        const double h = load.x[i + 1] - load.x[i];
+        const double stuck =
+            0.25 *
+            (primitive(2.0 * load.x[i + 1] - 1.0) - primitive(2.0 * load.x[i] - 1.0)) / h;
+        load.q[i] = -0.3 * (load.p[i] - stuck);
+    }
+    for (int k = 0; k < STEPS; k++)
+        x[k] = -6.0 + 0.1 * k;
+    for (int n = 40; n <= 80; n += 40) {
+        rb_crack_shape shape = edge_crack(30.0, n, 0.2);
+        shape.path = rb_crack_straight(0.0, 0.4, 2.0, 30.0);
+        shape.poisson = 0.1;
+        rb_crack *c = create(shape);
+        const rb_crack_passage passage = {
+            .steps = STEPS, .x = x, .loads = 1, .load = &load.load, .passes = 1};
+        rb_crack_history h;
+        CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+        for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+            const int i = want[k].step;
+            const double off[] = {h.K_I_upper[i] - want[k].K_I_upper,
+                                  h.K_II_upper[i] - want[k].K_II_upper,
+                                  h.K_II[i] - want[k].K_II};
+            for (int m = 0; m < 3; m++)
+                most[n / 40 - 1] = fmax(most[n / 40 - 1], fabs(off[m]));
+        }
+        rb_crack_history_free(&h);
+        rb_crack_free(c);
+    }
+    CHECK_MAX(most[0], 8e-4, "40 elements");
+    CHECK_MAX(most[1], 0.3 * most[0], "80 elements: order 2");
+}
+
 /* From position to position by rb_crack_step, where what is trapped is the volume at the
  * last position with an open mouth; x grows.  Returns the largest K_I/(p0 sqrt(pi a)). */
 static double by_steps(int n, int positions, const double *x, double *pressure)
@@ -705,6 +757,7 @@ int main(void)
         cmocka_unit_test(trapped_in_the_full_plane),
         cmocka_unit_test(stress_of_strips),
         cmocka_unit_test(passes_of_a_contact),
+        cmocka_unit_test(below_the_surface_under_carter),
         cmocka_unit_test(betti),
         cmocka_unit_test(trapped_fluid_by_positions),
         cmocka_unit_test(trapped_fluid),

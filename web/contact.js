@@ -14,6 +14,7 @@ import {
     width_of,
     zone_colours,
 } from "./draw.js";
+import { make_draggable } from "./knob.js";
 import { matters_card } from "./matters.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { say } from "./words.js";
@@ -342,14 +343,11 @@ export function creep_curve(words, { width, height, curve, old, numbers: n, stor
         "aria-valuetext": say(words.curve_value, { s: show(n.creep_ratio, 3), f: show(n.force_ratio, 3) }),
         style: "fill:var(--accent);stroke:var(--card);stroke-width:3;touch-action:none",
     });
-    point.addEventListener("pointerdown", (event) => {
-        event.preventDefault();
-        store.hold();
-        const box = root.getBoundingClientRect(),
-            zoom = width / box.width,
+    make_draggable(store, point, (event) => {
+        const zoom = width / root.getBoundingClientRect().width,
             start = [event.clientX, event.clientY];
         let way = null;
-        const move = (e) => {
+        return (e) => {
             const [dx, dy] = [e.clientX - start[0], e.clientY - start[1]];
             way ??= Math.hypot(dx, dy) > 4 ? (Math.abs(dx) > Math.abs(dy) ? "side" : "up") : null;
             if (way === "side")
@@ -359,15 +357,6 @@ export function creep_curve(words, { width, height, curve, old, numbers: n, stor
                     Math.max(-0.99, Math.min(0.99, at[1] - (dy * zoom * 2.24) / (height - plot.top - plot.bottom))),
                 );
         };
-        const up = () => {
-            window.removeEventListener("pointermove", move);
-            window.removeEventListener("pointerup", up);
-            window.removeEventListener("pointercancel", up);
-            store.release();
-        };
-        window.addEventListener("pointermove", move);
-        window.addEventListener("pointerup", up);
-        window.addEventListener("pointercancel", up);
     });
     point.addEventListener("keydown", (event) => {
         const side = { ArrowRight: 0.02, ArrowLeft: -0.02 }[event.key],

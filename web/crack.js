@@ -1,6 +1,7 @@
 /* Chapter 6: a contact that passes over a crack, as the library solves it position by position: the wheel is dragged
  * over it, and its faces open, stick and slide. */
 import { card, chart, html, legend, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
+import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
@@ -394,21 +395,11 @@ export function crack_view(words, page) {
             svg("circle", { r: sign ? 13 : 8, style: "fill:var(--accent);stroke:var(--card);stroke-width:3" }),
             svg("text", { "text-anchor": "middle", y: 5, style: "fill:var(--on-accent);font-size:15px" }, sign),
         );
-        group.addEventListener("pointerdown", (event) => {
-            event.preventDefault();
+        make_draggable(store, group, (event) => {
             group.focus({ preventScroll: true });
             frames.stop();
-            store.hold();
             const zoom = width_of(picture) / picture.firstChild.getBoundingClientRect().width;
-            const move = (e) => drag((e.clientX - event.clientX) * zoom, (e.clientY - event.clientY) * zoom);
-            const up = () => {
-                for (const kind of ["pointermove", "pointerup", "pointercancel"])
-                    window.removeEventListener(kind, kind === "pointermove" ? move : up);
-                store.release();
-            };
-            window.addEventListener("pointermove", move);
-            window.addEventListener("pointerup", up);
-            window.addEventListener("pointercancel", up);
+            return (e) => drag((e.clientX - event.clientX) * zoom, (e.clientY - event.clientY) * zoom);
         });
         group.addEventListener("keydown", (event) => {
             if (!keys[event.key]) return;

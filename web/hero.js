@@ -3,6 +3,7 @@
 import { canvas_pen, read_palette, svg_pen } from "./pen.js";
 import { draw_lens, fit_lens, lens_still_fits } from "./lens.js";
 import { html, show } from "./draw.js";
+import { make_draggable } from "./knob.js";
 import { ALL_TANGENTIAL, NORMAL, formulation_of, hold, radius_of_ground, share_of_ground } from "./state.js";
 import { say } from "./words.js";
 
@@ -189,23 +190,11 @@ export function hero_view(words, page) {
 
     const now = () => store.solved.main;
     function grip(node, begin, move, keys) {
-        node.addEventListener("pointerdown", (event) => {
-            if (!now()) return;
-            event.preventDefault();
+        make_draggable(store, node, (event) => {
+            if (!now()) return null;
             node.focus({ preventScroll: true });
-            node.setPointerCapture(event.pointerId);
-            store.hold();
             const start = begin(event);
-            const on = (e) => move(e, start);
-            const off = () => {
-                node.removeEventListener("pointermove", on);
-                node.removeEventListener("pointerup", off);
-                node.removeEventListener("pointercancel", off);
-                store.release();
-            };
-            node.addEventListener("pointermove", on);
-            node.addEventListener("pointerup", off);
-            node.addEventListener("pointercancel", off);
+            return (e) => move(e, start);
         });
         node.addEventListener("keydown", (event) => {
             const step = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 5, PageDown: -5 }[

@@ -1,4 +1,4 @@
-/* A slider with an exact field, for one number of a case. */
+/* What hands move: things that are dragged, sliders, and a slider with an exact field for one number of a case. */
 import { html, show } from "./draw.js";
 import { with_point } from "./state.js";
 
@@ -40,6 +40,24 @@ export function slider_for(store, attributes, move) {
     }
     for (const event of ["change", "pointerup", "blur"]) slider.addEventListener(event, release);
     return slider;
+}
+
+/* A thing that a pointer drags: states on the way are one step for undo.  begin(event) gives what follows the pointer,
+ * or nothing where there is nothing to drag. */
+export function make_draggable(store, node, begin) {
+    node.addEventListener("pointerdown", (event) => {
+        store.hold();
+        const move = begin(event);
+        if (!move) return store.release();
+        event.preventDefault();
+        const up = () => {
+            window.removeEventListener("pointermove", move);
+            for (const end of ["pointerup", "pointercancel"]) window.removeEventListener(end, up);
+            store.release();
+        };
+        window.addEventListener("pointermove", move);
+        for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, up);
+    });
 }
 
 /* read(answer): its number as solved; write(number): another one; text(number): what it means, for who hears it. */

@@ -2,7 +2,7 @@
  * reached; load, friction, force or creepage drawn by hand over the way. */
 import { card, chart, html, line, player, segments, show, show_notes, stroke, svg, width_of } from "./draw.js";
 import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.js";
-import { slider_for } from "./knob.js";
+import { make_draggable, slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
 import { command_of, svg_text, text_card } from "./take.js";
 import { say } from "./words.js";
@@ -274,25 +274,15 @@ export function roll_view(words, page) {
                 value: y[0] + ((height - plot.bottom - py) / (height - plot.top - plot.bottom)) * (y[1] - y[0]),
             };
         };
-        plot.root.addEventListener("pointerdown", (event) => {
-            event.preventDefault();
-            store.hold();
+        make_draggable(store, plot.root, (event) => {
             let from = pull(event);
             const move = (e) => {
                 const to = pull(e);
                 put(from, to);
                 from = to;
             };
-            const up = () => {
-                window.removeEventListener("pointermove", move);
-                window.removeEventListener("pointerup", up);
-                window.removeEventListener("pointercancel", up);
-                store.release();
-            };
-            window.addEventListener("pointermove", move);
-            window.addEventListener("pointerup", up);
-            window.addEventListener("pointercancel", up);
-            put(from, from);
+            move(event);
+            return move;
         });
         hand.replaceChildren(plot.root);
         if (focus >= 0) hand.querySelectorAll("circle")[focus]?.focus();

@@ -235,17 +235,18 @@ static void write_zone_key(FILE *out, rb_report_canvas canvas, int open)
 {
     static const struct {
         int zone;
-        double x;
+        double in_column, x; /* letters are larger in a column */
         const char *name;
-    } zones[] = {{RB_ZONE_SEPARATED, 0.14, "□ open"},
-                 {RB_ZONE_STICK, 0.3, "■ stick"},
-                 {RB_ZONE_SLIP_NEGATIVE, 0.46, "■ slip to the tip"},
-                 {RB_ZONE_SLIP_POSITIVE, 0.78, "■ slip back"}};
+    } zones[] = {{RB_ZONE_SEPARATED, 0.14, 0.14, "□ open"},
+                 {RB_ZONE_STICK, 0.3, 0.24, "■ stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, 0.46, 0.34, "■ slip to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, 0.78, 0.53, "■ slip back"}};
+    const int titled = rb_report_place_of(canvas).titled;
     for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++)
         fprintf(out,
                 "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font "
                 "',%.3g'\n",
-                (int)k + 3, zones[k].name, zones[k].x,
+                (int)k + 3, zones[k].name, titled ? zones[k].x : zones[k].in_column,
                 rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
 }
 
@@ -393,7 +394,7 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
     write_steps(out, v->r, v->r->half_width);
     write_title(out, v, place);
     fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen 0.86\nset bmargin at screen "
+            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen "
             "%g\nset tmargin at screen %g\n" RB_REPORT_GRID
             "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis "
             "linecolor rgb '#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel "
@@ -401,7 +402,8 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
             "key\n" RB_REPORT_PALETTE
             "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with "
             "points palette pointtype 7 pointsize 0.6\n",
-            0.14 + place.right, 0.14 + place.up, 0.92 + place.up, K, K);
+            0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
+            0.92 + place.up, K, K);
 }
 
 rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
@@ -476,22 +478,31 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
                 rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), name));
     write_zone_key(out, canvas, 0);
     const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
-    const double narrow = fmax(0.5 * (1.2 * (deepest + margin) - (to - from)), 0.0);
-    from -= narrow; /* of a steep crack; else the picture would be a strip */
-    to += narrow;
+    /* more of the body, until the panel is filled at equal scales */
+    const double left = 0.12 + place.right, high = 0.68,
+                 aspect = rb_report_width_over_height(canvas, RB_REPORT_FOUR_THIRDS) *
+                          (0.965 - left) / high,
+                 width = to - from + 2.0 * margin, height = deepest + 1.6 * margin,
+                 beside = fmax(aspect * height - width, 0.0);
+    const double bottom = -deepest - margin - fmax(width / aspect - height, 0.0);
+    from -= 0.5 * beside + margin;
+    to += 0.5 * beside + margin;
+    if (!place.titled)
+        fprintf(out,
+                "set label 9 'faces x %.3g' at graph 0.03, 0.06 font ',%.3g' front\n",
+                times, rb_report_key_font(canvas));
     fprintf(
         out,
         "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
         "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
         "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
         "set ytics %g\n"
-        "set key at screen 0.965, 0.085 right horizontal maxrows 1 samplen 2 font "
+        "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
         "',%.3g'\n"
         "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
         "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
-        0.12 + place.right, 0.21 + place.up, 0.89 + place.up, from - margin, to + margin,
-        -deepest - margin, 0.6 * margin, step, step, rb_report_key_font(canvas),
-        -deepest - margin);
+        left, 0.21 + place.up, 0.21 + high + place.up, from, to, bottom, 0.6 * margin,
+        step, step, place.titled ? 0.041 : 0.085, rb_report_key_font(canvas), bottom);
     /* the contact above, where it is within the picture */
     fprintf(out,
             "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "
@@ -499,9 +510,8 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
             "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 "
             "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 "
             "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle",
-            fmax(h->x[k] / r->half_width - 1.0, from - margin),
-            fmin(fmax(h->x[k] / r->half_width + 1.0, from - margin), to + margin),
-            0.15 * margin);
+            fmin(fmax(h->x[k] / r->half_width - 1.0, from), to),
+            fmin(fmax(h->x[k] / r->half_width + 1.0, from), to), 0.15 * margin);
     for (int side = 0; side < 2; side++)
         fprintf(out,
                 ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s "

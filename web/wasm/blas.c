@@ -65,6 +65,22 @@ void cblas_dscal(int n, double a, double *x, int incx)
         x[i * incx] *= a;
 }
 
+/* For crack.c, whose steps are positive. */
+void cblas_drot(int n, double *x, int incx, double *y, int incy, double c, double s)
+{
+    for (int i = 0; i < n; i++) {
+        const double before = x[i * incx];
+        x[i * incx] = c * before + s * y[i * incy];
+        y[i * incy] = c * y[i * incy] - s * before;
+    }
+}
+
+void cblas_dswap(int n, double *x, int incx, double *y, int incy)
+{
+    cblas_drot(n, x, incx, y, incy, 0.0, 1.0);
+    cblas_dscal(n, -1.0, y, incy);
+}
+
 void cblas_dcopy(int n, const double *x, int incx, double *y, int incy)
 {
     for (ptrdiff_t i = 0; i < n; i++)

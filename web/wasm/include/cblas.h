@@ -17,6 +17,8 @@ double cblas_dasum(int n, const double *x, int incx);
 size_t cblas_idamax(int n, const double *x, int incx);
 void cblas_daxpy(int n, double a, const double *x, int incx, double *y, int incy);
 void cblas_dscal(int n, double a, double *x, int incx);
+void cblas_drot(int n, double *x, int incx, double *y, int incy, double c, double s);
+void cblas_dswap(int n, double *x, int incx, double *y, int incy);
 void cblas_dcopy(int n, const double *x, int incx, double *y, int incy);
 void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n,
                  double alpha, const double *A, int lda, const double *x, int incx,
