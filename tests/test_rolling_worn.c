@@ -308,4 +308,64 @@ TEST(wear_that_makes_no_sense_is_refused)
 #undef REFUSED
 }
 
+/* The element at a corner of a worn table, where the slope turns by s: its pressure rises
+ * by E* s ln 3 / (2 pi) as elements become three times shorter, without end.  The bar of
+ * p0 is wide enough for ten times, and a note says how much. */
+TEST(corners_have_no_largest_pressure)
+{
+    static const double x[] = {-0.2, -0.1, 0.0, 0.1, 0.2},
+                        depth[] = {0.0, 1e-4, 0.0, 1e-4, 0.0};
+    double p[3];
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plane(k == 0 ? 61 : k == 1 ? 183 : 549);
+        rb_rolling_solution s;
+        rb_rolling_errors e;
+        rc.mu = 0.0;
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.worn = (rb_rolling_table){5, x, depth};
+        CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+        const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
+        p[k] = s.p[s.n / 2];
+        CHECK_ABS(s.x[s.n / 2], 0.0, 1e-12, "at the corner");
+        CHECK_REL(s.max_pressure, p[k], 1e-12, "the largest");
+        const double rise = rb_rolling_derive(&rc).modulus * 2e-3 / (2.0 * M_PI);
+        if (k > 0)
+            CHECK_REL(p[k] - p[k - 1], rise * log(3.0), k == 1 ? 0.05 : 0.01, "ln 3, %d",
+                      k);
+        CHECK_MAX(rise * log(10.0), e.scalar.max_pressure, "bar");
+        CHECK_MAX(e.scalar.max_pressure, 10.0 * rise * log(10.0), "not absurdly wide");
+        assert_int_equal(list.n, 1);
+        assert_non_null(
+            strstr(list.text[0], "The worn table has corners in the contact"));
+        CHECK_REL(strtod(strstr(list.text[0], "by ") + 3, NULL), rise * log(2.0), 0.05,
+                  "note");
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* No note where the table's rows are closer than elements, or a soft third body rounds
+ * the corner off. */
+TEST(corners_that_elements_do_not_see_are_not_noted)
+{
+    double x[401], depth[401];
+    for (int i = 0; i <= 400; i++) {
+        x[i] = -1.0 + 0.005 * i;
+        depth[i] = 1e-3 * gsl_pow_2(1.0 - x[i] * x[i]);
+    }
+    for (int soft = 0; soft < 2; soft++) {
+        rb_rolling_case rc = plane(60);
+        rb_rolling_solution s;
+        static const double rows[] = {-0.2, 0.0, 0.2}, kink[] = {1e-4, 0.0, 1e-4};
+        rc.mu = 0.0;
+        rc.worn =
+            soft ? (rb_rolling_table){3, rows, kink} : (rb_rolling_table){401, x, depth};
+        rc.interlayer_normal = soft ? 1e-6 : 0.0;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
+        for (int i = 0; i < list.n; i++)
+            assert_null(strstr(list.text[i], "corners"));
+        rb_rolling_solution_free(&s);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -217,7 +217,7 @@ static int is_same_note(const char *a, const char *b)
     while (*a && *b) {
         char *end_a, *end_b;
         const double x = rb_read_number(a, &end_a), y = rb_read_number(b, &end_b);
-        if (end_a > a && end_b > b) {
+        if (end_a > a && end_b > b && isfinite(x) && isfinite(y)) { /* not "infinite" */
             if (!(fabs(x - y) <= 0.1 * fmax(fabs(x), fabs(y))))
                 return 0;
             a = end_a;

@@ -1,5 +1,5 @@
 /* Notes on how to read a result; notes that change its meaning come first. */
-#include "rollbem/rolling.h"
+#include "results/internal.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -135,6 +135,30 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
             rolls ? "times as many --contact-elements" : "s as --time-step");
 }
 
+static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                         const rb_rolling_solution *s)
+{
+    static const double much = 0.02;
+    double longest = 0.0;
+
+    for (int i = 0; i < s->n; i++)
+        if (s->p[i] > 0.0)
+            longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
+    if (!(longest > 0.0))
+        return;
+    const double rise =
+        rb_unit_shown(s->units, "MPa",
+                      rb_rolling_rise_at_corners(
+                          rc, rb_unit_stored(s->units, "mm", s->contact_from),
+                          rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
+    if (rise > much * s->max_pressure)
+        add(list,
+            "The worn table has corners in the contact, where the pressure is infinite: "
+            "p0 rises by %.2g %s each time the elements are halved. Give the table more "
+            "rows.",
+            rise, rb_unit_name(s->units, "MPa"));
+}
+
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
                                            const rb_rolling_solution *s)
 {
@@ -142,6 +166,7 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
     note_strain(&list, rc, s);
     note_thin(&list, rc, s);
     note_short_memory(&list, rc, s);
+    note_corners(&list, rc, s);
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
     const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (rc->formulation == RB_STATIC && creeps)

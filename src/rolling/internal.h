@@ -366,6 +366,11 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 
 /* The worn depth at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
+/* How much the largest pressure rises where elements get so many times shorter, because
+ * the slope of the worn table turns by s at a row between `from` and `to`: there the
+ * pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next row. */
+double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to,
+                                  double element, double times);
 /* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
                                const double *x, double *gap);

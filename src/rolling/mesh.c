@@ -31,6 +31,26 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
+double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to,
+                                  double element, double times)
+{
+    const double *x = rc->worn.x, *y = rc->worn.y;
+    double most = 0.0;
+
+    if (rc->interlayer_normal > 0.0) /* which rounds the corner off */
+        return 0.0;
+    for (int i = 0; i < rc->worn.n; i++) {
+        const double before = i > 0 ? x[i] - x[i - 1] : INFINITY;
+        const double behind = i + 1 < rc->worn.n ? x[i + 1] - x[i] : INFINITY;
+        const double turn = (i + 1 < rc->worn.n ? (y[i + 1] - y[i]) / behind : 0.0) -
+                            (i > 0 ? (y[i] - y[i - 1]) / before : 0.0);
+        const double shorter = times * fmin(before, behind) / element;
+        if (x[i] > from && x[i] < to && turn > 0.0 && shorter > 1.0)
+            most = fmax(most, turn * log(fmin(times, shorter)));
+    }
+    return rb_rolling_derive(rc).modulus * most / (2.0 * M_PI);
+}
+
 static double round_gap(const rb_rolling_case *rc, double x)
 {
     if (rc->gap == RB_GAP_TABLE)

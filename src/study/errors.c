@@ -182,9 +182,10 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc,
 
 /* What no mesh tells apart: rounding and the tolerance of the solver, in units of what
  * the scalar is made of; the length of an element, where it is the place where stick
- * begins; slip over an element; the friction of an element that may stick; and with an
- * unresolved stick zone the friction of an element, and the pressure that a jump of
- * friction brings about between dissimilar bodies. */
+ * begins; slip over an element; the friction of an element that may stick; the pressure
+ * at a corner, which is infinite, on elements ten times shorter; and with an unresolved
+ * stick zone the friction of an element, and the pressure that a jump of friction brings
+ * about between dissimilar bodies. */
 static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s,
                           rb_rolling_error_scale scale)
 {
@@ -223,7 +224,10 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return (rounding + (unresolved ? rb_rolling_largest_mu(rc) *
                                              fabs(rb_rolling_derive(rc).dundurs)
                                        : 0.0)) *
-               s->max_pressure;
+                   s->max_pressure +
+               rb_rolling_rise_at_corners(rc, s->contact_from, s->contact_to,
+                                          rb_rolling_longest_element(s->n, s->zone, s->h),
+                                          10.0);
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */
         const double driven =
