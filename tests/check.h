@@ -12,6 +12,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <cmocka.h>
 
 /* cmocka hands every test a state, which hardly any of them looks at. */
@@ -58,6 +59,18 @@ static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
 {
     return _cmocka_run_group_tests("tests", all_tests_.test, (size_t)all_tests_.count,
                                    before, behind);
+}
+
+/* OWNED(rb_bem_mesh) mesh: it is freed, by rb_bem_mesh_free, where its block ends. */
+#define OWNED(type) __attribute__((cleanup(type##_free))) type
+/* SCRATCH double *x: so is what x points to. */
+#define SCRATCH __attribute__((cleanup(free_scratch_)))
+
+static inline void free_scratch_(void *address)
+{
+    void *memory;
+    memcpy(&memory, address, sizeof memory);
+    free(memory);
 }
 
 /* |got - want| <= tol; the rest is a printf format naming the case. */

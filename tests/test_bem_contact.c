@@ -23,11 +23,10 @@ static double *equal_ends(int n_c, double a)
 static rb_bem_mesh mesh_of(const rb_bem_cylinder *cylinder, int n_c, double a)
 {
     rb_bem_mesh mesh;
-    double *ends = equal_ends(n_c, a);
+    SCRATCH double *ends = equal_ends(n_c, a);
     rb_message why = {""};
     if (rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, &why) != RB_OK)
         fail_msg("%s", why.text);
-    free(ends);
     return mesh;
 }
 
@@ -36,11 +35,10 @@ static rb_bem_flexibility condensed(const rb_bem_cylinder *cylinder, int n_c, do
 {
     rb_bem_flexibility f;
     rb_bem_system *system;
-    rb_bem_mesh mesh = mesh_of(cylinder, n_c, a);
+    OWNED(rb_bem_mesh) mesh = mesh_of(cylinder, n_c, a);
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, normals, &f, NULL), RB_OK);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     return f;
 }
 
@@ -70,17 +68,16 @@ TEST(neighbours_differ_by_a_fifth_at_most)
                                               .support = k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
                                               .arc = 0.1 + 0.4 * k,
                                               .hub_ratio = 0.15 + 0.2 * (k - 4)};
-            rb_bem_mesh mesh = mesh_of(&cylinder, 30 + k, a);
+            OWNED(rb_bem_mesh) mesh = mesh_of(&cylinder, 30 + k, a);
             CHECK_STATUS(rb_bem_mesh_check(&mesh, NULL), RB_OK);
             CHECK_MAX(grading(&mesh), 1.2, "a/R = %g, support %d", a, k);
             CHECK_MAX(mesh.n, 1200, "a/R = %g, support %d", a, k);
-            rb_bem_mesh_free(&mesh);
         }
 }
 
 TEST(the_arc_ends_at_element_ends)
 {
-    rb_bem_mesh mesh = mesh_of(&on_arc, 40, 2.0);
+    OWNED(rb_bem_mesh) mesh = mesh_of(&on_arc, 40, 2.0);
     double clamped = 0.0;
     for (int j = 0; j < mesh.n; j++) {
         const double angle =
@@ -91,19 +88,17 @@ TEST(the_arc_ends_at_element_ends)
         clamped += held ? 2.0 * asin(element_length(&mesh, j) / 100.0) : 0.0;
     }
     CHECK_REL(clamped, 2.0 * on_arc.arc, 1e-12, "clamped angle");
-    rb_bem_mesh_free(&mesh);
 }
 
 /* y = x^2/(R + sqrt(R^2 - x^2)) with all digits, at x = 1e-8 R and 1e-10 R apart. */
 TEST(small_contacts_keep_their_digits)
 {
-    rb_bem_mesh mesh = mesh_of(&on_hub, 200, 50.0 * 1e-8);
+    OWNED(rb_bem_mesh) mesh = mesh_of(&on_hub, 200, 50.0 * 1e-8);
     for (int j = 0; j <= 200; j++) {
         const double x = mesh.x1[j];
         CHECK_REL(mesh.y1[j], x * x / 100.0, 1e-14, "end %d", j);
         CHECK_REL(mesh.x1[j] - mesh.x0[j], 100.0 * 1e-8 / 200, 1e-11, "length %d", j);
     }
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Not on the hub. */
@@ -133,12 +128,11 @@ TEST(refinement_multiplies_what_is_outside)
         cylinder.outer_elements = k < 2 ? 0 : 80;
         for (int finer = 0; finer < 2; finer++) {
             cylinder.refinement = finer ? 2.0 : 0.0;
-            rb_bem_mesh mesh = mesh_of(&cylinder, 40, 1.0);
+            OWNED(rb_bem_mesh) mesh = mesh_of(&cylinder, 40, 1.0);
             outside[finer] = mesh.n - 40;
             for (int j = 0; j < mesh.n; j++)
                 largest[finer] = fmax(largest[finer], hypot(mesh.x1[j] - mesh.x0[j],
                                                             mesh.y1[j] - mesh.y0[j]));
-            rb_bem_mesh_free(&mesh);
         }
         CHECK_REL(outside[1], 2.0 * outside[0], 0.1, "elements, mesh %d", k);
         if (k < 2)
@@ -154,7 +148,7 @@ TEST(symmetric_ends_make_a_symmetric_mesh)
             rb_bem_cylinder cylinder = k % 2 ? on_arc : on_hub;
             const int n_c = 20 + k, few = cylinder.support == RB_BEM_HUB ? 40 : 0;
             cylinder.outer_elements = outer[k / 2] == 0 ? 0 : outer[k / 2] + few;
-            rb_bem_mesh mesh = mesh_of(&cylinder, n_c, a);
+            OWNED(rb_bem_mesh) mesh = mesh_of(&cylinder, n_c, a);
             int circle = 0;
             while (circle < mesh.n && on_circle(&mesh, circle))
                 circle++;
@@ -162,7 +156,6 @@ TEST(symmetric_ends_make_a_symmetric_mesh)
                 check_mirrored(&mesh, j, (n_c - 1 - j + circle) % circle, 50.0);
             for (int j = circle; j < mesh.n; j++)
                 check_mirrored(&mesh, j, mesh.n - 1 - (j - circle), 50.0);
-            rb_bem_mesh_free(&mesh);
         }
 }
 
@@ -173,12 +166,11 @@ TEST(outer_elements_are_as_many_as_asked_for)
         for (int wanted = k ? 8 : 40; wanted < 3000; wanted += 1 + wanted / 3) {
             rb_bem_cylinder cylinder = k ? on_arc : on_hub;
             cylinder.outer_elements = wanted;
-            rb_bem_mesh mesh = mesh_of(&cylinder, 100, 0.5);
+            OWNED(rb_bem_mesh) mesh = mesh_of(&cylinder, 100, 0.5);
             int outside = 0;
             for (int j = 100; j < mesh.n; j++)
                 outside += on_circle(&mesh, j);
             assert_int_equal(outside, wanted + wanted % 2);
-            rb_bem_mesh_free(&mesh);
         }
 }
 
@@ -209,14 +201,13 @@ TEST(bad_cylinders_are_refused)
         {{50, RB_BEM_ARC, M_PI_2, 0, 0, 0, 0}, 2, most, "clamped arc"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        rb_bem_mesh mesh;
+        OWNED(rb_bem_mesh) mesh;
         rb_message why = {""};
         CHECK_STATUS(
             rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &why),
             RB_EINVAL);
         if (!strstr(why.text, bad[k].text))
             fail_msg("case %d: '%s' does not say '%s'", (int)k, why.text, bad[k].text);
-        rb_bem_mesh_free(&mesh);
     }
 }
 
@@ -230,13 +221,12 @@ TEST(the_zone_ends_before_the_clamped_arc)
         double ends[5];
         for (int i = 0; i < 5; i++)
             ends[i] = 50.0 * sin(k < 2 ? reach - (4 - i) * arc : -reach + (1 + i) * arc);
-        rb_bem_mesh mesh;
+        OWNED(rb_bem_mesh) mesh;
         rb_message why = {""};
         CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &why),
                      k % 2 ? RB_EINVAL : RB_OK);
         assert_true(k % 2 ==
                     (strstr(why.text, "clamped arc of half-angle 1.57") != NULL));
-        rb_bem_mesh_free(&mesh);
     }
 }
 
@@ -316,7 +306,7 @@ TEST(spoilt_meshes_are_refused)
                {clockwise, "left of its contours"},
                {contact_backwards, "element 2 does not run"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        rb_bem_mesh mesh = mesh_of(&on_arc, 10, 2.0);
+        OWNED(rb_bem_mesh) mesh = mesh_of(&on_arc, 10, 2.0);
         rb_message why = {""};
         const int n = mesh.n;
         bad[k].how(&mesh);
@@ -324,7 +314,6 @@ TEST(spoilt_meshes_are_refused)
         if (!strstr(why.text, bad[k].text))
             fail_msg("case %d: '%s' does not say '%s'", (int)k, why.text, bad[k].text);
         mesh.n = n;
-        rb_bem_mesh_free(&mesh);
     }
     rb_bem_mesh mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(0, &mesh), RB_EINVAL);
@@ -401,7 +390,7 @@ static void check_schur(rb_bem_normals normals)
     rb_bem_cylinder small = on_arc;
     small.outer_elements = 24;
     enum { n_c = 5 };
-    rb_bem_mesh mesh = mesh_of(&small, n_c, 12.0);
+    OWNED(rb_bem_mesh) mesh = mesh_of(&small, n_c, 12.0);
     give(&mesh, 9, RB_BEM_TRACTION, 1.0, -2.0);
     const partition p = partition_of(&mesh);
     const int dofs = p.c + p.f;
@@ -424,7 +413,7 @@ static void check_schur(rb_bem_normals normals)
     divide(p.c, p.c + 1, Hcc, Xc); /* u_c = Xc (t_c, 1) */
 
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     double F[4 * (n_c + 1) * n_c], C[2][2], D[2][2];
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, normals, &f, NULL), RB_OK);
@@ -448,9 +437,7 @@ static void check_schur(rb_bem_normals normals)
                               1e-10 * scale, "F %d%d(%d, %d)", a, b, i, j);
                 }
         }
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     double *all[] = {p.H, p.G, p.b, Hcc, Hcf, Hff, Xf, Xc};
     for (int k = 0; k < 8; k++)
         free(all[k]);
@@ -466,14 +453,15 @@ TEST(flexibility_is_the_papers_schur_complement)
 TEST(every_row_is_a_displacement_of_the_full_solution)
 {
     enum { n_c = 6 };
-    rb_bem_mesh mesh = mesh_of(&on_hub, n_c, 5.0);
+    OWNED(rb_bem_mesh) mesh = mesh_of(&on_hub, n_c, 5.0);
     give(&mesh, 30, RB_BEM_TRACTION, 1.0, 3.0);
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL), RB_OK);
     double r[2 * n_c], t_c[2 * n_c], w[2 * (n_c + 1)];
-    double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
+                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
     for (int i = 0; i < n_c; i++) {
         t_c[2 * i + 1] = r[i] = 1.0 + i;
         t_c[2 * i] = r[n_c + i] = 0.3 - 0.1 * i;
@@ -487,11 +475,7 @@ TEST(every_row_is_a_displacement_of_the_full_solution)
         CHECK_REL(f.x[i], midpoint_x(&mesh, i), 1e-15, "x %d", i);
         CHECK_REL(f.h[i], element_length(&mesh, i), 1e-15, "h %d", i);
     }
-    free(u);
-    free(t);
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Symmetry, block by block ------------------------------------------------------ */
@@ -519,12 +503,12 @@ TEST(flexibility_is_symmetric_up_to_discretisation)
 {
     const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
     for (int k = 0; k < 2; k++) {
-        rb_bem_flexibility f = condensed(bodies[k], 40, 0.05, RB_BEM_NORMALS_OBSTACLE);
+        OWNED(rb_bem_flexibility)
+        f = condensed(bodies[k], 40, 0.05, RB_BEM_NORMALS_OBSTACLE);
         CHECK_MAX(asymmetry(&f, 0, 0), 4e-4, "NN, body %d", k);
         CHECK_MAX(asymmetry(&f, 1, 1), 4e-4, "TT, body %d", k);
         CHECK_MAX(asymmetry(&f, 0, 1), 2.5e-2, "NT, body %d", k);
         CHECK_MAX(asymmetry(&f, 1, 0), 2.5e-2, "TN, body %d", k);
-        rb_bem_flexibility_free(&f);
     }
 }
 
@@ -536,8 +520,8 @@ TEST(flexibility_is_symmetric_up_to_discretisation)
 static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, double a,
                                    int friction)
 {
-    rb_bem_flexibility wheel = condensed(cylinder, n_c, a, RB_BEM_NORMALS_OBSTACLE),
-                       plane;
+    OWNED(rb_bem_flexibility)
+    wheel = condensed(cylinder, n_c, a, RB_BEM_NORMALS_OBSTACLE), plane;
     double *ends = equal_ends(n_c, a), *r = rb_alloc(2 * (size_t)n_c, 1),
            *w = rb_alloc(4 * (size_t)wheel.m, 1), *v = w + 2 * wheel.m;
     CHECK_STATUS(
@@ -559,8 +543,6 @@ static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, dou
             high = fmax(high, y[i] - (c == friction ? v[c * wheel.m] : 0.0));
         }
     }
-    rb_bem_flexibility_free(&wheel);
-    rb_bem_flexibility_free(&plane);
     free(ends);
     free(r);
     free(w);
@@ -603,9 +585,10 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
 {
     rb_bem_cylinder wheel = *cylinder;
     wheel.outer_elements = outer;
-    rb_bem_mesh mesh = mesh_of(&wheel, n_c, 5.0);
+    OWNED(rb_bem_mesh) mesh = mesh_of(&wheel, n_c, 5.0);
     rb_bem_system *system;
-    double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
+                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
     double *pressure = rb_alloc(2 * (size_t)n_c, 1), load = 0.0, sum = 0.0;
     for (int i = 0; i < n_c; i++)
         pressure[2 * i + 1] = 1.0;
@@ -616,10 +599,7 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
         load += j < n_c ? element_length(&mesh, j) : 0.0;
     }
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     free(pressure);
-    free(u);
-    free(t);
     return sum / load;
 }
 
@@ -658,7 +638,7 @@ TEST(the_default_datum_is_the_half_cylinder)
     enum { n = 200 };
     const double R = 50.0, a = 0.1;
     double *ends = equal_ends(n, a), r[2 * n] = {0}, w[2 * (n + 1)];
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     CHECK_STATUS(
         rb_bem_flexibility_surface(n, ends, HALFPLANE(material, 2.0 * R / M_E), &f, NULL),
         RB_OK);
@@ -666,7 +646,6 @@ TEST(the_default_datum_is_the_half_cylinder)
         r[i] = hertz_mean(ends[i] / a, fmin(1.0, ends[i + 1] / a));
     rb_bem_flexibility_apply(&f, r, w);
     CHECK_REL(w[n / 2], compression(M_PI_2 * a, R, a), 1e-4, "compression");
-    rb_bem_flexibility_free(&f);
     free(ends);
 }
 
@@ -675,7 +654,7 @@ TEST(the_default_datum_is_the_half_cylinder)
 static double disc_compression_error(int m, double a)
 {
     const double k = 9.0;
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(2 * m, &mesh), RB_OK);
     for (int j = 0; j < 2 * m; j++)
         for (int end = 0; end < 2; end++) {
@@ -697,14 +676,11 @@ static double disc_compression_error(int m, double a)
     mesh.condition[2 * (m / 4) + 1] =
         RB_BEM_DISPLACEMENT; /* unloaded: only the rigid motion */
     rb_bem_system *system;
-    double *u = rb_alloc(4 * (size_t)m, 1), *t = rb_alloc(4 * (size_t)m, 1);
+    SCRATCH double *u = rb_alloc(4 * (size_t)m, 1), *t = rb_alloc(4 * (size_t)m, 1);
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_solve(system, NULL, u, t), RB_OK);
     const double delta = 0.5 * (u[2 * (m / 2) + 1] - u[2 * (m + m / 2) + 1]);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
-    free(u);
-    free(t);
     return fabs(delta / compression(M_PI_2 * a, 1.0, a) - 1.0);
 }
 
@@ -738,9 +714,9 @@ TEST(memory_without_length_doubles_the_flexibility)
                                 .terms = 2,
                                 .ratio = ratio,
                                 .length = length};
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL), RB_OK);
@@ -758,9 +734,7 @@ TEST(memory_without_length_doubles_the_flexibility)
         CHECK_ABS(soft[k], 2.0 * F[k], (apart < 2 || is_coupling ? 0.02 : 1e-3) * most,
                   "row %d, column %d", row, column);
     }
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -75,7 +75,7 @@ TEST(arcs_add_up_at_any_width)
  */
 static double element_error(int n, double alpha)
 {
-    rb_bem_mesh mesh = pressed_disc(n, alpha);
+    OWNED(rb_bem_mesh) mesh = pressed_disc(n, alpha);
     rb_bem_system *system;
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
@@ -92,7 +92,6 @@ static double element_error(int n, double alpha)
                  pow(u[2 * j + 1] - r * sin(angle) - s * cos(angle), 2);
     }
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     const double scale = rb_norm_inf(2 * (size_t)n, u);
     free(u);
     free(t);
@@ -115,7 +114,7 @@ TEST(every_element_is_of_the_same_arc)
     enum { n = 4 };
     const rb_bem_disc disc = {2.0, material};
     for (int k = 0; k <= n; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         rb_message why = {""};
         double ends[n + 2];
         for (int i = 0; i < n + 2; i++)
@@ -133,7 +132,6 @@ TEST(every_element_is_of_the_same_arc)
         for (int i = 0; i < n && !k; i++) /* arcs, not chords */
             CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])),
                       1e-14, "length of element %d", i);
-        rb_bem_flexibility_free(&f);
     }
 }
 

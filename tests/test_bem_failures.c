@@ -105,7 +105,7 @@ TEST(interfaces_yield_under_their_own_traction)
         r[i] = sin(2.0 + i);
     }
     for (int kind = 0; kind < KINDS; kind++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         CHECK_STATUS(make(kind, &f), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
         for (int k = 0; k < 6; k++) {
@@ -132,7 +132,6 @@ TEST(interfaces_yield_under_their_own_traction)
             }
             CHECK_STATUS(rb_bem_flexibility_store(&f), RB_OK);
         }
-        rb_bem_flexibility_free(&f);
     }
 }
 
@@ -157,7 +156,7 @@ static rb_status make_pair(const void *of)
     static const double upstream[4] = {0.0, 1.0, -1.0, 0.0};
     const int *kinds = of;
     double F[4 * M * N], c[2 * N] = {0.0};
-    rb_bem_flexibility a = {0}, b = {0}, f = {0};
+    OWNED(rb_bem_flexibility) a = {0}, b = {0}, f = {0};
     rb_bem_circulant *circulant = NULL;
 
     rb_status s = make(kinds[0], &a);
@@ -174,9 +173,6 @@ static rb_status make_pair(const void *of)
     if (s == RB_OK)
         s = rb_bem_flexibility_store(&f);
     rb_bem_circulant_free(circulant);
-    rb_bem_flexibility_free(&a);
-    rb_bem_flexibility_free(&b);
-    rb_bem_flexibility_free(&f);
     return s;
 }
 
@@ -213,7 +209,7 @@ static rb_status make_wheel(const void *of)
                                 .core = steel};
     const double t_contact[2 * N] = {0.0, 1.0}, xy[4] = {0.0, 0.2, 0.1, 0.3};
     double stress[6], u[600], t[600];
-    rb_bem_mesh mesh = {0}, core = {0};
+    OWNED(rb_bem_mesh) mesh = {0}, core = {0};
     rb_bem_system *system = NULL;
     rb_bem_field *field = NULL;
     rb_bem_flexibility f = {0}, g = {0}, waves = {0};
@@ -259,8 +255,6 @@ static rb_status make_wheel(const void *of)
     rb_bem_flexibility_free(&f);
     rb_bem_flexibility_free(&g);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
-    rb_bem_mesh_free(&core);
     return s;
 }
 
@@ -324,7 +318,7 @@ TEST(fields_may_be_asked_for_alone)
     const rb_bem_cylinder cylinder = cylinder_of(0);
     const double t_contact[2 * N] = {0.0, 1.0, 0.5, 2.0};
     double u[600], t[600], both_u[4], both_s[6], alone[6];
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
 
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
@@ -341,7 +335,6 @@ TEST(fields_may_be_asked_for_alone)
     assert_memory_equal(alone, both_s, sizeof both_s);
     CHECK_ABS(both_u[2], u[2 * c], 1e-12 * fabs(u[2 * c]), "displacement of the element");
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Clusters ---------------------------------------------------------------------- */
@@ -527,7 +520,7 @@ TEST(absurd_wheels_are_refused)
                {2.0, 1.0, 0.0, &endless, &one, "term 1: ratio inf"},
                {2.0, 1.0, 0.0, &one, &zero, "term 1: ratio 1, length 0"},
                {2.0, 1.0, 0.0, &one, &endless, "length inf"}};
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
 
     CHECK_STATUS(make(FLAT, &f), RB_OK);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
@@ -546,7 +539,6 @@ TEST(absurd_wheels_are_refused)
         if (!strstr(why.text, all[k].said))
             fail_msg("case %zu: %s", k, why.text);
     }
-    rb_bem_flexibility_free(&f);
 }
 
 TEST(absurd_meshes_are_refused)
@@ -568,7 +560,7 @@ TEST(absurd_meshes_are_refused)
         {3, 0.0, RB_BEM_TRACTION, 15, 1, NULL}};
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        rb_bem_mesh mesh = circle(16, 1.0);
+        OWNED(rb_bem_mesh) mesh = circle(16, 1.0);
         rb_message why = {""};
         mesh.value[2 * all[k].at + 1] = all[k].value;
         mesh.condition[2 * all[k].at + 1] = all[k].condition;
@@ -577,7 +569,6 @@ TEST(absurd_meshes_are_refused)
         CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
         if (all[k].said && !strstr(why.text, all[k].said))
             fail_msg("case %zu: %s", k, why.text);
-        rb_bem_mesh_free(&mesh);
     }
     rb_bem_mesh mesh = circle(16, 1.0);
     rb_message why = {""};

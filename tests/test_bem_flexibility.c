@@ -37,7 +37,7 @@ TEST(halfplane_is_flamants_integral)
     const double datum = 30.0, K = (1.0 - steel.poisson) / (M_PI * steel.shear),
                  c = (1.0 - 2.0 * steel.poisson) / (4.0 * steel.shear);
     double F[2 * m * 2 * n];
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, datum), &f, NULL),
                  RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
@@ -51,7 +51,6 @@ TEST(halfplane_is_flamants_integral)
             CHECK_ABS(T[i], c * sign, 1e-15 * c, "NT %d %d", i, j);
             CHECK_ABS(N[m + i], -c * sign, 1e-15 * c, "TN %d %d", i, j);
         }
-    rb_bem_flexibility_free(&f);
 }
 
 /* One strip far away: int ln|s/d| ds = 2b [ln(X/d) - (b/X)^2/6 - ...]; the two ends of
@@ -62,13 +61,12 @@ TEST(distant_strips_lose_no_digits)
     const double h = 1e-9, X = h * (n - 1),
                  K = (1.0 - steel.poisson) / (M_PI * steel.shear);
     const double ends[] = {0.0, h, X, X + h};
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     CHECK_STATUS(rb_bem_flexibility_surface(2, ends, HALFPLANE(steel, 40.0), &f, NULL),
                  RB_OK);
     double w[6];
     rb_bem_flexibility_apply(&f, (const double[]){1.0, 0.0, 0.0, 0.0}, w);
     CHECK_REL(w[2], -K * h * (log(X / 40.0) - pow(0.5 * h / X, 2) / 6.0), 1e-14, "far");
-    rb_bem_flexibility_free(&f);
 }
 
 TEST(apply_is_the_matrix_and_ldf_is_kept)
@@ -153,7 +151,7 @@ TEST(a_line_is_nearly_inverted_by_its_waves)
         stiff[i] = 1e-8;
     }
     for (int k = 0; k < 6; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         rb_bem_circulant *c;
         CHECK_STATUS(
             rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
@@ -185,7 +183,6 @@ TEST(a_line_is_nearly_inverted_by_its_waves)
         CHECK_MAX(worst[0], k < 2 ? 1e-3 : 2e-4, "pressure, case %d", k);
         CHECK_MAX(worst[1], k < 2 ? 1e-3 : 1e-4, "friction, case %d", k);
         rb_bem_circulant_free(c);
-        rb_bem_flexibility_free(&f);
     }
 }
 
@@ -249,7 +246,7 @@ TEST(bad_input_is_refused)
 TEST(failing_memory_is_reported)
 {
     for (int count = 0, failed = 1; failed; count++) {
-        rb_bem_flexibility a = {0}, b = {0}, f = {0};
+        OWNED(rb_bem_flexibility) a = {0}, b = {0}, f = {0};
         double F[2 * (n_uneven + 1) * 2 * n_uneven];
         alloc_fail_after(count);
         rb_status s =
@@ -264,9 +261,6 @@ TEST(failing_memory_is_reported)
         failed = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, failed ? RB_ENOMEM : RB_OK);
-        rb_bem_flexibility_free(&a);
-        rb_bem_flexibility_free(&b);
-        rb_bem_flexibility_free(&f);
     }
     rb_bem_flexibility_free(NULL);
 }

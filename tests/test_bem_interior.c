@@ -45,8 +45,9 @@ typedef struct {
  * three places along it. */
 static errors error_at_depth(int n, double depth)
 {
-    rb_bem_mesh mesh = ring(n, 1.0, 0.4);
-    double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    OWNED(rb_bem_mesh) mesh = ring(n, 1.0, 0.4);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
+                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
     errors e = {0, 0};
     boundary_values(&mesh, u, t);
     for (int j = 0; j < mesh.n; j += n / 20)
@@ -64,9 +65,6 @@ static errors error_at_depth(int n, double depth)
             for (int c = 0; c < 3; c++)
                 e.s = fmax(e.s, fabs(got[c] - want[c]));
         }
-    free(u);
-    free(t);
-    rb_bem_mesh_free(&mesh);
     return e;
 }
 
@@ -101,7 +99,7 @@ TEST(a_known_field_is_reproduced)
 TEST(rigid_motions_have_no_stress)
 {
     enum { n = 64 };
-    rb_bem_mesh mesh = circle(n, 2.0);
+    OWNED(rb_bem_mesh) mesh = circle(n, 2.0);
     double u[2 * n], t[2 * n] = {0}, got[2], s[3];
     for (int j = 0; j < n; j++) {
         u[2 * j] = 0.3 - 0.1 * midpoint_y(&mesh, j);
@@ -116,7 +114,6 @@ TEST(rigid_motions_have_no_stress)
         CHECK_ABS(got[1], -0.2 + 0.1 * xy[0], 5e-4, "uy %d", k);
         CHECK_ABS(rb_norm_inf(3, s), 0.0, material.shear * 0.1 * 0.03, "stress %d", k);
     }
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Diametral compression --------------------------------------------------------- */
@@ -126,7 +123,7 @@ TEST(rigid_motions_have_no_stress)
  * The arcs end at element ends: alpha = (2k + 1) pi/n. */
 static errors compression_error(int n, double alpha)
 {
-    rb_bem_mesh mesh = pressed_disc(n, alpha);
+    OWNED(rb_bem_mesh) mesh = pressed_disc(n, alpha);
     rb_bem_system *system;
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), s[3], at[2];
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
@@ -140,7 +137,6 @@ static errors compression_error(int n, double alpha)
                  syy = -2 / M_PI * (sin(2 * alpha) + alpha);
     const errors e = {.s = fmax(fabs(s[0] / sxx - 1), fabs(s[1] / syy - 1))};
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     free(u);
     free(t);
     return e;
@@ -167,7 +163,7 @@ TEST(no_unit_of_length_is_preferred)
     double u[2][2 * P], s[2][3 * P];
     for (int k = 0; k < 2; k++) {
         const double unit = k ? 1e-3 : 1.0;
-        rb_bem_mesh mesh = circle(n, unit);
+        OWNED(rb_bem_mesh) mesh = circle(n, unit);
         rb_bem_system *system;
         double at[2 * n], t[2 * n], xy[2 * P];
         for (int i = 0; i < 2 * P; i++)
@@ -181,7 +177,6 @@ TEST(no_unit_of_length_is_preferred)
                                      (rb_bem_points){P, xy}, u[k], s[k], NULL),
                      RB_OK);
         rb_bem_system_free(system);
-        rb_bem_mesh_free(&mesh);
     }
     for (int i = 0; i < 2 * P; i++)
         CHECK_ABS(1e3 * u[1][i], u[0][i], 1e-14, "displacement %d", i);
@@ -194,7 +189,7 @@ TEST(no_unit_of_length_is_preferred)
 TEST(the_field_is_in_equilibrium)
 {
     enum { n = 60 };
-    rb_bem_mesh mesh = ring(n, 1.0, 0.4);
+    OWNED(rb_bem_mesh) mesh = ring(n, 1.0, 0.4);
     double u[4 * n], t[4 * n];
     boundary_values(&mesh, u, t);
     for (int j = 0; j < 2 * n; j += 5)
@@ -213,7 +208,6 @@ TEST(the_field_is_in_equilibrium)
             CHECK_ABS((s[2] - s[5] + s[7] - s[10]) / (2 * h), 0.0, 1e-4, "y, %d, %g", j,
                       depth);
         }
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
@@ -221,7 +215,7 @@ TEST(the_field_is_in_equilibrium)
 TEST(bad_input_is_refused)
 {
     enum { n = 20 };
-    rb_bem_mesh mesh = ring(n, 1.0, 0.4);
+    OWNED(rb_bem_mesh) mesh = ring(n, 1.0, 0.4);
     double u[4 * n] = {0}, t[4 * n] = {0}, s[9];
     rb_message why;
     const double outside[] = {0.5, 0.5, 1.5, 0.0, 0.7, 0.0}, hole[] = {0.1, 0.1},
@@ -249,13 +243,12 @@ TEST(bad_input_is_refused)
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                  (rb_bem_points){0, hole}, NULL, s, NULL),
                  RB_EINVAL);
-    rb_bem_mesh_free(&mesh);
 }
 
 TEST(failing_memory_is_reported)
 {
     enum { n = 20 };
-    rb_bem_mesh mesh = ring(n, 1.0, 0.4);
+    OWNED(rb_bem_mesh) mesh = ring(n, 1.0, 0.4);
     double u[4 * n] = {0}, t[4 * n] = {0}, s[3];
     const double xy[] = {0.7, 0.0};
     for (int count = 0, failed = 1; failed; count++) {
@@ -266,7 +259,6 @@ TEST(failing_memory_is_reported)
         alloc_succeed();
         CHECK_STATUS(got, failed ? RB_ENOMEM : RB_OK);
     }
-    rb_bem_mesh_free(&mesh);
 }
 
 RUN_TESTS(NULL, NULL)

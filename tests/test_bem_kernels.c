@@ -162,23 +162,21 @@ static double rows_times(const rb_bem_mesh *mesh, const double *u)
 
 static double translation_error(const rb_bem_mesh *mesh, int direction)
 {
-    double *u = rb_alloc(2 * (size_t)mesh->n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh->n, 1);
     for (int j = 0; j < mesh->n; j++)
         u[2 * j + direction] = 1.0;
     const double error = rows_times(mesh, u);
-    free(u);
     return error;
 }
 
 static double rotation_error(const rb_bem_mesh *mesh)
 {
-    double *u = rb_alloc(2 * (size_t)mesh->n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh->n, 1);
     for (int j = 0; j < mesh->n; j++) {
         u[2 * j] = -midpoint_y(mesh, j);
         u[2 * j + 1] = midpoint_x(mesh, j);
     }
     const double error = rows_times(mesh, u);
-    free(u);
     return error;
 }
 
@@ -186,7 +184,7 @@ static double rotation_error(const rb_bem_mesh *mesh)
 static rb_bem_mesh irregular(int n)
 {
     rb_bem_mesh mesh;
-    double *angle = rb_alloc((size_t)n + 1, 1), *r = rb_alloc((size_t)n + 1, 1);
+    SCRATCH double *angle = rb_alloc((size_t)n + 1, 1), *r = rb_alloc((size_t)n + 1, 1);
     srand(4);
     for (int k = 0; k < n; k++) {
         angle[k + 1] = angle[k] + pow(10.0, uniform(-2, 0));
@@ -202,8 +200,6 @@ static rb_bem_mesh irregular(int n)
         mesh.x1[k] = r[k + 1] * cos(b);
         mesh.y1[k] = r[k + 1] * sin(b);
     }
-    free(angle);
-    free(r);
     return mesh;
 }
 
@@ -223,9 +219,8 @@ TEST(rotations_are_annihilated_to_first_order)
 {
     double error[4];
     for (int k = 0; k < 4; k++) {
-        rb_bem_mesh mesh = circle(100 << k, 1.0);
+        OWNED(rb_bem_mesh) mesh = circle(100 << k, 1.0);
         error[k] = rotation_error(&mesh);
-        rb_bem_mesh_free(&mesh);
     }
     CHECK_MAX(error[0], 2.5e-3, "100 elements");
     CHECK_MAX(error[2], 5.5e-4, "400 elements");
@@ -242,9 +237,8 @@ TEST(the_unit_of_length_does_not_matter)
     static double H[2][dofs * dofs], G[2][dofs * dofs];
     const rb_bem_material m = {80.0, 0.3};
     for (int k = 0; k < 2; k++) {
-        rb_bem_mesh mesh = circle(n, k ? 1024.0 : 1.0);
+        OWNED(rb_bem_mesh) mesh = circle(n, k ? 1024.0 : 1.0);
         CHECK_STATUS(rb_bem_assemble(&mesh, m, H[k], G[k], dofs, NULL), RB_OK);
-        rb_bem_mesh_free(&mesh);
     }
     for (int i = 0; i < dofs * dofs; i++) {
         CHECK_ABS(H[1][i], H[0][i], 1e-15, "H %d", i);

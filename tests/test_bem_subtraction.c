@@ -13,15 +13,13 @@ static rb_bem_system *wheel_system(int n)
 {
     const rb_bem_cylinder cylinder = {
         .radius = 1000.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
-    double *ends = rb_alloc((size_t)n + 2, 1);
-    rb_bem_mesh mesh;
+    SCRATCH double *ends = rb_alloc((size_t)n + 2, 1);
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system = NULL;
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.0 + 2.0 * i / n;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
-    rb_bem_mesh_free(&mesh);
-    free(ends);
     return system;
 }
 
@@ -29,11 +27,11 @@ static rb_bem_system *wheel_system(int n)
 static double distance_from_halfplane(int n, int subtracted)
 {
     rb_bem_system *system = wheel_system(n);
-    rb_bem_flexibility f, flat;
+    OWNED(rb_bem_flexibility) f, flat;
     const int m = n + 1;
-    double *ends = rb_alloc((size_t)n + 2, 1),
-           *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
-           *H = rb_alloc(2 * (size_t)m, 2 * (size_t)n);
+    SCRATCH double *ends = rb_alloc((size_t)n + 2, 1),
+                   *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
+                   *H = rb_alloc(2 * (size_t)m, 2 * (size_t)n);
     double worst = 0.0, size = 0.0;
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.0 + 2.0 * i / n;
@@ -51,12 +49,7 @@ static double distance_from_halfplane(int n, int subtracted)
             worst = fmax(worst, fabs((F[at] - F[first]) - (H[at] - H[first])));
             size = fmax(size, fabs(H[at] - H[first]));
         }
-    rb_bem_flexibility_free(&f);
-    rb_bem_flexibility_free(&flat);
     rb_bem_system_free(system);
-    free(ends);
-    free(F);
-    free(H);
     return worst / size;
 }
 
@@ -73,7 +66,7 @@ static double distance_on_gliding_sides(int side)
 {
     const int touch = side / 5, first = 2 * side / 5;
     static const double corner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
     rb_bem_flexibility f[2];
     double *F[2], worst = 0.0, size = 0.0;
@@ -116,7 +109,6 @@ static double distance_on_gliding_sides(int side)
         free(F[k]);
     }
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     return worst / size;
 }
 
@@ -132,9 +124,9 @@ TEST(a_hollow_contact_is_refused)
 {
     /* a square whose lower side is bent inwards */
     static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why = {""};
     CHECK_STATUS(rb_bem_mesh_alloc(5, &mesh), RB_OK);
     for (int j = 0; j < 5; j++) {
@@ -153,9 +145,7 @@ TEST(a_hollow_contact_is_refused)
                  RB_EINVAL);
     assert_non_null(strstr(why.text, "outside the half-plane"));
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Every contact element alone has the field of its mirror image, mirrored. */
@@ -169,7 +159,7 @@ TEST(fields_have_their_mirror_images)
                                           .arc = 0.5,
                                           .hub_ratio = 0.3};
         const double ends[n + 2] = {-1.0, -0.5, 0.0, 0.5, 1.0, 1.5};
-        rb_bem_mesh mesh;
+        OWNED(rb_bem_mesh) mesh;
         rb_bem_system *system;
         CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
@@ -195,7 +185,6 @@ TEST(fields_have_their_mirror_images)
                           "load %d, stress %d, support %d", load, k, support);
         }
         rb_bem_system_free(system);
-        rb_bem_mesh_free(&mesh);
     }
 }
 
@@ -204,14 +193,13 @@ TEST(every_failed_allocation_is_reported)
     rb_bem_system *system = wheel_system(4);
     int refused = 1;
     for (int count = 0; refused; count++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         alloc_fail_after(count);
         const rb_status s =
             rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
         refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        rb_bem_flexibility_free(&f);
     }
     const double t[8] = {0.0, 1.0, 0.1, 2.0, 0.1, 2.0, 0.0, 1.0};
     refused = 1;

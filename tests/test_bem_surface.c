@@ -323,7 +323,7 @@ TEST(transforms_are_the_dense_matrix)
     for (int i = 0; i < 2 * n; i++)
         r[i] = sin(3.0 * i) + 0.4;
     for (int k = 0; k < 3; k++) {
-        rb_bem_flexibility dense, fast;
+        OWNED(rb_bem_flexibility) dense, fast;
         rb_message why;
         CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &why),
                      RB_OK);
@@ -337,8 +337,6 @@ TEST(transforms_are_the_dense_matrix)
         rb_bem_flexibility_apply(&fast, r, v);
         for (int i = 0; i < ld; i++)
             CHECK_ABS(v[i], w[i], 1e-11, "body %d, product %d", k, i);
-        rb_bem_flexibility_free(&dense);
-        rb_bem_flexibility_free(&fast);
     }
 }
 

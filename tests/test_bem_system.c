@@ -49,17 +49,14 @@ static void solve(const rb_bem_mesh *mesh, double *u, double *t)
 /* u_r = -p R (1-2nu)/(2G) */
 static double disc_error(int n)
 {
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
     put_circle(&mesh, 0, n, 2.0, 1, -M_PI / n);
     hold_by_symmetry(&mesh, n);
     press(&mesh, 0, n, 5.0, 1.0);
-    double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1);
     solve(&mesh, u, t);
     const double error = radial_error(&mesh, u, 0, n, -5.0 * 2.0 * 0.4 / (2.0 * 80.0));
-    free(u);
-    free(t);
-    rb_bem_mesh_free(&mesh);
     return error;
 }
 
@@ -72,19 +69,16 @@ static double lame(double r)
 
 static double thick_ring_error(int n)
 {
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(2 * n, &mesh), RB_OK);
     put_circle(&mesh, 0, n, 2.0, 1, -M_PI / n);
     put_circle(&mesh, n, n, 1.0, -1, M_PI / n);
     hold_by_symmetry(&mesh, n);
     press(&mesh, n, n, 3.0, -1.0);
-    double *u = rb_alloc(4 * (size_t)n, 1), *t = rb_alloc(4 * (size_t)n, 1);
+    SCRATCH double *u = rb_alloc(4 * (size_t)n, 1), *t = rb_alloc(4 * (size_t)n, 1);
     solve(&mesh, u, t);
     const double error = fmax(radial_error(&mesh, u, 0, n, lame(2.0)),
                               radial_error(&mesh, u, n, n, lame(1.0)));
-    free(u);
-    free(t);
-    rb_bem_mesh_free(&mesh);
     return error;
 }
 
@@ -116,7 +110,7 @@ TEST(thick_ring_under_internal_pressure)
  */
 static double dirichlet_error(int n)
 {
-    rb_bem_mesh mesh = circle(n, 2.0);
+    OWNED(rb_bem_mesh) mesh = circle(n, 2.0);
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
     for (int j = 0; j < n;
          j++) /* strain 0.01 along x, t_x = 2G (1-nu)/(1-2nu) 0.01 n_x */
@@ -131,7 +125,6 @@ static double dirichlet_error(int n)
     }
     free(u);
     free(t);
-    rb_bem_mesh_free(&mesh);
     return error;
 }
 
@@ -147,15 +140,15 @@ TEST(the_solution_satisfies_the_equations)
 {
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
     const rb_bem_cylinder cylinder = {.radius = 50.0, .support = RB_BEM_ARC, .arc = 0.5};
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL), RB_OK);
     give(&mesh, 20, RB_BEM_TRACTION, 3.0, -1.0);
     give(&mesh, 21, RB_BEM_TRACTION, 1.0, 0.0); /* along one axis alone */
     give(&mesh, 22, RB_BEM_TRACTION, 0.0, 1.0);
     const size_t d = 2 * (size_t)mesh.n;
-    double *H = rb_alloc(d, d), *G = rb_alloc(d, d), *u = rb_alloc(d, 1),
-           *t = rb_alloc(d, 1);
+    SCRATCH double *H = rb_alloc(d, d), *G = rb_alloc(d, d), *u = rb_alloc(d, 1),
+                   *t = rb_alloc(d, 1);
     double load[8] = {0.1, 1.0, 0.2, 3.0, -0.3, 2.0, 0.0, 0.5};
     CHECK_STATUS(rb_bem_assemble(&mesh, material, H, G, (int)d, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
@@ -176,11 +169,6 @@ TEST(the_solution_satisfies_the_equations)
     rb_bem_system_seconds(system, &assembly, &factor);
     assert_true(assembly > 0.0 && factor > 0.0);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
-    free(H);
-    free(G);
-    free(u);
-    free(t);
 }
 
 /* ---- Support (B6) ------------------------------------------------------------------ */
@@ -189,7 +177,7 @@ TEST(the_solution_satisfies_the_equations)
 static void pull_ring(double nu, int all_around, double *u, double *t)
 {
     enum { n = 40 };
-    rb_bem_mesh mesh = ring(n, 2.0, 1.0);
+    OWNED(rb_bem_mesh) mesh = ring(n, 2.0, 1.0);
     for (int j = 0; j < n; j++) {
         mesh.condition[2 * (n + j)] = RB_BEM_DISPLACEMENT;
         if (all_around)
@@ -212,7 +200,6 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
         CHECK_ABS(mean, 0.0, 1e-10, "mean pressure on the hole");
     }
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Displacements go on to nu = 1/2, and so do tractions but for the pressure that a hole
@@ -246,7 +233,7 @@ static void expect_free(rb_bem_mesh *mesh, const char *motions)
 TEST(a_body_without_support_is_refused)
 {
     enum { n = 16 };
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
     put_circle(&mesh, 0, n, 1.0, 1, -M_PI / n);
     expect_free(&mesh, "free in translation along x, translation along y, rotation;");
@@ -263,14 +250,13 @@ TEST(a_body_without_support_is_refused)
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Two bodies, one of them held: the count sees a support, the matrix does not. */
 TEST(a_second_body_without_support_is_singular)
 {
     enum { n = 16 };
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system;
     rb_message why;
     CHECK_STATUS(rb_bem_mesh_alloc(2 * n, &mesh), RB_OK);
@@ -285,7 +271,6 @@ TEST(a_second_body_without_support_is_singular)
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_SINGULAR);
     assert_non_null(strstr(why.text, "singular"));
     assert_null(system);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
@@ -293,7 +278,7 @@ TEST(a_second_body_without_support_is_singular)
 TEST(bad_input_is_refused)
 {
     enum { n = 16 };
-    rb_bem_mesh mesh = circle(n, 1.0);
+    OWNED(rb_bem_mesh) mesh = circle(n, 1.0);
     rb_bem_system *system;
     rb_bem_flexibility f;
     rb_message why;
@@ -314,7 +299,6 @@ TEST(bad_input_is_refused)
     CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n, &why), RB_EINVAL);
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_EINVAL);
     rb_bem_system_free(NULL);
-    rb_bem_mesh_free(&mesh);
 }
 
 TEST(failing_memory_is_reported)
@@ -324,9 +308,9 @@ TEST(failing_memory_is_reported)
         .radius = 1.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .outer_elements = 20};
     double H[40000], u[200], t[200];
     for (int count = 0, failed = 1; failed; count++) {
-        rb_bem_mesh mesh = {0};
+        OWNED(rb_bem_mesh) mesh = {0};
         rb_bem_system *system = NULL;
-        rb_bem_flexibility f = {0};
+        OWNED(rb_bem_flexibility) f = {0};
         rb_message why = {""};
         char expected[sizeof why.text];
         alloc_fail_after(count);
@@ -349,9 +333,7 @@ TEST(failing_memory_is_reported)
         alloc_succeed();
         CHECK_STATUS(s, failed ? RB_ENOMEM : RB_OK);
         assert_true(mesh.n <= 100);
-        rb_bem_flexibility_free(&f);
         rb_bem_system_free(system);
-        rb_bem_mesh_free(&mesh);
     }
 }
 

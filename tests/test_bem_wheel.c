@@ -16,11 +16,10 @@ static double *matrix_of(const rb_bem_flexibility *f)
 static double *wheel_matrix(const rb_bem_wheel *wheel, rb_bem_normals normals, int n,
                             const double *ends)
 {
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why = {""};
     CHECK_STATUS(rb_bem_flexibility_wheel(n, ends, wheel, normals, &f, &why), RB_OK);
     double *F = matrix_of(&f);
-    rb_bem_flexibility_free(&f);
     return F;
 }
 
@@ -57,14 +56,13 @@ TEST(the_flexibility_is_the_sum_of_its_waves)
                      G = w->radius / (2.0 * w->material.shear);
         const rb_bem_disc disc = {w->radius, w->material};
         double ends[N + 2], largest = 0.0;
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         arcs(w->radius, ends);
-        double *F = wheel_matrix(w, RB_BEM_NORMALS_SURFACE, N, ends);
+        SCRATCH double *F = wheel_matrix(w, RB_BEM_NORMALS_SURFACE, N, ends);
         CHECK_STATUS(
             rb_bem_flexibility_disc(N, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, NULL),
             RB_OK);
-        double *D = matrix_of(&f);
-        rb_bem_flexibility_free(&f);
+        SCRATCH double *D = matrix_of(&f);
         for (int m = 0; m <= LAST; m++) {
             const double out = 0.5 * ka / (m + 1), in = m > 1 ? 0.5 / (m - 1) : 0.0;
             /* of the disc as it is held: 0 and 1 are motions, wave 1 has ka/4 as well */
@@ -108,8 +106,6 @@ TEST(the_flexibility_is_the_sum_of_its_waves)
                               "wheel %d, block %d, %d under %d", k, b, i, j);
                 }
             }
-        free(F);
-        free(D);
     }
 }
 
@@ -122,15 +118,15 @@ TEST(uneven_arcs_and_frames)
         double ends[N + 2], few[FEW + 2], largest = 0.0;
         int middle[m];
         arcs(wheels[k].radius, ends);
-        double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, N, ends);
+        SCRATCH double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, N, ends);
         for (int i = 0, at = 0; i <= m; i++) { /* of 1 and 3 arcs in turns */
             few[i] = ends[at];
             if (i < m)
                 middle[i] = at + i % 2;
             at += 1 + 2 * (i % 2);
         }
-        double *A = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, FEW, few),
-               *B = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, FEW, few);
+        SCRATCH double *A = wheel_matrix(wheels + k, RB_BEM_NORMALS_SURFACE, FEW, few),
+                       *B = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, FEW, few);
         for (int i = 0; i < 4 * M * N; i++)
             largest = fmax(largest, fabs(F[i]));
         for (int j = 0; j < FEW; j++)
@@ -162,9 +158,6 @@ TEST(uneven_arcs_and_frames)
                                   k);
                     }
             }
-        free(F);
-        free(A);
-        free(B);
     }
 }
 
@@ -194,9 +187,9 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
                                 .hub = kind == 2 ? 30.0 : 0.0,
                                 .core = steel};
     double ends[80];
-    rb_bem_mesh mesh = {0}, core = {0};
+    OWNED(rb_bem_mesh) mesh = {0}, core = {0};
     rb_bem_system *system = NULL;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why = {""};
     for (int i = 0; i < n + 2; i++)
         ends[i] = 4.0 * (2.0 * i / n - 1.0);
@@ -210,14 +203,9 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
         CHECK_STATUS(rb_bem_system_create(&mesh, rubber, &system, &why), RB_OK);
     }
     CHECK_STATUS(rb_bem_condense_subtracted(system, normals, &f, &why), RB_OK);
-    double *A = matrix_of(&f), *B = wheel_matrix(&wheel, normals, n, ends);
+    SCRATCH double *A = matrix_of(&f), *B = wheel_matrix(&wheel, normals, n, ends);
     const double error = apart(n, A, B);
-    free(A);
-    free(B);
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
-    rb_bem_mesh_free(&core);
     return error;
 }
 
@@ -249,12 +237,12 @@ TEST(a_thin_cover_is_a_layer)
                                           .elastic_base = elastic,
                                           .base = steel};
             double ends[N + 2];
-            rb_bem_flexibility f;
+            OWNED(rb_bem_flexibility) f;
             for (int i = 0; i < N + 2; i++)
                 ends[i] = 4.0 * d * (2.0 * i / N - 1.0);
             CHECK_STATUS(rb_bem_flexibility_surface(N, ends, &layer, &f, NULL), RB_OK);
-            double *A = matrix_of(&f),
-                   *B = wheel_matrix(&wheel, RB_BEM_NORMALS_SURFACE, N, ends);
+            SCRATCH double *A = matrix_of(&f),
+                           *B = wheel_matrix(&wheel, RB_BEM_NORMALS_SURFACE, N, ends);
             /* the datum of the base is at will: a motion per force */
             for (int block = 0; block < 2 && elastic; block++) {
                 const int at = block * M + block * N * 2 * M;
@@ -264,9 +252,6 @@ TEST(a_thin_cover_is_a_layer)
                         A[at + i + j * 2 * M] -= off;
             }
             CHECK_MAX(apart(N, A, B), 10.0 * d, "d %g, elastic %d", d, elastic);
-            rb_bem_flexibility_free(&f);
-            free(A);
-            free(B);
         }
     }
 }
@@ -283,7 +268,7 @@ TEST(displacement_anywhere)
         }
         for (int i = 0; i < M; i++)
             x[i] = wheels[k].radius * sin(HALF_ARC * (2 * i + 1 - N));
-        double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, N, ends);
+        SCRATCH double *F = wheel_matrix(wheels + k, RB_BEM_NORMALS_OBSTACLE, N, ends);
         CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, M, x, w), RB_OK);
         for (int i = 0; i < M; i++)
             largest = fmax(largest, fabs(w[i]));
@@ -293,7 +278,6 @@ TEST(displacement_anywhere)
                 want += F[i + j * 2 * M] * p[j] + F[i + (j + N) * 2 * M] * q[j];
             CHECK_ABS(w[i], want, 1e-11 * largest, "wheel %d at %d", k, i);
         }
-        free(F);
         x[0] = wheels[k].radius;
         CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, M, x, w), RB_EINVAL);
         CHECK_STATUS(rb_bem_wheel_normal(wheels + k, &load, 0, x, w), RB_EINVAL);
@@ -320,7 +304,7 @@ TEST(products_are_the_matrix)
             r[i] = (rand() % 1000) / 1000.0 - 0.3;
         rb_bem_flexibility f;
         double largest = 0.0;
-        double *F = wheel_matrix(wheel, normals, n, ends);
+        SCRATCH double *F = wheel_matrix(wheel, normals, n, ends);
         CHECK_STATUS(rb_bem_flexibility_wheel_products(n, ends, wheel, normals, &f, NULL),
                      RB_OK);
         rb_bem_flexibility_apply(&f, r, w);
@@ -351,7 +335,6 @@ TEST(products_are_the_matrix)
         for (int i = 0; i < 2 * m; i++)
             CHECK_ABS(w[i], want[i], 1e-11 * largest, "plane, elements %d, row %d", kind,
                       i);
-        free(F);
         free(G);
         rb_bem_flexibility_free(&f);
     }

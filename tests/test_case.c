@@ -71,7 +71,7 @@ static void compare(const char *file, const char *words)
 {
     char path[700];
     rb_message why = {""};
-    rb_case_result r;
+    OWNED(rb_case_result) r;
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     snprintf(path, sizeof path, "%s/%s", examples, file);
     rb_status s = set_words(c, words, &why);
@@ -93,7 +93,6 @@ static void compare(const char *file, const char *words)
     compare_column(table, "q_MPa", got->n, got->q);
     compare_column(table, "slip", got->n, got->slip);
     json_decref(root);
-    rb_case_result_free(&r);
     rb_case_free(c);
 }
 
@@ -129,14 +128,13 @@ TEST(the_same_words_give_the_same_answer)
 TEST(carter_by_names_is_on_the_fitted_mesh)
 {
     rb_message why = {""};
-    rb_case_result r;
+    OWNED(rb_case_result) r;
     rb_case *c =
         case_of("similar=yes support=halfplane formulation=steady half-width=0.5 "
                 "creep-ratio=0.4 mu=0.3 radius=500");
     assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
     CHECK_STATUS(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
     CHECK_ABS(r.solution.force_ratio, -0.64, 1e-4, "Carter: s (2 - s) at s = 0.4");
-    rb_case_result_free(&r);
     rb_case_free(c);
 }
 
@@ -746,12 +744,11 @@ TEST(rows_are_blamed_by_file_and_line)
         write_file("rows.txt", bad[k].text);
         snprintf(words, sizeof words, "support=halfplane %srows.txt", bad[k].words);
         CHECK_STATUS(set_words(c, words, &why), RB_OK);
-        rb_case_result r = {.has_errors = 0};
+        OWNED(rb_case_result) r = {.has_errors = 0};
         rb_status s = rb_case_resolve(c, &why);
         if (s == RB_OK) /* a way is looked at when it begins */
             s = rb_case_locate(
                 c, rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), &why);
-        rb_case_result_free(&r);
         if (s != RB_EFORMAT || strncmp(why.text, bad[k].part, strlen(bad[k].part)) != 0)
             fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
         rb_case_free(c);
@@ -790,7 +787,7 @@ TEST(all_of_a_result_is_converted)
     for (int k = 0; k < 2; k++) {
         rb_message why = {""};
         rb_case *c = case_of(words[k]);
-        rb_case_result r;
+        OWNED(rb_case_result) r;
         if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why) != RB_OK)
             fail_msg("%s: %s", words[k], why.text);
         const double load = r.solution.normal_load, bar = r.errors.scalar.approach;
@@ -802,7 +799,6 @@ TEST(all_of_a_result_is_converted)
             CHECK_REL(r.errors.scalar.approach, 1e-3 * bar, 1e-14, "bar in m");
         else
             CHECK_REL(r.history.step, 1e-3 * step, 1e-14, "step in m");
-        rb_case_result_free(&r);
         rb_case_free(c);
     }
 }

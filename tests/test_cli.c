@@ -515,12 +515,11 @@ TEST(transient_rolls_step_by_step)
     assert_string_equal(json_string_value(json_object_get(
                             json_object_get(root, "summary"), "formulation")),
                         "transient");
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     assert_int_equal(rb_io_table_read_columns("steps.tsv", 16, &t, NULL), RB_OK);
     assert_int_equal(t.rows, steps);
     CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"),
               1e-9, "Q of the last step");
-    rb_io_table_free(&t);
     json_decref(root);
 }
 
@@ -789,9 +788,10 @@ TEST(dump_holds_the_problem)
     json_t *root =
         run_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
                  "2>trace");
-    double *M = read_matrix("d/M.mtx", SIZE, SIZE), *b = read_matrix("d/b.mtx", SIZE, 1);
+    SCRATCH double *M = read_matrix("d/M.mtx", SIZE, SIZE),
+                   *b = read_matrix("d/b.mtx", SIZE, 1);
     double *scale = read_matrix("d/z_scale.mtx", SIZE, 1), z[SIZE];
-    double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
+    SCRATCH double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
     rb_lcp_info info;
     assert_int_equal(rb_lcp_lemke(&(rb_lcp_problem){SIZE, M, SIZE, b}, NULL, z, &info),
                      RB_OK);
@@ -810,17 +810,14 @@ TEST(dump_holds_the_problem)
     assert_non_null(strstr(err, row));
     assert_non_null(strstr(err, "z0           enters"));
     free(read_matrix("d/contact.mtx", N, 3));
-    free(M);
-    free(b);
     free(scale);
-    free(F);
     json_decref(root);
 }
 
 /* H annihilates the two translations. */
 TEST(dumped_influence_moves_rigidly)
 {
-    rb_io_matrix m;
+    OWNED(rb_io_matrix) m;
     assert_int_equal(rollbem("--approach 5 --zone 20 --contact-elements 6 --dump h"), 0);
     assert_int_equal(rb_io_matrix_market_read("h/H.mtx", &m, NULL), RB_OK);
     assert_int_equal(rb_io_matrix_to_dense(&m), RB_OK);
@@ -831,7 +828,6 @@ TEST(dumped_influence_moves_rigidly)
                 sum += m.dense[i + (size_t)j * (size_t)m.rows];
             CHECK_ABS(sum, 0.0, 1e-12, "row %d", i);
         }
-    rb_io_matrix_free(&m);
 }
 
 static double table_entry(const json_t *root, const char *column, int i)
@@ -853,7 +849,7 @@ TEST(dump_of_a_large_contact_holds_its_flexibility)
     enum { N = 1500, M = N + 1 };
     json_t *root = run_json("--support halfplane --half-width 0.05 --contact-elements "
                             "1500 --shift 1e-5 --dump large");
-    double *F = read_matrix("large/F_columns.mtx", 2 * M, 4);
+    SCRATCH double *F = read_matrix("large/F_columns.mtx", 2 * M, 4);
     const double *NN = F, *NT = F + 4 * M; /* first columns; the last ones follow */
     double largest = 0.0;
     for (int i = 0; i < N; i++)
@@ -875,7 +871,6 @@ TEST(dump_of_a_large_contact_holds_its_flexibility)
     assert_int_equal(system("test \"$(ls -A large | tr '\\n' ' ')\" = "
                             "'F_columns.mtx contact.mtx '"),
                      0);
-    free(F);
     json_decref(root);
     assert_int_equal(rollbem("--support halfplane --half-width 0.05 --contact-elements "
                              "1500 --fclib large.h5 --dump none"),

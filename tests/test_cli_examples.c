@@ -35,7 +35,7 @@ static double tolerance_of(const char *name, double scale)
 
 static void compare_tables(const char *got_path, const char *wanted_path)
 {
-    rb_io_table got, wanted;
+    OWNED(rb_io_table) got, wanted;
     read_table(got_path, &got);
     read_table(wanted_path, &wanted);
     assert_int_equal(got.rows, wanted.rows);
@@ -49,8 +49,6 @@ static void compare_tables(const char *got_path, const char *wanted_path)
             CHECK_ABS(got.x[i + j * wanted.rows], x[i], tol, "%s: row %d, %s",
                       wanted_path, i + 1, name);
     }
-    rb_io_table_free(&got);
-    rb_io_table_free(&wanted);
 }
 
 TEST(tables_are_as_recorded)

@@ -103,7 +103,7 @@ TEST(table_holds_the_numbers_of_json)
     const char *line = "curve " SIMILAR "--points 7 --mu 0.1,0.3 --contact-elements 20 "
                        "--over creep --to 0.01";
     char command[400];
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     json_t *root = run_json(line);
     const json_t *curves = json_object_get(root, "curves");
     snprintf(command, sizeof command, "%s --quiet --output curve.tsv", line);
@@ -119,7 +119,6 @@ TEST(table_holds_the_numbers_of_json)
             CHECK_ABS(rb_io_table_column(&t, columns[j][0])[i],
                       entry(json_array_get(curves, i / 7), columns[j][1], i % 7), 0.0,
                       "%s", columns[j][0]);
-    rb_io_table_free(&t);
     json_decref(root);
 }
 
@@ -189,7 +188,7 @@ TEST(surface_row_shows_the_tractions)
 
 TEST(table_of_points)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
     assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"),
                      0);
@@ -202,7 +201,6 @@ TEST(table_of_points)
     const double syy = rb_io_table_column(&t, "syy_MPa")[0];
     CHECK_REL(rb_io_table_column(&t, "max_shear_MPa")[0], (sxx - syy) / 2, 1e-6, "tau");
     CHECK_REL(rb_io_table_column(&t, "szz_MPa")[0], 0.3 * (sxx + syy), 1e-12, "szz");
-    rb_io_table_free(&t);
 }
 
 /* ---- ParaView files ---------------------------------------------------------------- */
@@ -282,7 +280,7 @@ TEST(grid_of_a_wheel)
     const char *wheel = "stress --support hub --approach 5 --outer-elements 60 "
                         "--contact-elements 30 --grid 21x31 --depth 90";
     char line[300];
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     json_t *root = run_json(wheel);
     const json_t *grid = json_object_get(root, "grid");
     int inside = 0;
@@ -303,7 +301,6 @@ TEST(grid_of_a_wheel)
     assert_int_equal(rollbem(line), 0);
     assert_int_equal(rb_io_table_read("wheel.tsv", &t, NULL), RB_OK);
     assert_int_equal(t.rows, inside);
-    rb_io_table_free(&t);
     slurp("wheel.vtu", out, sizeof out);
     snprintf(line, sizeof line, "NumberOfPoints=\"%d\"", inside);
     assert_non_null(strstr(out, line));
@@ -315,7 +312,7 @@ TEST(vtk_holds_the_numbers_of_the_table)
 {
     enum { NX = 7, NY = 5, N = NX * NY };
     double x[6 * N + 3];
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --grid 7x5 "
                              "--quiet --output s.tsv --vtk s.vti"),
                      0);
@@ -339,7 +336,6 @@ TEST(vtk_holds_the_numbers_of_the_table)
     assert_int_equal(read_array("Points", x, sizeof x), 3 * N * sizeof(double));
     for (int k = 0; k < N; k++)
         CHECK_ABS(x[3 * k + 1], rb_io_table_column(&t, "y_mm")[k], 0.0, "y");
-    rb_io_table_free(&t);
     assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --quiet "
                              "--vtk /nonexistent/s.vtu"),
                      73);
@@ -347,12 +343,11 @@ TEST(vtk_holds_the_numbers_of_the_table)
 
 static double last_of(const char *path, const char *column)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     assert_int_equal(rb_io_table_read(path, &t, NULL), RB_OK);
     const double *x = rb_io_table_column(&t, column);
     assert_non_null(x);
     const double value = x[t.rows - 1];
-    rb_io_table_free(&t);
     return value;
 }
 
@@ -379,19 +374,17 @@ TEST(curves_and_steps_have_error_bars)
 
 TEST(steps_leave_snapshots_and_a_picture)
 {
-    rb_io_table first, last;
+    OWNED(rb_io_table) first, last;
     assert_int_equal(rollbem(ROLLING "--distance 0.5 --quiet --output last.tsv "
                                      "--snapshots snap --every 2 --history-plot h.svg "
                                      "--history-table h.tsv --progress"),
                      0);
     assert_non_null(strstr(err, ", 0 s left\n")); /* after the last one */
     assert_int_equal(rb_io_table_read("snap/step_000002.tsv", &first, NULL), RB_OK);
-    rb_io_table_free(&first);
     assert_int_equal(shell("cmp \"$(ls snap/*.tsv | tail -1)\" last.tsv"), 0);
     assert_int_equal(rb_io_table_read("h.tsv", &last, NULL), RB_OK);
     const int n = last.rows;
     CHECK_REL(rb_io_table_column(&last, "distance_a")[n - 1], 0.5, 0.15, "distance");
-    rb_io_table_free(&last);
     slurp("h.svg", out, sizeof out);
     assert_non_null(strstr(out, "Transient rolling"));
     write_file("plain", "");

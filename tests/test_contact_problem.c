@@ -10,8 +10,8 @@ static outcome check_solvers(const kind *of)
 {
     static const rb_contact_solver solvers[] = {RB_SOLVER_AUTO, RB_SOLVER_LEMKE,
                                                 RB_SOLVER_NEWTON};
-    rb_contact_problem p;
-    rb_contact_state s;
+    OWNED(rb_contact_problem) p;
+    OWNED(rb_contact_state) s;
     outcome o = {0};
 
     random_problem(of, &p);
@@ -22,8 +22,6 @@ static outcome check_solvers(const kind *of)
         const rb_status status = rb_contact_solve(&p, &options, k >= 3, &s, &why);
         check_outcome(&p, &s, status, &why, &o);
     }
-    rb_contact_state_free(&s);
-    rb_contact_problem_free(&p);
     return o;
 }
 
@@ -62,8 +60,8 @@ TEST(full_sliding_has_the_least_creepage)
         const double sign = k % 2 ? 1.0 : -1.0;
         rb_contact_options options =
             options_of(k % 3 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         double least = INFINITY;
         options.sliding =
             k / 2 % 2 ? options.sliding : 1e-2 * SLIP; /* too small to slide */
@@ -84,8 +82,6 @@ TEST(full_sliding_has_the_least_creepage)
             CHECK_ABS(s.lambda[i], slip, 1e-9 * SLIP, "case %d: lambda %d", k, i);
         }
         CHECK_ABS(least, 0.0, 1e-9 * SLIP, "case %d: the slowest", k);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -131,8 +127,8 @@ TEST(strong_layers_forget_what_has_yielded)
                          .load_given = k % 2,
                          .yields = 1 + k % 3};
         const rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         for (int i = 0; i < of.n; i++) {
@@ -143,8 +139,6 @@ TEST(strong_layers_forget_what_has_yielded)
         for (int i = 0; i < of.n; i++)
             CHECK_ABS(s.plastic[i], 0.0, 0.0, "element %d", i);
         CHECK_MAX(residual_of(&p, &s), 1e-8, "problem %d", k);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -172,8 +166,8 @@ TEST(cycles_of_laws_end_soon)
                          .order = k / 36 % 3,
                          .rolls = k / 108 % 2};
         const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         numbers = 1000 + (uint64_t)k;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
@@ -181,8 +175,6 @@ TEST(cycles_of_laws_end_soon)
         CHECK_MAX(residual_of(&p, &s), 1e-9, "case %d", k);
         assert_int_equal(s.solver, all[c].by);
         CHECK_MAX(s.iterations, all[c].steps, "steps of case %d", k);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -202,15 +194,13 @@ TEST(pivots_leave_no_rounding)
                          .yields = k % 3,
                          .order = 1};
         const rb_contact_options options = options_of(RB_SOLVER_LEMKE);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
         assert_int_equal(s.solver, RB_SOLVER_LEMKE);
         sum[k % 3] += residual_of(&p, &s);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
     for (int k = 0; k < 3; k++)
         CHECK_MAX(sum[k] / 4.0, 3e-15, "layer %d", k);
@@ -262,8 +252,8 @@ TEST(zones_may_change_one_by_one)
                          .load_given = k % 2,
                          .force_given = k / 2 % 2,
                          .axle = k / 4};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         double gap[24];
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
@@ -278,8 +268,6 @@ TEST(zones_may_change_one_by_one)
             CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
             check_held(&p, &s, gap, round);
         }
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -290,16 +278,14 @@ TEST(zones_that_determine_nothing_are_singular)
     numbers = 4;
     for (int k = 0; k < 2; k++) {
         const kind of = {.n = 3, .mu = 0.3, .load_given = !k, .force_given = k};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         double gap[3];
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         for (int i = 0; i < of.n; i++)
             s.zone[i] = k ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_SEPARATED;
         CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_SINGULAR);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -320,8 +306,9 @@ TEST(products_give_what_matrices_do)
                          .yields = layer ? 1 + k % 3 : 0,
                          .order = k / 3 % 3};
         const rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p, with;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) with;
+        rb_contact_problem p;
+        OWNED(rb_contact_state) s;
         by_products by;
         outcome o = {0};
         rb_message why = {""};
@@ -342,9 +329,7 @@ TEST(products_give_what_matrices_do)
         CHECK_REL(unit.gap, GAP / STRESS, 1e-14, "gap");
         CHECK_REL(unit.slip, SLIP / STRESS, 1e-14, "slip");
         assert_int_equal(unit.coupled, of.coupling > 0.0 && of.n > 1);
-        rb_contact_state_free(&s);
         rb_contact_problem_free(&p);
-        rb_contact_problem_free(&with);
         assert_int_equal(by.freed, 1);
         products += layer ? 0 : by.products;
     }
@@ -373,8 +358,8 @@ TEST(an_exact_preconditioner_needs_one_step)
     for (int k = 0; k < 8; k++) {
         const kind of = {
             .n = 9, .mu = 0.3, .load_given = k % 2, .force_given = k / 2 % 2};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         by_products by;
         double gap[9], P, Q;
         numbers = 21;
@@ -404,8 +389,6 @@ TEST(an_exact_preconditioner_needs_one_step)
             CHECK_REL(P, p.load, 1e-9, "load");
         if (of.force_given)
             CHECK_REL(Q, p.force_ratio * rb_contact_capacity(&p, &s), 1e-9, "force");
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -415,8 +398,8 @@ TEST(a_full_basis_begins_anew)
 {
     enum { n = 130 };
     const kind of = {.n = n, .mu = 0.3, .load_given = 1, .force_given = 1};
-    rb_contact_problem p;
-    rb_contact_state s;
+    OWNED(rb_contact_problem) p;
+    OWNED(rb_contact_state) s;
     by_products by;
     double gap[n];
 
@@ -439,8 +422,6 @@ TEST(a_full_basis_begins_anew)
         CHECK_ABS(s.lambda[i], 0.0, 1e-9 * SLIP, "slip %d", i);
     }
     CHECK_REL(sum_of(n, p.load_N, s.p, p.load_T, s.q), p.load, 1e-9, "load");
-    rb_contact_state_free(&s);
-    rb_contact_problem_free(&p);
 }
 
 /* The answer to unit tractions at the middle element: by products, and by matrices, whose
@@ -451,7 +432,7 @@ TEST(responses_are_those_to_unit_tractions)
     for (int k = 0; k < 6; k++) {
         const kind of = {.n = 3 + k, .mu = 0.3, .coupling = 0.1, .rolls = k % 2};
         const int n = of.n, j = n / 2;
-        rb_contact_problem p;
+        OWNED(rb_contact_problem) p;
         by_products by;
         double gap = 0.0, slip = 0.0, coupled = 0.0, answer = 0.0, reach = 0.0;
         random_problem(&of, &p);
@@ -476,7 +457,6 @@ TEST(responses_are_those_to_unit_tractions)
         CHECK_REL(unit.coupled_slip, answer, 1e-14, "slips of a pressure");
         CHECK_REL(unit.reach, reach / own[0], 1e-14, "reach");
         assert_true(unit.coupled);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -496,8 +476,8 @@ TEST(every_step_is_shown)
     for (int yields = 0; yields < 2; yields++) {
         const kind of = {.n = 7, .mu = 0.3, .coupling = 0.05, .yields = yields};
         const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         int steps = 0;
         random_problem(&of, &p);
         p.trace = count_steps;
@@ -506,8 +486,6 @@ TEST(every_step_is_shown)
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
         assert_true(steps > 1);
         assert_int_equal(s.iterations, steps);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -531,7 +509,7 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
     const int n = p->n, kwak = lcp->form == RB_LCP_KWAK;
     const double o = lcp->mirrored ? -1.0 : 1.0;
     double next = 0.0, second = 0.0, most;
-    rb_contact_state s;
+    OWNED(rb_contact_state) s;
 
     CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
     for (int i = 0; i < n; i++) /* of an earlier solve */
@@ -584,7 +562,6 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
         CHECK_ABS(w[lcp->size - 1] * lcp->w_scale[lcp->size - 1],
                   (lcp->xi0 > 0.0 ? 1.0 : -1.0) * force_error(p, &s, &most),
                   1e-9 * p->load, "force");
-    rb_contact_state_free(&s);
 }
 
 TEST(every_row_of_the_lcp_is_its_equation)
@@ -601,8 +578,8 @@ TEST(every_row_of_the_lcp_is_its_equation)
                          .order = k / 48};
         const rb_contact_lcp_form form = k / 4 % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         double z[40], w[40];
-        rb_contact_problem p;
-        rb_contact_lcp lcp;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_lcp) lcp;
         random_problem(&of, &p);
         CHECK_STATUS(
             rb_contact_lcp_create(&p, form, k / 4 % 3, k % 5 ? SLIP : -SLIP, &lcp, NULL),
@@ -613,8 +590,6 @@ TEST(every_row_of_the_lcp_is_its_equation)
             z[i] = uniform(0.0, 1.0);
         rb_lcp_residual(&(rb_lcp_problem){lcp.size, lcp.M, lcp.size, lcp.b}, z, w);
         check_lcp_rows(&p, &lcp, z, w);
-        rb_contact_lcp_free(&lcp);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -643,8 +618,8 @@ TEST(variables_have_names)
         const kind of = {
             .n = 2, .mu = 0.3, .load_given = 1, .force_given = 1, .yields = k / 3};
         char name[RB_CONTACT_VARIABLE];
-        rb_contact_problem p;
-        rb_contact_lcp lcp;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_lcp) lcp;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_lcp_create(&p, k % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED,
                                            k % 3, SLIP, &lcp, NULL),
@@ -655,8 +630,6 @@ TEST(variables_have_names)
             assert_string_equal(rb_contact_lcp_variable(&lcp, of.n, v, name),
                                 names[k % 3][half + at + skipped * (half < 24)]);
         }
-        rb_contact_lcp_free(&lcp);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -667,8 +640,8 @@ TEST(the_lcp_of_a_state_is_the_one_that_gave_it)
     for (int k = 0; k < 3; k++) {
         const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .force_given = 2};
         rb_contact_options options = options_of(k ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_contact_lcp lcp;
         options.lcp_form = k == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         random_problem(&of, &p);
@@ -692,8 +665,6 @@ TEST(the_lcp_of_a_state_is_the_one_that_gave_it)
         assert_int_equal(lcp.mirrored, 0);
         CHECK_ABS(lcp.xi0, 3.0, 0.0, "of the state");
         rb_contact_lcp_free(&lcp);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -736,8 +707,8 @@ TEST(the_residual_judges_cone_solvers)
                          .load_given = k / 6 % 2,
                          .force_given = k / 12};
         rb_contact_options options = options_of(RB_SOLVER_NEWTON);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_message why = {""};
         numbers = 14;
         random_problem(&of, &p);
@@ -760,9 +731,7 @@ TEST(the_residual_judges_cone_solvers)
             CHECK_ABS(s.delta, known.delta, 1e-12 * GAP, "delta");
             check_zones(&p, &s);
         }
-        rb_contact_state_free(&s);
         rb_contact_state_free(&known);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -774,8 +743,8 @@ TEST(products_have_no_lcp)
     numbers = 11;
     const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .yields = 1};
     const rb_contact_options options = options_of(RB_SOLVER_AUTO);
-    rb_contact_problem p;
-    rb_contact_state s;
+    OWNED(rb_contact_problem) p;
+    OWNED(rb_contact_state) s;
     rb_contact_lcp lcp;
     rb_contact_cone cone;
     by_products by;
@@ -789,8 +758,6 @@ TEST(products_have_no_lcp)
     CHECK_STATUS(rb_contact_cone_create(&p, 0.0, 0.0, &cone, &why), RB_EINVAL);
     assert_string_equal(why.text, "4 elements are too many for a dense W");
     CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, &why), RB_OK);
-    rb_contact_state_free(&s);
-    rb_contact_problem_free(&p);
 }
 
 /* Kwak's form has the inverse of A F_TT. */
@@ -799,7 +766,7 @@ TEST(kwaks_form_needs_an_inverse)
     const int n = 2;
     double *S = rb_alloc(2, 4);
     rb_contact_operator *op;
-    rb_contact_problem p;
+    OWNED(rb_contact_problem) p;
     rb_contact_lcp lcp;
     rb_message why = {""};
     for (int k = 0; k < 8; k++)
@@ -810,7 +777,6 @@ TEST(kwaks_form_needs_an_inverse)
     CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_KWAK, 0, 1.0, &lcp, &why), RB_SINGULAR);
     assert_non_null(strstr(why.text, "LCP of 2 contact elements: "));
     assert_null(lcp.M);
-    rb_contact_problem_free(&p);
 }
 
 /* A force beyond friction, a layer's stress, or the resistance to rolling beyond
@@ -840,8 +806,8 @@ TEST(forces_that_nothing_carries_are_refused)
                          .force_given = 1,
                          .yields = all[k].yields};
         rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_message why = {""};
         numbers = 12;
         random_problem(&of, &p);
@@ -862,8 +828,6 @@ TEST(forces_that_nothing_carries_are_refused)
         } else {
             assert_true(status >= 0);
         }
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -878,8 +842,8 @@ TEST(what_is_not_solved_says_so)
                          .force_given = 2,
                          .yields = k / 2};
         rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_message why = {""};
         numbers = 19;
         random_problem(&of, &p);
@@ -889,8 +853,6 @@ TEST(what_is_not_solved_says_so)
         assert_true(status > 0 && s.status == status);
         assert_true(s.residual > 0.0 && s.residual < 1e-12);
         assert_non_null(strstr(why.text, "; scaled residual "));
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -919,8 +881,8 @@ TEST(every_form_is_tried)
         const kind of = {.n = 5, .mu = 0.3, .coupling = 0.02};
         rb_contact_options options = options_of(RB_SOLVER_LEMKE);
         attempts tried = {0};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         numbers = 26;
         random_problem(&of, &p);
         options.tol = 0.0;
@@ -934,8 +896,6 @@ TEST(every_form_is_tried)
         assert_int_equal(tried.tableaus, kwak ? tried.pivots : 0);
         for (int k = 0; k < tried.paths; k++)
             assert_int_equal(tried.attempt[k], kwak ? 2 : all[k % 6]);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -948,8 +908,8 @@ TEST(surfaces_apart_carry_nothing)
     for (int k = 0; k < 4; k++) {
         const kind of = {.n = 3, .mu = 0.3, .force_given = 2, .yields = k / 2 * 2};
         const rb_contact_options options = options_of(solvers[k % 2]);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_message why = {""};
         numbers = 17;
         random_problem(&of, &p);
@@ -957,8 +917,6 @@ TEST(surfaces_apart_carry_nothing)
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "carries at most"));
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 

@@ -129,8 +129,8 @@ TEST(a_solution_s_bars_are_of_its_coarser_runs)
 TEST(stresses_have_bars_where_they_are_asked_for)
 {
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
-    rb_rolling_model model;
-    rb_rolling_solution own, again;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) own, again;
     rb_rolling_stress_maxima maxima;
     rb_rolling_errors errors, alone;
     rb_message why = {""};
@@ -141,13 +141,10 @@ TEST(stresses_have_bars_where_they_are_asked_for)
     assert_true(errors.scalar.max_pressure == alone.scalar.max_pressure &&
                 errors.scalar.force_ratio == alone.scalar.force_ratio);
     assert_true(isnan(alone.stress.max_shear.value));
-    rb_rolling_solution_free(&again);
-    rb_rolling_model_free(&model);
     assert_true(errors.stress.max_shear.value > 1e-9 * own.max_pressure);
     CHECK_MAX(errors.stress.max_shear.value, 0.1 * own.max_pressure, "bar of max_shear");
     assert_true(errors.stress.von_mises.y > 0.0);
     CHECK_MAX(errors.stress.von_mises.y, own.half_width, "bar of its depth");
-    rb_rolling_solution_free(&own);
 }
 
 TEST(a_curve_s_bars_are_of_its_coarser_curves)

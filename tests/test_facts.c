@@ -362,7 +362,7 @@ TEST(test_library)
     for (int k = 0; k < 3; k++) {
         char line[300];
         rb_message why = {""};
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_case *c = rb_case_create(RB_CASE_SINGLE);
         assert_non_null(c);
         CHECK_STATUS(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &why), RB_OK);
@@ -385,7 +385,6 @@ TEST(test_library)
                   line);
         CHECK_ABS(summary_of(root, "free_creepage"), s.free_creepage, 0.0, "%s", line);
         json_decref(root);
-        rb_rolling_solution_free(&s);
         rb_case_free(c);
     }
 }

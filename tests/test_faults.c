@@ -288,7 +288,7 @@ static void inspect(const char *path, void *context)
     char name[1300];
     size_t size, wanted_size;
     snprintf(name, sizeof name, "reference/%.1200s", path);
-    char *text = read_all(path, &size), *wanted = read_all(name, &wanted_size);
+    SCRATCH char *text = read_all(path, &size), *wanted = read_all(name, &wanted_size);
     int good = wanted && size == wanted_size && memcmp(text, wanted, size) == 0;
     if (!good && wanted && wanted[0] == '{')
         good = same_json(text, wanted);
@@ -303,8 +303,6 @@ static void inspect(const char *path, void *context)
                     in->j->name, path, in->code, size);
     in->bad += !good;
     in->files++;
-    free(text);
-    free(wanted);
 }
 
 /* ---- Runs -------------------------------------------------------------------------- */
@@ -383,7 +381,7 @@ static void assess(const job *j, const char *fault, int k, int status, int code,
     inspection in = {.j = j, .code = WIFEXITED(status) ? WEXITSTATUS(status) : -1};
     size_t size;
     for_files(".", inspect, &in);
-    char *text = read_all("err", &size), *printed = read_all("out", &size);
+    SCRATCH char *text = read_all("err", &size), *printed = read_all("out", &size);
     int good = in.bad == 0 && (in.code == 0 || in.code == code);
     if (in.code == 0) /* the fault did no harm */
         good = good && in.files == reference_files &&
@@ -394,8 +392,6 @@ static void assess(const job *j, const char *fault, int k, int status, int code,
         print_error("%s: %s %d: status %x, %d of %d files, stderr: %s\n", j->name, fault,
                     k, (unsigned)status, in.files, reference_files, text);
     wrong += !good;
-    free(text);
-    free(printed);
 }
 
 /* All of n, or so many of them. */

@@ -119,7 +119,7 @@ TEST(one_triangle_of_m_is_completed)
     rb_message why = {""};
     for (int lower = 0; lower < 2; lower++) {
         small_global(&p);
-        rb_sparse full = p.M;
+        OWNED(rb_sparse) full = p.M;
         int row[] = {0, 1, 2, lower}, col[] = {0, 1, 2, !lower};
         double x[] = {2.0, 2.0, 5.0, -1.0};
         CHECK_STATUS(
@@ -132,7 +132,6 @@ TEST(one_triangle_of_m_is_completed)
                      RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         same_sparse(&full, &back.M);
-        rb_sparse_free(&full);
         rb_io_fclib_free(&back);
         rb_io_fclib_free(&p);
     }
@@ -162,18 +161,16 @@ static void set_int(const char *name, int value)
 
 static void fresh_local(void)
 {
-    rb_io_fclib p;
+    OWNED(rb_io_fclib) p;
     small_local(&p);
     CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
-    rb_io_fclib_free(&p);
 }
 
 static void fresh_global(void)
 {
-    rb_io_fclib p;
+    OWNED(rb_io_fclib) p;
     small_global(&p);
     CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
-    rb_io_fclib_free(&p);
 }
 
 static void refused(const char *words)
@@ -231,10 +228,9 @@ TEST(sizes_and_indices_are_checked)
                  "W/p does not increase");
     fresh_local();
     overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_equal); /* empty columns */
-    rb_io_fclib gathered;
+    OWNED(rb_io_fclib) gathered;
     CHECK_STATUS(rb_io_fclib_read(path, &gathered, NULL), RB_OK);
     assert_int_equal(gathered.W.p[4], 0);
-    rb_io_fclib_free(&gathered);
     fresh_local();
     set_int("/fclib_local/W/nz", -3);
     refused("W is 6 x 6 with nz = -3");
@@ -282,10 +278,9 @@ TEST(sizes_and_indices_are_checked)
     /* nzmax beyond what is stored does not matter */
     fresh_local();
     set_int("/fclib_local/W/nzmax", 900);
-    rb_io_fclib back;
+    OWNED(rb_io_fclib) back;
     CHECK_STATUS(rb_io_fclib_read(path, &back, NULL), RB_OK);
     assert_int_equal(back.W.p[6], 8);
-    rb_io_fclib_free(&back);
 }
 
 /* u = W r + V l + q, V' r + R l + s = 0 with one constraint; entries of R: 0 or 1 */
@@ -312,10 +307,9 @@ static void small_constrained(rb_io_fclib *p, int entries)
 
 static void fresh_constrained(void)
 {
-    rb_io_fclib p;
+    OWNED(rb_io_fclib) p;
     small_constrained(&p, 1);
     CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
-    rb_io_fclib_free(&p);
 }
 
 static void drop(const char *name)
@@ -369,10 +363,9 @@ TEST(constraints_are_whole_or_refused)
     set_int("/fclib_local/R/n", 2);
     overwrite("/fclib_local/R/p", H5T_NATIVE_INT, 3, two);
     refused("/fclib_local/R is 1 x 2, expected 1 x 1");
-    rb_io_fclib g;
+    OWNED(rb_io_fclib) g;
     small_global(&g);
     CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
-    rb_io_fclib_free(&g);
     overwrite("/fclib_global/vectors/b", H5T_NATIVE_DOUBLE, 1, few);
     refused("no /fclib_global/G/m");
 }
@@ -453,7 +446,7 @@ TEST(files_are_as_the_format_says)
     static const int nz[] = {5, -1, -2}, length[] = {5, 4, 4};
     static const int p[][5] = {{0, 0, 1, 1, 2}, {0, 2, 4, 5}, {0, 2, 4, 5}};
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
-        rb_io_fclib problem;
+        OWNED(rb_io_fclib) problem;
         char text[40];
         int x[8];
         small_global(&problem);
@@ -461,7 +454,6 @@ TEST(files_are_as_the_format_says)
                                        layout ? "a title" : NULL, layout ? NULL : "words",
                                        NULL),
                      RB_OK);
-        rb_io_fclib_free(&problem);
         const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         texts_of(file, "/fclib_global/info/title", text, sizeof text);
         assert_string_equal(text, layout ? "a title" : "");
@@ -625,10 +617,9 @@ TEST(problems_go_through_files)
     assert_non_null(strstr(why.text, "mu of contact 2 is -1"));
     assert_non_null(strstr(why.text, path));
 
-    rb_io_fclib g;
+    OWNED(rb_io_fclib) g;
     small_global(&g);
     CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &why), RB_OK);
-    rb_io_fclib_free(&g);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 3);

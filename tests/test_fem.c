@@ -127,7 +127,7 @@ TEST(linear_displacement_is_exact)
  * balance. */
 TEST(patch_test)
 {
-    rb_fem_mesh mesh;
+    OWNED(rb_fem_mesh) mesh;
     CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 12, 6, &mesh), RB_OK);
     for (int k = 0; k < 12; k++) {
         const int inside = k % 4 > 0 && k % 4 < 3 && k / 4 == 1;
@@ -139,7 +139,7 @@ TEST(patch_test)
         const int corner[4] = {a, a + 1, a + 5, a + 4};
         memcpy(mesh.node + 4 * e, corner, sizeof corner);
     }
-    rb_sparse K = {0};
+    OWNED(rb_sparse) K = {0};
     CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &K, NULL), RB_OK);
     double u[24], f[24];
     for (int k = 0; k < 12; k++) {
@@ -150,8 +150,6 @@ TEST(patch_test)
     for (int k = 10; k < 14; k++)
         CHECK_ABS(f[k], 0.0, 1e-14, "inner nodes 5 and 6, entry %d", k);
     check_nullity(&K, 3);
-    rb_sparse_free(&K);
-    rb_fem_mesh_free(&mesh);
 }
 
 TEST(truss_has_the_stated_layouts)
@@ -163,7 +161,7 @@ TEST(truss_has_the_stated_layouts)
     } want[] = {{RB_FEM_UPPER_INSIDE, 265, 795, 968, 100.0},
                 {RB_FEM_UPPER_OVERHANGING, 313, 939, 1152, 144.0}};
     for (int k = 0; k < 2; k++) {
-        rb_fem_model model;
+        OWNED(rb_fem_model) model;
         double sum = 0.0;
         CHECK_STATUS(rb_fem_model_truss(want[k].layout, 12, &model, NULL), RB_OK);
         assert_int_equal(model.mesh.nodes, want[k].nodes);
@@ -176,7 +174,6 @@ TEST(truss_has_the_stated_layouts)
         CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
         check_nullity(&rb_fem_condensed(c)->K, 7);
         rb_fem_condensation_free(c);
-        rb_fem_model_free(&model);
     }
 }
 
@@ -213,13 +210,13 @@ TEST(condensed_stiffness_is_the_reference)
 /* Held contact nodes: condensed and full equations agree. */
 TEST(expansion_solves_the_full_system)
 {
-    rb_fem_model model;
+    OWNED(rb_fem_model) model;
     rb_fem_condensation *c = NULL;
     CHECK_STATUS(rb_fem_model_bar(12, 3, &model, NULL), RB_OK);
     CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
     const int n = model.mesh.dofs, nc = rb_fem_condensed(c)->dofs;
-    double *u = rb_alloc((size_t)n, 1), *uc = rb_alloc((size_t)nc, 1);
-    double *f = rb_alloc((size_t)n, 1), *fc = rb_alloc((size_t)nc, 1);
+    SCRATCH double *u = rb_alloc((size_t)n, 1), *uc = rb_alloc((size_t)nc, 1);
+    SCRATCH double *f = rb_alloc((size_t)n, 1), *fc = rb_alloc((size_t)nc, 1);
     for (int i = 0; i < nc; i++)
         uc[i] = noise();
     CHECK_STATUS(rb_fem_expand(c, model.load, uc, u), RB_OK);
@@ -234,12 +231,7 @@ TEST(expansion_solves_the_full_system)
         k += is_contact;
     }
     CHECK_MAX(worst, 1e-12 * largest, "largest force %g", largest);
-    free(u);
-    free(uc);
-    free(f);
-    free(fc);
     rb_fem_condensation_free(c);
-    rb_fem_model_free(&model);
 }
 
 TEST(bad_input_is_refused)
@@ -301,7 +293,7 @@ TEST(models_have_their_range)
     } sizes[] = {{0, 0, 3, 0}, {0, 3, 0, 0}, {0, 2001, 1, 0}, {0, 1, 2001, 0},
                  {0, 1, 1, 1}, {1, 1, 0, 0}, {1, 201, 0, 0},  {1, 2, 0, 1}};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-        rb_fem_model model;
+        OWNED(rb_fem_model) model;
         rb_message why = {""};
         const rb_status s =
             sizes[k].truss
@@ -309,7 +301,6 @@ TEST(models_have_their_range)
                 : rb_fem_model_bar(sizes[k].nx, sizes[k].ny, &model, &why);
         CHECK_STATUS(s, sizes[k].is_there ? RB_OK : RB_EINVAL);
         assert_int_equal(why.text[0] == '\0', sizes[k].is_there);
-        rb_fem_model_free(&model);
     }
 }
 
@@ -375,9 +366,9 @@ TEST(units_without_a_load)
             const double unit[4] = {1.0, 0.0, 0.0, 1.0};
             rb_fem_structure s = {
                 .dofs = 2, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
-            rb_fem_state at;
+            OWNED(rb_fem_state) at;
             rb_fem_units units;
-            rb_friction_problem p;
+            OWNED(rb_friction_problem) p;
             CHECK_STATUS(rb_sparse_from_dense(2, 2, stiff ? half : none, 2, &s.K), RB_OK);
             CHECK_STATUS(rb_sparse_from_dense(2, 2, unit, 2, &s.H), RB_OK);
             CHECK_STATUS(rb_fem_state_alloc(&s, &at), RB_OK);
@@ -387,8 +378,6 @@ TEST(units_without_a_load)
             CHECK_ABS(p.f[1], loaded ? -1.0 : 0.0, 0.0, "f");
             CHECK_ABS(p.w[0], 0.1 / units.length, 1e-15, "w");
             CHECK_ABS(p.w[1], 0.0, 0.0, "w");
-            rb_friction_problem_free(&p);
-            rb_fem_state_free(&at);
             rb_sparse_free(&s.K);
             rb_sparse_free(&s.H);
         }
@@ -396,17 +385,15 @@ TEST(units_without_a_load)
 
 static rb_status build_and_condense(void)
 {
-    rb_fem_model model;
+    OWNED(rb_fem_model) model;
     rb_fem_condensation *c = NULL;
-    rb_fem_state at = {0};
+    OWNED(rb_fem_state) at = {0};
     rb_status s = rb_fem_model_bar(4, 2, &model, NULL);
     if (s == RB_OK)
         s = rb_fem_condense(&model.structure, &c, NULL);
     if (s == RB_OK)
         s = rb_fem_state_alloc(&model.structure, &at);
-    rb_fem_state_free(&at);
     rb_fem_condensation_free(c);
-    rb_fem_model_free(&model);
     return s;
 }
 

@@ -53,7 +53,7 @@ static int is_result(const char *name)
 
 static void matches(const char *recorded)
 {
-    rb_io_table got, want;
+    OWNED(rb_io_table) got, want;
     rb_message why = {""};
     CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &got, &why), RB_OK);
     CHECK_STATUS(rb_io_table_read(recorded, &want, &why), RB_OK);
@@ -67,8 +67,6 @@ static void matches(const char *recorded)
             CHECK_ABS(y[i], x[i], 1e-8 * scale, "%s: row %d, %s", recorded, i,
                       want.name[j]);
     }
-    rb_io_table_free(&got);
-    rb_io_table_free(&want);
 }
 
 TEST(recorded_outputs_are_todays)
@@ -125,14 +123,13 @@ TEST(the_wall_writes_its_problems)
     rb_io_table_free(&table);
     for (int k = 1; k <= 3; k++) {
         char name[40];
-        rb_friction_problem problem;
+        OWNED(rb_friction_problem) problem;
         rb_message why = {""};
         snprintf(name, sizeof name, "wall/wall-%02d.hdf5", k);
         CHECK_STATUS(rb_friction_read(inside(name), &problem, &why), RB_OK);
         assert_int_equal(problem.form, RB_FRICTION_GLOBAL);
         assert_int_equal(problem.contacts, 161);
         assert_int_equal(problem.dofs, 901);
-        rb_friction_problem_free(&problem);
     }
 }
 

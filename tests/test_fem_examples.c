@@ -41,7 +41,7 @@ static double tangential(int d, const double *x)
 static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double tol)
 {
     const int d = model->mesh.dimension, n = model->structure.dofs;
-    double *u = rb_alloc((size_t)n, 1), *f = rb_alloc((size_t)n, 1);
+    SCRATCH double *u = rb_alloc((size_t)n, 1), *f = rb_alloc((size_t)n, 1);
     double far = 0.0;
     for (int k = 0; k < h->steps; k++)
         for (int i = 0; i < model->structure.contacts; i++)
@@ -73,8 +73,6 @@ static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double
         rb_sparse_apply(-1.0, &model->structure.K, u, 1.0, f);
         CHECK_MAX(rb_norm_inf((size_t)n, f), tol * most, "step %d: balance", k);
     }
-    free(u);
-    free(f);
 }
 
 /* ---- Bar --------------------------------------------------------------------------- */
@@ -126,8 +124,8 @@ static void bar_by(const char *solver, double tol)
 {
     const json_t *bar = json_object_get(reference, "bar");
     const json_t *increments = json_object_get(bar, "increments");
-    rb_fem_model model;
-    rb_fem_history h;
+    OWNED(rb_fem_model) model;
+    OWNED(rb_fem_history) h;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_bar(160, 16, &model, &why), RB_OK);
     CHECK_STATUS(rb_fem_run(&model, solver, tol, &h, &why), RB_OK);
@@ -136,8 +134,6 @@ static void bar_by(const char *solver, double tol)
         check_bar_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
     check_bar_nodes(json_object_get(bar, "final"), &h.step[4]);
     laws_hold(&model, &h, 1e-9);
-    rb_fem_history_free(&h);
-    rb_fem_model_free(&model);
 }
 
 /* Pivots leave 6e-13 to 1.2e-12, by the kernels of the processor. */
@@ -226,8 +222,8 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
     const json_t *increments =
         json_object_get(set, n == 12 ? "n12_increments" : "n4_increments");
     const json_t *nodes = json_object_get(set, n == 12 ? "n12_nodes" : "n4_nodes");
-    rb_fem_model model;
-    rb_fem_history h;
+    OWNED(rb_fem_model) model;
+    OWNED(rb_fem_history) h;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_truss(layout, n, &model, &why), RB_OK);
     CHECK_STATUS(rb_fem_run(&model, solver, 1e-12, &h, &why), RB_OK);
@@ -238,8 +234,6 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
         check_truss_node(json_array_get(nodes, k), &model, &h);
     mirror_symmetry(&model, &h);
     laws_hold(&model, &h, 1e-9);
-    rb_fem_history_free(&h);
-    rb_fem_model_free(&model);
 }
 
 TEST(small_trusses_by_every_newton)
@@ -264,11 +258,11 @@ TEST(trusses_by_smoothing)
 /* The full system, without condensation, gives the same first increment. */
 TEST(condensation_changes_nothing)
 {
-    rb_fem_model model;
-    rb_fem_history h;
-    rb_fem_state start;
+    OWNED(rb_fem_model) model;
+    OWNED(rb_fem_history) h;
+    OWNED(rb_fem_state) start;
     rb_fem_units units;
-    rb_friction_problem problem;
+    OWNED(rb_friction_problem) problem;
     rb_friction_info info;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 4, &model, &why), RB_OK);
@@ -277,7 +271,7 @@ TEST(condensation_changes_nothing)
     CHECK_STATUS(rb_fem_problem(&model.structure, model.load, &start, &problem, &units),
                  RB_OK);
     const int m = 3 * model.structure.contacts;
-    double *r = rb_alloc((size_t)m, 1), *u = rb_alloc((size_t)m, 1);
+    SCRATCH double *r = rb_alloc((size_t)m, 1), *u = rb_alloc((size_t)m, 1);
     rb_friction_options options = rb_friction_defaults();
     options.tol = 1e-12;
     CHECK_STATUS(rb_friction_solve("nsn-ac", &problem, &options,
@@ -285,59 +279,47 @@ TEST(condensation_changes_nothing)
                  RB_OK);
     for (int k = 0; k < m; k++)
         CHECK_ABS(units.force * r[k], h.step[0].r[k], 1e-4, "reaction %d of 3e5 N", k);
-    free(r);
-    free(u);
-    rb_friction_problem_free(&problem);
-    rb_fem_state_free(&start);
-    rb_fem_history_free(&h);
-    rb_fem_model_free(&model);
 }
 
 TEST(an_unknown_solver_is_refused)
 {
-    rb_fem_model model;
-    rb_fem_history h;
+    OWNED(rb_fem_model) model;
+    OWNED(rb_fem_history) h;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_bar(4, 2, &model, &why), RB_OK);
     CHECK_STATUS(rb_fem_run(&model, "nosuch", 1e-8, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "nosuch"));
-    rb_fem_history_free(&h);
-    rb_fem_model_free(&model);
 }
 
 /* The whole stiffness of a truss is singular, so that a solver of the condensed problem
  * does not begin: there is no increment whose numbers anybody could take for a result. */
 TEST(an_increment_that_has_not_begun_is_none)
 {
-    rb_fem_model model;
-    rb_fem_history h;
+    OWNED(rb_fem_model) model;
+    OWNED(rb_fem_history) h;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 2, &model, &why), RB_OK);
     CHECK_STATUS(rb_fem_run(&model, "extragradient", 1e-8, &h, &why), RB_SINGULAR);
     assert_non_null(strstr(why.text, "K is singular to rounding"));
     assert_int_equal(h.steps, 0);
-    rb_fem_history_free(&h);
-    rb_fem_model_free(&model);
 }
 
 TEST(memory_runs_out)
 {
-    rb_fem_model model;
+    OWNED(rb_fem_model) model;
     CHECK_STATUS(rb_fem_model_bar(4, 2, &model, NULL), RB_OK);
     for (int k = 0;; k++) {
-        rb_fem_history h;
+        OWNED(rb_fem_history) h;
         alloc_fail_after(k);
         const rb_status s = rb_fem_run(&model, "nsn-nm", 1e-10, &h, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
-        rb_fem_history_free(&h);
         if (!refused) {
             CHECK_STATUS(s, RB_OK);
             break;
         }
         CHECK_STATUS(s, RB_ENOMEM);
     }
-    rb_fem_model_free(&model);
 }
 
 RUN_TESTS(load_reference, drop_reference)

@@ -341,8 +341,8 @@ TEST(truss_is_drawn_by_its_slips)
     enum { NODES = 4, QUARTER = 4 };
     static const char *const names[] = {"upper nodes inside", "upper nodes overhanging"};
     for (int layout = 0; layout < 2; layout++) {
-        rb_fem_model model;
-        rb_fem_history history;
+        OWNED(rb_fem_model) model;
+        OWNED(rb_fem_history) history;
         CHECK_STATUS(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL),
                      RB_OK);
         CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-9, &history, NULL), RB_OK);
@@ -380,8 +380,6 @@ TEST(truss_is_drawn_by_its_slips)
                 assert_true(3e-3 * scale <= 2.2 && 3e-3 * scale > 0.8);
             }
         }
-        rb_fem_history_free(&history);
-        rb_fem_model_free(&model);
     }
 }
 

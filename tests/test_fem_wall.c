@@ -42,11 +42,10 @@ TEST(rigid_wall_carries_its_load)
     for (int k = 0; k < 3; k++)
         CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-9, &step, NULL), RB_OK);
     const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
-    double *u = rb_alloc(3, (size_t)mesh->nodes);
+    SCRATCH double *u = rb_alloc(3, (size_t)mesh->nodes);
     CHECK_STATUS(rb_fem_wall_displacements(wall, u), RB_OK);
     CHECK_MAX(rb_norm_inf(3 * (size_t)mesh->nodes, u), 1e-8,
               "rigid blocks do not sink [m]");
-    free(u);
     rb_fem_wall_free(wall);
 }
 
@@ -234,7 +233,7 @@ TEST(memory_runs_out)
 static double violation(const rb_friction_problem *p, const double *r, const double *v)
 {
     const int n = p->dofs, m = 3 * p->contacts;
-    double *e = rb_alloc((size_t)n, 1), *u = rb_alloc((size_t)m, 1);
+    SCRATCH double *e = rb_alloc((size_t)n, 1), *u = rb_alloc((size_t)m, 1);
     double load = 0.0, worst = 0.0, fast = 0.0, hard = 0.0, law = 0.0;
     for (int j = 0; j < n; j++)
         for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
@@ -261,8 +260,6 @@ static double violation(const rb_friction_problem *p, const double *r, const dou
         law = fmax(law, (rt - mu * rc[0]) / hard);
         law = fmax(law, fmin(ut / fast, (mu * rc[0] - rt) / hard));
     }
-    free(u);
-    free(e);
     return fmax(worst / load, law);
 }
 
@@ -272,14 +269,14 @@ TEST(auto_turns_to_smoothing_where_newton_cycles)
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
     rb_fem_wall_step step;
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info smooth, info;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_OK);
     CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &why), RB_OK);
     CHECK_STATUS(rb_fem_wall_problem(wall, 0, &p), RB_OK);
     const size_t m = 3 * (size_t)p.contacts, n = (size_t)p.dofs;
-    double *r = rb_alloc(m, 2), *v = rb_alloc(n, 1);
+    SCRATCH double *r = rb_alloc(m, 2), *v = rb_alloc(n, 1);
     rb_friction_options opt = rb_friction_defaults();
     for (int c = 0; c < p.contacts; c++)
         p.mu[c] *= 0.3;
@@ -297,9 +294,6 @@ TEST(auto_turns_to_smoothing_where_newton_cycles)
         RB_OK);
     CHECK_MAX(violation(&p, r, v), 1e-6, "%s", info.solver);
     CHECK_MAX(info.flops, 3.0 * smooth.flops, "%s beside smoothing", info.solver);
-    free(v);
-    free(r);
-    rb_friction_problem_free(&p);
     rb_fem_wall_free(wall);
 }
 

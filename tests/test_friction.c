@@ -53,7 +53,7 @@ static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *
                                .mu = rb_alloc((size_t)nc, 1),
                                .W = rb_alloc((size_t)m, (size_t)m),
                                .q = rb_alloc((size_t)m, 1)};
-    double *B = rb_alloc((size_t)m, (size_t)m);
+    SCRATCH double *B = rb_alloc((size_t)m, (size_t)m);
     for (int k = 0; k < m * m; k++)
         B[k] = uniform(&seed) / sqrt(m);
     for (int i = 0; i < m; i++)
@@ -62,7 +62,6 @@ static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *
             for (int k = 0; k < m; k++)
                 p->W[i + j * m] += B[i + k * m] * B[j + k * m];
         }
-    free(B);
     for (int c = 0; c < nc; c++) {
         double *rc = r + c * d, *uc = p->q + c * d, dir[2], t = 0.0;
         p->mu[c] = 0.1 + 0.4 * fabs(uniform(&seed));
@@ -119,7 +118,7 @@ TEST(the_measure_is_equation_13)
     unsigned seed = 3;
     for (int d = 2; d <= 3; d++) {
         enum { NC = 7 };
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         double r[3 * NC], u[3 * NC];
         rb_friction_errors error, same;
         plant(d, NC, 5, &p, r);
@@ -143,7 +142,6 @@ TEST(the_measure_is_equation_13)
         CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same), RB_OK);
         CHECK_REL(same.residual, error.residual, 1e-13, "sparse W");
         CHECK_REL(same.floor, floor_again(&p, r), 1e-12, "floor of a sparse W");
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -152,7 +150,7 @@ TEST(the_measure_is_equation_13)
 static void series_of_springs(int d, int nc, double held, rb_friction_problem *p)
 {
     const int m = d * nc, n = 2 * m;
-    rb_triplets K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
+    OWNED(rb_triplets) K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = d,
                                .contacts = nc,
@@ -170,8 +168,6 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
     }
     CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
     CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
-    rb_triplets_free(&K);
-    rb_triplets_free(&H);
     for (int c = 0; c < nc; c++) {
         p->mu[c] = 0.5;
         /* pressed down by 1, pulled along T1 by 0.2 (sticks), 0.8 (slips); lifted */
@@ -184,7 +180,7 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
 TEST(condensation_gives_the_same_problem)
 {
     enum { NC = 6, M = 3 * NC };
-    rb_friction_problem p, local;
+    OWNED(rb_friction_problem) p, local;
     rb_friction_info info;
     rb_message why;
     double r[M], u[M], v[2 * M], r2[M], u2[M];
@@ -214,8 +210,6 @@ TEST(condensation_gives_the_same_problem)
     CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error), RB_OK);
     CHECK_STATUS(rb_friction_error(&local, r, NULL, NULL, &local_error), RB_OK);
     CHECK_REL(error.residual, local_error.residual, 1e-12, "(13) on both forms");
-    rb_friction_problem_free(&local);
-    rb_friction_problem_free(&p);
 }
 
 /* Chains of `size` springs, held at one end with stiffness 1, touched at the other ends;
@@ -223,7 +217,7 @@ TEST(condensation_gives_the_same_problem)
 static void chains(int size, int nc, rb_friction_problem *p)
 {
     const int m = 2 * nc, n = m * size;
-    rb_triplets K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
+    OWNED(rb_triplets) K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = 2,
                                .contacts = nc,
@@ -247,8 +241,6 @@ static void chains(int size, int nc, rb_friction_problem *p)
     CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
     for (int c = 0; c < nc; c++)
         p->mu[c] = 0.3;
-    rb_triplets_free(&K);
-    rb_triplets_free(&H);
 }
 
 /* Masses (one degree of freedom), bodies inverted densely and bodies for CHOLMOD. */
@@ -277,7 +269,7 @@ TEST(bodies_of_every_size_are_condensed)
 TEST(a_handle_solves_one_load_after_another)
 {
     for (int global = 0; global < 2; global++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_handle *handle;
         rb_friction_info warm, cold;
         rb_message why;
@@ -316,7 +308,6 @@ TEST(a_handle_solves_one_load_after_another)
         rb_friction_handle_free(handle);
         CHECK_STATUS(rb_friction_setup(&p, &handle, &why), RB_EINVAL);
         assert_null(handle);
-        rb_friction_problem_free(&p);
     }
     rb_friction_handle_free(NULL);
 }
@@ -370,7 +361,7 @@ TEST(newton_solves_planted_problems)
     for (int d = 2; d <= 3; d++)
         for (int nc = 1; nc <= 45; nc += 22)
             for (size_t s = 0; s < sizeof names / sizeof *names; s++) {
-                rb_friction_problem p;
+                OWNED(rb_friction_problem) p;
                 rb_friction_info info;
                 double r[135], u[135], planted[135];
                 plant(d, nc, 7u + (unsigned)nc, &p, planted);
@@ -385,13 +376,12 @@ TEST(newton_solves_planted_problems)
                 CHECK_ABS(info.residual, measure_again(d, nc, p.mu, r, u, p.q), 1e-13,
                           "%s", names[s]);
                 assert_true(info.flops > 0.0 && (info.iters > 0 || nc == 1));
-                rb_friction_problem_free(&p);
             }
 }
 
 TEST(facts_are_reported)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_facts facts;
     double r[9];
     plant(3, 3, 4, &p, r);
@@ -409,12 +399,11 @@ TEST(facts_are_reported)
     CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(facts.rank, 8);
     assert_int_equal(facts.hyperstaticity, 1);
-    rb_friction_problem_free(&p);
 }
 
 TEST(zero_q_has_the_trivial_solution)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     double r[6], u[6];
     plant(2, 3, 4, &p, r);
@@ -425,7 +414,6 @@ TEST(zero_q_has_the_trivial_solution)
     for (int k = 0; k < 6; k++)
         CHECK_ABS(r[k], 0.0, 0.0, "r[%d]", k);
     CHECK_ABS(info.residual, 0.0, 0.0, "residual");
-    rb_friction_problem_free(&p);
 }
 
 static void refuse(rb_friction_problem *p, const char *words)
@@ -528,7 +516,7 @@ TEST(a_frictionless_contact_does_not_pull)
 
 TEST(success_is_never_claimed_above_the_tolerance)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
     double r[30], u[30], planted[30];
@@ -552,7 +540,6 @@ TEST(success_is_never_claimed_above_the_tolerance)
     CHECK_STATUS(
         rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
         RB_INTERRUPTED);
-    rb_friction_problem_free(&p);
 }
 
 /* The number of allocations of a solve, each of which has failed once. */

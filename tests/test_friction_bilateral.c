@@ -158,8 +158,8 @@ TEST(eliminated_constraints_are_those_of_the_saddle_point)
     int loaded = 0;
     for (unsigned seed = 1; seed <= 40; seed++) {
         structure s;
-        rb_friction_problem p;
-        rb_sparse G;
+        OWNED(rb_friction_problem) p;
+        OWNED(rb_sparse) G;
         rb_message why = {""};
         double r[ROWS];
         make_structure(seed, seed % 2, &s);
@@ -168,8 +168,6 @@ TEST(eliminated_constraints_are_those_of_the_saddle_point)
         assert_int_equal(p.dofs, DOFS - JOINTS);
         solve_and_assess(&s, &p, r);
         loaded += r[0] > 0.0 || r[3] > 0.0 || r[6] > 0.0;
-        rb_sparse_free(&G);
-        rb_friction_problem_free(&p);
     }
     assert_true(loaded > 20);
 }
@@ -252,7 +250,7 @@ TEST(both_forms_come_from_files)
 TEST(redundant_constraints_drop_out)
 {
     structure s;
-    rb_friction_problem p, q;
+    OWNED(rb_friction_problem) p, q;
     rb_sparse G, more = {0};
     rb_message why = {""};
     double r[ROWS], again[ROWS], wide[DOFS * (JOINTS + 2)], b[JOINTS + 2];
@@ -278,8 +276,6 @@ TEST(redundant_constraints_drop_out)
         CHECK_ABS(again[k], r[k], 1e-8, "r[%d]", k);
     rb_sparse_free(&more);
     rb_sparse_free(&G);
-    rb_friction_problem_free(&p);
-    rb_friction_problem_free(&q);
 }
 
 /* Two masses of 1 on the ground, mu = 1/2, joined by a rod along it; both fall at speed
@@ -290,17 +286,18 @@ TEST(a_rod_slides_or_sticks_as_a_whole)
         int at[] = {0, 1, 2, 3}, rod[] = {1, 3}, first[] = {0, 0};
         double one[] = {1.0, 1.0, 1.0, 1.0}, apart[] = {1.0, -1.0}, none[] = {0.0};
         const double push = slides ? 3.0 : 0.8;
-        rb_sparse G;
+        OWNED(rb_sparse) G;
         rb_message why = {""};
         rb_friction_info info;
         double r[4], u[4];
-        rb_friction_problem p = {.form = RB_FRICTION_GLOBAL,
-                                 .dimension = 2,
-                                 .contacts = 2,
-                                 .dofs = 4,
-                                 .mu = rb_alloc(2, 1),
-                                 .f = rb_alloc(4, 1),
-                                 .w = rb_alloc(4, 1)};
+        OWNED(rb_friction_problem)
+        p = {.form = RB_FRICTION_GLOBAL,
+             .dimension = 2,
+             .contacts = 2,
+             .dofs = 4,
+             .mu = rb_alloc(2, 1),
+             .f = rb_alloc(4, 1),
+             .w = rb_alloc(4, 1)};
         CHECK_STATUS(
             rb_sparse_from_triplets(
                 &(rb_triplets){
@@ -331,8 +328,6 @@ TEST(a_rod_slides_or_sticks_as_a_whole)
         CHECK_ABS(r[1] + r[3], slides ? -1.0 : -0.8, 1e-7, "friction");
         CHECK_ABS(u[1], slides ? 1.0 : 0.0, 1e-7, "speed");
         CHECK_ABS(u[3], u[1], 1e-12, "the rod keeps its length");
-        rb_sparse_free(&G);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -395,7 +390,7 @@ TEST(what_cannot_be_is_refused)
     rb_friction_problem_free(&p);
 
     /* R = 0 leaves l undetermined and constrains r */
-    rb_io_fclib file;
+    OWNED(rb_io_fclib) file;
     make_local(&s, &file);
     p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
                               .dimension = 3,
@@ -412,7 +407,6 @@ TEST(what_cannot_be_is_refused)
     refused(rb_friction_eliminate_local(&p, &file.V, &file.V, file.s, &why), &why,
             "R is 9 x 4");
     refused(rb_friction_eliminate(&p, &file.V, file.s, &why), &why, "global form");
-    rb_io_fclib_free(&file);
 }
 
 static void put_dense(const rb_sparse *W, double *dense)
@@ -431,7 +425,7 @@ TEST(dense_problems_lose_their_constraints_alike)
 
     for (int k = 0; k < 2; k++) {
         structure s;
-        rb_io_fclib file;
+        OWNED(rb_io_fclib) file;
         rb_message why = {""};
         make_structure(9, 0, &s);
         make_local(&s, &file);
@@ -453,7 +447,6 @@ TEST(dense_problems_lose_their_constraints_alike)
                      RB_OK);
         assert_int_equal(p[k].form, RB_FRICTION_LOCAL_SPARSE);
         put_dense(&p[k].Ws, W[k]);
-        rb_io_fclib_free(&file);
     }
     for (int i = 0; i < M * M; i++)
         CHECK_ABS(W[1][i], W[0][i], 1e-15, "W, entry %d", i);
@@ -473,7 +466,7 @@ TEST(failing_allocations_leave_the_problem)
         rb_status st = RB_ENOMEM;
         int count = 0;
         for (; st != RB_OK && count < 200; count++) {
-            rb_friction_problem p;
+            OWNED(rb_friction_problem) p;
             make_local(&s, &file);
             if (global) {
                 rb_sparse_free(&file.V);
@@ -493,7 +486,6 @@ TEST(failing_allocations_leave_the_problem)
             alloc_succeed();
             assert_true(st == RB_OK || st == RB_ENOMEM);
             CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
-            rb_friction_problem_free(&p);
             rb_io_fclib_free(&file);
         }
         assert_true(count > 8 && count < 200);

@@ -155,7 +155,7 @@ TEST(large_problems_are_looked_at_when_asked)
                              .contacts = ROWS / 2,
                              .mu = mu,
                              .q = q};
-    rb_triplets W = {.rows = ROWS, .cols = ROWS};
+    OWNED(rb_triplets) W = {.rows = ROWS, .cols = ROWS};
     for (int i = 0; i < ROWS; i++) {
         rb_triplets_add(&W, i, i, 1.0);
         q[i] = i % 2 == 0 ? -1.0 : 0.1;
@@ -169,7 +169,6 @@ TEST(large_problems_are_looked_at_when_asked)
     assert_int_equal(rollbem("friction --facts large.hdf5"), 0);
     assert_non_null(
         strstr(err, "large.hdf5: note: W is not symmetric (|W - W'| is 0.25"));
-    rb_triplets_free(&W);
     rb_sparse_free(&p.Ws);
 }
 

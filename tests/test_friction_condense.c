@@ -35,7 +35,7 @@ static int dof_of(int body, int k)
 
 static void make_bodies(rb_friction_problem *p)
 {
-    rb_triplets K = {.rows = DOFS, .cols = DOFS}, H = {.rows = DOFS, .cols = M};
+    OWNED(rb_triplets) K = {.rows = DOFS, .cols = DOFS}, H = {.rows = DOFS, .cols = M};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = 3,
                                .contacts = NC,
@@ -70,8 +70,6 @@ static void make_bodies(rb_friction_problem *p)
         p->f[i] = uniform();
     CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
     CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
-    rb_triplets_free(&K);
-    rb_triplets_free(&H);
 }
 
 /* X = K^-1 X without pivoting: K is positive definite. */
@@ -106,7 +104,7 @@ TEST(bodies_that_meet_anywhere_are_condensed)
 {
     static double K[DOFS * DOFS], X[DOFS * (M + 1)], H[DOFS * M], W[M * M];
     for (int trial = 0; trial < 10; trial++) {
-        rb_friction_problem p, local;
+        OWNED(rb_friction_problem) p, local;
         rb_message why;
         make_bodies(&p);
         CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_OK);
@@ -129,8 +127,6 @@ TEST(bodies_that_meet_anywhere_are_condensed)
             }
         for (int c = 0; c < NC; c++)
             CHECK_ABS(local.mu[c], p.mu[c], 0.0, "mu(%d)", c);
-        rb_friction_problem_free(&local);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -165,10 +161,9 @@ static rb_status condense(void *context)
 
 TEST(short_memory_is_reported)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     make_bodies(&p);
     assert_true(alloc_fail_each(condense, &p) > 5);
-    rb_friction_problem_free(&p);
 }
 
 RUN_TESTS(NULL, NULL)

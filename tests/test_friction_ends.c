@@ -49,8 +49,8 @@ static void make_sparse(rb_friction_problem *p)
 static void make_global(int d, rb_friction_problem *p)
 {
     const int m = d * NC;
-    rb_friction_problem local;
-    rb_triplets H = {.rows = m, .cols = m};
+    OWNED(rb_friction_problem) local;
+    OWNED(rb_triplets) H = {.rows = m, .cols = m};
     make_local(d, 1.0, &local);
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = d,
@@ -63,8 +63,6 @@ static void make_global(int d, rb_friction_problem *p)
         rb_triplets_add(&H, i, i, 1.0);
     CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
     CHECK_STATUS(rb_sparse_from_dense(m, m, local.W, m, &p->K), RB_OK);
-    rb_triplets_free(&H);
-    rb_friction_problem_free(&local);
 }
 
 static rb_status solve(const char *name, const rb_friction_problem *p,
@@ -88,7 +86,7 @@ TEST(without_time_every_solver_says_so)
     opt.seconds = 1e-9;
     opt.tol = 1e-13;
     for (int d = 2; d <= 3; d++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         make_local(d, 1.0, &p);
         for (int k = 0; k < count; k++) {
             rb_friction_info info;
@@ -99,7 +97,6 @@ TEST(without_time_every_solver_says_so)
                 fail_msg("%s, d = %d: %s", all[k].name, d, rb_status_text(s));
             assert_true(info.iters <= 1);
         }
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -111,7 +108,7 @@ TEST(numbers_beyond_the_largest_are_not_solved)
     rb_friction_options opt = rb_friction_defaults();
     opt.max_iters = 300;
     for (int d = 2; d <= 3; d++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         make_local(d, 0.3 * DBL_MAX, &p);
         for (int i = 0; i < d * NC; i++)
             p.q[i] *= DBL_MAX;
@@ -124,7 +121,6 @@ TEST(numbers_beyond_the_largest_are_not_solved)
             if (solve(all[k].name, &p, &opt, &info) == RB_OK)
                 fail_msg("%s, d = %d: solved, %g", all[k].name, d, info.scaled);
         }
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -140,7 +136,7 @@ static int count_looks(const rb_friction_progress *at, void *context)
 TEST(sweeps_seldom_look_at_the_measure)
 {
     for (int d = 2; d <= 3; d++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         rb_friction_options opt = rb_friction_defaults();
         int looks = 0;
@@ -160,7 +156,6 @@ TEST(sweeps_seldom_look_at_the_measure)
         solve("admm", &p, &opt, &info); /* every tenth, and at both ends */
         CHECK_MAX(looks, 3 + info.iters / 10, "d = %d, %d iterations", d, info.iters);
         opt.max_iters = 0;
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -171,7 +166,7 @@ TEST(options_that_are_none_are_refused)
                                               {.tol = 1e-8, .max_iters = -1},
                                               {.tol = 1e-8, .seconds = -1.0},
                                               {.tol = 1e-8, .seconds = NAN}};
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_handle *handle;
     rb_friction_info info;
     make_local(3, 1.0, &p);
@@ -189,7 +184,6 @@ TEST(options_that_are_none_are_refused)
     CHECK_STATUS(solve("nobody", &p, NULL, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "nobody"));
     rb_friction_handle_free(handle);
-    rb_friction_problem_free(&p);
 }
 
 /* A handle starts from its last solution, unless it is given another start, and forgets
@@ -197,7 +191,7 @@ TEST(options_that_are_none_are_refused)
 TEST(a_handle_keeps_its_last_solution)
 {
     for (int global = 0; global < 2; global++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_handle *handle;
         rb_friction_info info;
         rb_friction_options opt = rb_friction_defaults();
@@ -225,7 +219,6 @@ TEST(a_handle_keeps_its_last_solution)
                      RB_OK);
         assert_int_equal(info.iters, cold);
         rb_friction_handle_free(handle);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -267,7 +260,7 @@ TEST(damaged_matrices_are_named)
                                                "H is missing", "H is 11 x 12",
                                                "H is 12 x 11", "H: entry 1 is inf"};
     for (defect k = 0; k < DEFECTS; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why = {""};
         make_global(3, &p);
         rb_sparse whole = p.H;
@@ -300,7 +293,6 @@ TEST(damaged_matrices_are_named)
         CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "0 degrees of freedom"));
         p.dofs = LARGEST;
-        rb_friction_problem_free(&p);
     }
     rb_friction_problem_free(NULL);
 }
@@ -308,7 +300,7 @@ TEST(damaged_matrices_are_named)
 TEST(damaged_vectors_are_named)
 {
     for (int global = 0; global < 2; global++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why = {""};
         if (global)
             make_global(3, &p);
@@ -337,7 +329,6 @@ TEST(damaged_vectors_are_named)
             *all[k].x = whole;
         }
         CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -370,8 +361,8 @@ TEST(constraints_are_redundant_but_for_rounding)
     for (int trial = 0; trial < 20; trial++)
         for (int contradicts = 0; contradicts < 2; contradicts++) {
             double G[3 * LARGEST], b[3] = {uniform(), uniform(), 0.0};
-            rb_friction_problem p;
-            rb_sparse rows;
+            OWNED(rb_friction_problem) p;
+            OWNED(rb_sparse) rows;
             rb_message why = {""};
             make_global(3, &p);
             for (int i = 0; i < LARGEST; i++) {
@@ -384,8 +375,6 @@ TEST(constraints_are_redundant_but_for_rounding)
             CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &why),
                          contradicts ? RB_EINVAL : RB_OK);
             assert_int_equal(p.dofs, contradicts ? LARGEST : LARGEST - 2);
-            rb_sparse_free(&rows);
-            rb_friction_problem_free(&p);
         }
 }
 
@@ -494,7 +483,7 @@ enum { WHEELS = 2, MOTIONS = 10 };
 
 static void make_wheels(rb_friction_problem *p)
 {
-    rb_triplets K = {.rows = MOTIONS, .cols = MOTIONS}, H = K;
+    OWNED(rb_triplets) K = {.rows = MOTIONS, .cols = MOTIONS}, H = K;
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = 5,
                                .contacts = WHEELS,
@@ -508,8 +497,6 @@ static void make_wheels(rb_friction_problem *p)
     }
     CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
     CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
-    rb_triplets_free(&K);
-    rb_triplets_free(&H);
 }
 
 TEST(what_does_not_roll_is_refused)
@@ -540,7 +527,7 @@ TEST(wheels_without_stiffness_have_the_length_one)
 {
     static const double mu_r[] = {0.1, 0.2};
     for (int k = 0; k < 3; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why = {""};
         make_wheels(&p);
         for (int a = 0; a < 5; a++) /* the normal; the slip; the turn */
@@ -552,7 +539,6 @@ TEST(wheels_without_stiffness_have_the_length_one)
         CHECK_REL(p.lengths[0], k ? 1.0 : sqrt(slip / turn), 1e-14, "length");
         CHECK_REL(p.mu[1], mu_r[0] / p.lengths[0], 1e-14, "mu of the moment");
         CHECK_REL(p.K.x[p.K.p[MOTIONS]], k == 0 ? 1.0 : 4.0 * 2.0, 1e-14, "spring");
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -576,7 +562,7 @@ TEST(contacts_without_tangential_compliance_slip)
 {
     static const char *const names[] = {"nsgs-ac", "nsgs-aa", "lemke", "auto"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         double r[2 * NC], u[2 * NC];
         make_loose(&p);
@@ -597,7 +583,6 @@ TEST(contacts_without_tangential_compliance_slip)
                                        &(rb_friction_solution){r, u, NULL}, &info),
                      RB_OK);
         CHECK_ABS(rb_norm_inf(2 * NC, r), 0.0, 0.0, "%s, W = 0", names[k]);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -648,7 +633,7 @@ static rb_status roll(void *context)
 TEST(short_memory_is_reported)
 {
     for (int k = 0; k < 3; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         if (k == 2)
             make_global(3, &p);
         else
@@ -658,18 +643,15 @@ TEST(short_memory_is_reported)
         assert_true(alloc_fail_each(use_handle, &p) > 3);
         assert_true(alloc_fail_each(examine, &p) > (k == 2 ? -1 : 3));
         assert_true(alloc_fail_each(measure, &p) > 2);
-        rb_friction_problem_free(&p);
     }
-    rb_friction_problem loose;
+    OWNED(rb_friction_problem) loose;
     make_loose(&loose);
     assert_true(alloc_fail_each(use_handle, &loose) > 5);
-    rb_friction_problem_free(&loose);
     assert_true(alloc_fail_each(solve_on_cones, (void *)&on_cones) > 5);
-    rb_friction_problem wheels;
+    OWNED(rb_friction_problem) wheels;
     make_wheels(&wheels);
     assert_true(alloc_fail_each(roll, &wheels) > 5);
     assert_int_equal(wheels.contacts, 2 * WHEELS);
-    rb_friction_problem_free(&wheels);
 }
 
 RUN_TESTS(NULL, NULL)

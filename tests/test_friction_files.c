@@ -64,7 +64,7 @@ TEST(local_problems_come_from_text)
 TEST(global_problems_come_from_text)
 {
     for (int named = 0; named < 2; named++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         read_whole(global, named ? RB_FRICTION_FILE_SICONOS_GLOBAL : RB_FRICTION_FILE_ANY,
                    &p);
         assert_int_equal(p.form, RB_FRICTION_GLOBAL);
@@ -80,7 +80,6 @@ TEST(global_problems_come_from_text)
         CHECK_ABS(p.w[0], 0.1, 0.0, "w_N");
         CHECK_ABS(p.w[1], 0.2, 0.0, "w_T");
         CHECK_ABS(p.mu[0], 0.3, 0.0, "mu");
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -112,7 +111,7 @@ TEST(cones_get_the_slope_one)
 {
     static const double M[] = {8.0, 1.0, 2.0, 4.0, 1.0, 6.0, 3.0, 5.0,
                                2.0, 3.0, 9.0, 7.0, 4.0, 5.0, 7.0, 10.0};
-    rb_friction_soclcp_data d;
+    OWNED(rb_friction_soclcp_data) d;
     rb_message why = {""};
     put(cones);
     if (rb_friction_soclcp_read(path, &d, &why) != RB_OK)
@@ -130,7 +129,6 @@ TEST(cones_get_the_slope_one)
                       M[i + 4 * j] / ((i ? 1.0 : 2.0) * (j ? 1.0 : 2.0)), 0.0,
                       "M(%d, %d)", i, j);
     }
-    rb_friction_soclcp_data_free(&d);
     rb_friction_soclcp_data_free(NULL);
 }
 
@@ -190,8 +188,8 @@ TEST(problems_go_into_fclib_and_come_back)
     static const char *const texts[] = {full, half, global};
     double r[] = {1.5, 2.5}, u[] = {3.5, 4.5}, v[] = {5.5, 6.5, 7.5};
     for (int k = 0; k < 6; k++) {
-        rb_friction_problem p, back;
-        rb_io_fclib file;
+        OWNED(rb_friction_problem) p, back;
+        OWNED(rb_io_fclib) file;
         rb_message why = {""};
         const rb_friction_solution at = {r, u, v};
         const int solved = k / 3;
@@ -204,7 +202,6 @@ TEST(problems_go_into_fclib_and_come_back)
         check_vector("r", 2, file.r, solved ? r : NULL);
         check_vector("u", 2, file.u, solved ? u : NULL);
         check_vector("v", 3, file.v, solved && is_global ? v : NULL);
-        rb_io_fclib_free(&file);
         CHECK_STATUS(rb_friction_read(path, &back, &why), RB_OK);
         check_vector("mu", 1, back.mu, p.mu);
         check_vector("q", 2, back.q, p.q);
@@ -218,27 +215,23 @@ TEST(problems_go_into_fclib_and_come_back)
             CHECK_ABS(back.K.x[i], p.K.x[i], 0.0, "K");
             CHECK_ABS(back.H.x[i], p.H.x[i], 0.0, "H");
         }
-        rb_friction_problem_free(&back);
-        rb_friction_problem_free(&p);
     }
 }
 
 static rb_status read_problem(void *context)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_message why;
     const rb_status s = rb_friction_read_as(path, *(rb_friction_file *)context, &p, &why);
-    rb_friction_problem_free(&p);
     return s;
 }
 
 static rb_status read_cones(void *context)
 {
-    rb_friction_soclcp_data d;
+    OWNED(rb_friction_soclcp_data) d;
     rb_message why;
     (void)context;
     const rb_status s = rb_friction_soclcp_read(path, &d, &why);
-    rb_friction_soclcp_data_free(&d);
     return s;
 }
 

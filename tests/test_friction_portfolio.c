@@ -35,12 +35,11 @@ static double violation(const rb_friction_problem *p, const double *r)
 static rb_status run(const char *solver, const rb_friction_problem *p, double *r,
                      rb_friction_info *info)
 {
-    double *u = rb_alloc((size_t)(p->dimension * p->contacts), 1);
+    SCRATCH double *u = rb_alloc((size_t)(p->dimension * p->contacts), 1);
     rb_friction_options opt = rb_friction_defaults();
     opt.max_iters = strncmp(solver, "nsn", 3) ? 0 : 25;
     const rb_status s =
         rb_friction_solve(solver, p, &opt, &(rb_friction_solution){r, u, NULL}, info);
-    free(u);
     return s;
 }
 
@@ -74,10 +73,9 @@ TEST(auto_loses_little_to_its_members)
         "discs 60 0.5 3",  "discs 200 0.2 5", "bricks 3 0.5 1",  "bricks 8 0.3 2",
         "bricks 20 0.6 3", "spheres 3 0.2 1", "spheres 8 0.4 2", "spheres 40 0.5 4"};
     for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         packing(packings[k], &p);
         compare(packings[k], &p, 3.0);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -92,18 +90,16 @@ TEST(the_first_member_costs_auto_nothing)
                                         "siconos/fc3d/Rover11035.dat",
                                         "siconos/fc3d/NESpheres_10_1.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why;
         rb_friction_info first, whole;
         CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
-        double *r = rb_alloc((size_t)(p.dimension * p.contacts), 1);
+        SCRATCH double *r = rb_alloc((size_t)(p.dimension * p.contacts), 1);
         CHECK_STATUS(run("nsgs-aa", &p, r, &first), RB_OK);
         CHECK_STATUS(run("auto", &p, r, &whole), RB_OK);
         CHECK_MAX(whole.flops, 1.1 * first.flops, "%s", files[k]);
         CHECK_ABS(whole.scaled, first.scaled, 0.0, "%s: what is proved", files[k]);
         CHECK_ABS(whole.floor, first.floor, 0.0, "%s: its floor", files[k]);
-        free(r);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -111,19 +107,16 @@ TEST(the_first_member_costs_auto_nothing)
  * the condensed problem, where Newton on the global form went first and failed. */
 TEST(auto_condenses_rigid_bodies_first)
 {
-    rb_friction_problem global, local;
+    OWNED(rb_friction_problem) global, local;
     rb_friction_info of_global, of_local;
     rb_message why;
     packing("spheres 150 1 6 global", &global);
     CHECK_STATUS(rb_friction_condense(&global, &local, &why), RB_OK);
-    double *r = rb_alloc((size_t)(3 * global.contacts), 1);
+    SCRATCH double *r = rb_alloc((size_t)(3 * global.contacts), 1);
     CHECK_STATUS(run("auto", &global, r, &of_global), RB_OK);
     CHECK_STATUS(run("auto", &local, r, &of_local), RB_OK);
     assert_string_equal(of_global.solver, of_local.solver);
     CHECK_MAX(of_global.flops, 1.2 * of_local.flops, "operations");
-    free(r);
-    rb_friction_problem_free(&local);
-    rb_friction_problem_free(&global);
 }
 
 /* 24 s and 18.7 s where plain sweeps took 0.03 and 0.13. */
@@ -132,17 +125,15 @@ TEST(auto_on_the_packings_it_lost_on)
     static const char *const files[] = {"packings/boxes2d_300_mu2.0.dat",
                                         "packings/disks2d_300_mu0.5.dat"};
     for (int k = 0; k < 2; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why;
         rb_friction_info plain, fast;
         CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
         compare(files[k], &p, 3.0);
-        double *r = rb_alloc((size_t)(2 * p.contacts), 1);
+        SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
         CHECK_STATUS(run("nsgs-ac", &p, r, &plain), RB_OK);
         CHECK_STATUS(run("nsgs-aa", &p, r, &fast), RB_OK);
         CHECK_MAX(fast.iters, plain.iters, "%s: acceleration", files[k]);
-        free(r);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -162,7 +153,7 @@ TEST(global_packings_condense_to_the_local_ones)
         packing(packings[k], &local);
         packing(arguments, &global);
         const size_t m = (size_t)(local.dimension * local.contacts);
-        double *r = rb_alloc(m, 1);
+        SCRATCH double *r = rb_alloc(m, 1);
         for (int again = 0; again < 3; again++) {
             const double start = rb_seconds();
             rb_friction_problem_free(&p);
@@ -185,7 +176,6 @@ TEST(global_packings_condense_to_the_local_ones)
             CHECK_ABS(p.q[j], local.q[j], 1e-14, "q[%d]", j);
         }
         CHECK_MAX(condense, solve, "%s: seconds", packings[k]);
-        free(r);
         rb_friction_problem_free(&p);
         rb_friction_problem_free(&global);
         rb_friction_problem_free(&local);
@@ -195,18 +185,16 @@ TEST(global_packings_condense_to_the_local_ones)
 /* Redundant bricks: sweeps need 13 566, Newton fails, ADMM takes 130 iterations. */
 TEST(splitting_solves_redundant_contacts)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     packing("bricks 100 1 5", &p);
-    double *r = rb_alloc((size_t)(3 * p.contacts), 1);
+    SCRATCH double *r = rb_alloc((size_t)(3 * p.contacts), 1);
     CHECK_STATUS(run("admm", &p, r, &info), RB_OK);
     CHECK_MAX(info.iters, 200, "ADMM");
     CHECK_MAX(violation(&p, r), 1e-7, "ADMM");
     const double best = info.flops;
     CHECK_STATUS(run("auto", &p, r, &info), RB_OK);
     CHECK_MAX(info.flops, 3.0 * best, "auto");
-    free(r);
-    rb_friction_problem_free(&p);
 }
 
 /* Lemke's method on stacks and heaps with redundant contacts: the form of order 3 n_c
@@ -222,25 +210,23 @@ TEST(lemke_solves_redundant_contacts)
                  {"boxes 100 0 4", 4},   {"discs 25 2 2", 40},  {"discs 60 2 3", 10},
                  {"discs 120 0.8 4", 10}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         packing(cases[k].packing, &p);
-        double *r = rb_alloc((size_t)(2 * p.contacts), 1);
+        SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
         CHECK_STATUS(run("lemke", &p, r, &info), RB_OK);
         CHECK_MAX(violation(&p, r), 1e-11, "%s", cases[k].packing);
         CHECK_MAX(info.iters, cases[k].pivots * p.contacts, "%s: pivots",
                   cases[k].packing);
-        free(r);
-        rb_friction_problem_free(&p);
     }
 }
 
 TEST(lemke_ends_in_time)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     packing("boxes 100 2 4", &p);
-    double *r = rb_alloc((size_t)(2 * p.contacts), 2);
+    SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 2);
     rb_friction_options opt = rb_friction_defaults();
     opt.seconds = 1e-3;
     CHECK_STATUS(rb_friction_solve("lemke", &p, &opt,
@@ -248,8 +234,6 @@ TEST(lemke_ends_in_time)
                                    &info),
                  RB_INTERRUPTED);
     CHECK_MAX(info.seconds, 0.1, "a pivot takes no longer");
-    free(r);
-    rb_friction_problem_free(&p);
 }
 
 /* r, u and v of the portfolio, whoever of its members found them. */
@@ -262,7 +246,7 @@ TEST(the_winner_hands_over_all_it_has)
                  {"boxes 30 2 3 global 5", "nsgs-aa"},
                  {"bricks 8 2 3 global 5", "nsn-jm-nls"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        rb_friction_problem p, condensed = {0};
+        OWNED(rb_friction_problem) p, condensed = {0};
         rb_friction_info info;
         rb_message why;
         packing(cases[k].packing, &p);
@@ -292,26 +276,22 @@ TEST(the_winner_hands_over_all_it_has)
         CHECK_MAX(rb_norm_inf((size_t)m, u), 1e-12 * rb_norm_inf((size_t)m, local->q) * m,
                   "velocities of case %d", (int)k);
         free(r);
-        rb_friction_problem_free(&condensed);
-        rb_friction_problem_free(&p);
     }
 }
 
 /* The same path twice, to the last digit. */
 TEST(auto_repeats_itself)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info one, two;
     packing("boxes 100 0.7 2", &p);
     const size_t m = (size_t)(2 * p.contacts);
-    double *r = rb_alloc(m, 2);
+    SCRATCH double *r = rb_alloc(m, 2);
     CHECK_STATUS(run("auto", &p, r, &one), RB_OK);
     CHECK_STATUS(run("auto", &p, r + m, &two), RB_OK);
     assert_int_equal(one.iters, two.iters);
     assert_true(one.flops == two.flops);
     assert_int_equal(memcmp(r, r + m, m * sizeof *r), 0);
-    free(r);
-    rb_friction_problem_free(&p);
 }
 
 typedef struct {
@@ -328,7 +308,7 @@ static int hear(const rb_friction_progress *at, void *context)
 
 TEST(the_caller_hears_and_may_stop)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     packing("boxes 12 0.5 3", &p);
     double *r = rb_alloc((size_t)(2 * p.contacts), 2), *u = r + 2 * p.contacts;
@@ -353,7 +333,6 @@ TEST(the_caller_hears_and_may_stop)
         RB_INTERRUPTED);
     assert_int_equal(l.calls, 2);
     free(r);
-    rb_friction_problem_free(&p);
 }
 
 RUN_TESTS(NULL, NULL)

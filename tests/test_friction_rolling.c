@@ -77,8 +77,8 @@ static double mass(int dof)
 static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
 {
     const size_t n = (size_t)s->dofs, nc = (size_t)s->contacts;
-    double *H = rb_alloc(n, (size_t)s->rows);
-    rb_triplets M = {.rows = s->dofs, .cols = s->dofs};
+    SCRATCH double *H = rb_alloc(n, (size_t)s->rows);
+    OWNED(rb_triplets) M = {.rows = s->dofs, .cols = s->dofs};
     *p = (rb_io_fclib){.global = 1,
                        .rolling = 1,
                        .spacedim = 5,
@@ -101,9 +101,7 @@ static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
     for (int k = 0; k < s->rows; k++)
         p->w[k] = s->w[k] * (k % 5 < 3 ? unit : 1.0);
     CHECK_STATUS(rb_sparse_from_triplets(&M, &p->M), RB_OK);
-    rb_triplets_free(&M);
     CHECK_STATUS(rb_sparse_from_dense(s->dofs, s->rows, H, s->dofs, &p->H), RB_OK);
-    free(H);
 }
 
 /* Largest violation of both laws, u recomputed from r by M v = H r + f. */
@@ -137,8 +135,8 @@ static double violation(const row_of_balls *s, const double *r)
 static rb_status solve_row(const row_of_balls *s, double unit, const char *solver,
                            double *r, double *u)
 {
-    rb_io_fclib file;
-    rb_friction_problem p;
+    OWNED(rb_io_fclib) file;
+    OWNED(rb_friction_problem) p;
     rb_message why = {""};
     rb_friction_options opt = rb_friction_defaults();
     as_file(s, unit, &file);
@@ -152,8 +150,6 @@ static rb_status solve_row(const row_of_balls *s, double unit, const char *solve
     rb_friction_unite_rolling(&p, r, u, r, u);
     for (int k = 0; k < s->rows; k++)
         r[k] /= k % 5 < 3 ? unit : unit * unit; /* back to lengths of 1 */
-    rb_friction_problem_free(&p);
-    rb_io_fclib_free(&file);
     return st;
 }
 
@@ -241,8 +237,8 @@ TEST(constraints_go_with_rolling_friction)
     int turns[] = {3, 4, 5}, each[] = {0, 1, 2};
     double one[] = {1.0, 1.0, 1.0};
     row_of_balls s;
-    rb_io_fclib file;
-    rb_friction_problem p;
+    OWNED(rb_io_fclib) file;
+    OWNED(rb_friction_problem) p;
     rb_message why = {""};
     make_row(1, 0.1, 0.01, 1, &s);
     memset(s.v, 0, sizeof s.v);
@@ -265,8 +261,6 @@ TEST(constraints_go_with_rolling_friction)
     CHECK_ABS(fabs(r[1]), 0.1, 1e-7, "it slides");
     CHECK_ABS(hypot(u[3], u[4]), 0.0, 1e-9, "and does not turn");
     CHECK_STATUS(rb_friction_write(path, &p, NULL, "", &why), RB_EINVAL);
-    rb_friction_problem_free(&p);
-    rb_io_fclib_free(&file);
 }
 
 /* Two contacts stand for a rolling one and carry the same pressure: what they do together
@@ -293,12 +287,11 @@ TEST(the_program_tells_five_entries_per_contact)
     char command[300], line[300];
     int rows = 0, contacts = 0, dimension = 0;
     row_of_balls s;
-    rb_io_fclib file;
+    OWNED(rb_io_fclib) file;
     rb_message why = {""};
     make_row(3, 0.5, 0.05, 5, &s);
     as_file(&s, 1.0, &file);
     CHECK_STATUS(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &why), RB_OK);
-    rb_io_fclib_free(&file);
     snprintf(command, sizeof command, "%s/rollbem friction --solution %s", build, path);
     FILE *out = popen(command, "r");
     while (fgets(line, sizeof line, out))

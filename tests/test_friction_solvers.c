@@ -63,7 +63,7 @@ TEST(every_solver_obeys_coulomb)
         for (int k = 0; k < count; k++) {
             if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
                 continue;
-            rb_friction_problem p;
+            OWNED(rb_friction_problem) p;
             rb_friction_info info;
             double r[180], u[180], reference[180];
             chain(d, 60, &p);
@@ -86,7 +86,6 @@ TEST(every_solver_obeys_coulomb)
                 CHECK_ABS(r[i], reference[i], 1e-6, "%s in %dD, r[%d]", all[k].name, d,
                           i);
             assert_true(info.flops > 0.0 && info.seconds > 0.0);
-            rb_friction_problem_free(&p);
         }
 }
 
@@ -120,7 +119,7 @@ TEST(solvers_without_need_of_w_take_a_singular_k)
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         double r[2], u[2], v[2];
         a_loose_block(&p);
@@ -140,7 +139,6 @@ TEST(solvers_without_need_of_w_take_a_singular_k)
             CHECK_ABS(r[1], -0.7, 1e-7, "%s: r_T", all[k].name);
             CHECK_ABS(v[1], 0.0, 1e-7, "%s: it stays", all[k].name);
         }
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -150,7 +148,7 @@ TEST(what_has_no_solution_is_not_solved)
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         double r[2], u[2], v[2];
         a_loose_block(&p);
@@ -160,7 +158,6 @@ TEST(what_has_no_solution_is_not_solved)
         if (s <= 0)
             print_error("%s: %s\n", all[k].name, rb_status_text(s));
         assert_true(s > 0);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -170,7 +167,7 @@ TEST(the_iteration_limit_is_that_of_the_whole_call)
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++)
         for (int most = 1; most <= 3; most += 2) {
-            rb_friction_problem p;
+            OWNED(rb_friction_problem) p;
             rb_friction_info info;
             rb_friction_options opt = rb_friction_defaults();
             double r[120], u[120];
@@ -180,7 +177,6 @@ TEST(the_iteration_limit_is_that_of_the_whole_call)
             rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL},
                               &info);
             CHECK_MAX(info.iters, most, "%s with --max-iters %d", all[k].name, most);
-            rb_friction_problem_free(&p);
         }
 }
 
@@ -188,7 +184,7 @@ TEST(info_may_be_null)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     double r[20], u[20];
     chain(2, 10, &p);
     for (int k = 0; k < count; k++)
@@ -199,7 +195,6 @@ TEST(info_may_be_null)
         rb_friction_solve("none", &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
         RB_EINVAL);
     CHECK_MAX(violation(&p, r, u), 1e-6, "without info");
-    rb_friction_problem_free(&p);
     const double M[] = {2.0}, q[] = {-1.0};
     const int one[] = {1};
     const rb_friction_soclcp_problem cone = {1, M, q, 1, one};
@@ -302,7 +297,7 @@ TEST(failing_allocations_are_reported)
     int solvers;
     const rb_friction_solver *all = rb_friction_solvers(&solvers);
     for (int k = 0; k < solvers; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info info;
         double r[10], u[10];
         chain(2, 5, &p);
@@ -316,7 +311,6 @@ TEST(failing_allocations_are_reported)
             assert_true(s == RB_OK || refused);
         }
         assert_true(count > 3 && count < 300);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -324,7 +318,7 @@ TEST(failing_allocations_are_reported)
 
 static void solve_outside(const char *file)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info;
     rb_message why = {""};
     double r[900], u[900];
@@ -338,7 +332,6 @@ static void solve_outside(const char *file)
         RB_OK);
     CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error), RB_OK);
     CHECK_MAX(error.residual, 1e-8, "%s", file);
-    rb_friction_problem_free(&p);
 }
 
 TEST(fclib_files_are_solved)
@@ -368,7 +361,7 @@ TEST(the_soclcp_file_is_solved)
 {
     /* from its README: the same reaction three times, slope 0.1 */
     const double want[] = {1.303196, -0.041211, -0.123632};
-    rb_friction_soclcp_data d;
+    OWNED(rb_friction_soclcp_data) d;
     rb_friction_info info;
     rb_message why = {""};
     double x[9], y[9];
@@ -378,7 +371,6 @@ TEST(the_soclcp_file_is_solved)
     CHECK_STATUS(rb_friction_soclcp(&d.problem, NULL, x, y, &info), RB_OK);
     for (int i = 0; i < 9; i++)
         CHECK_ABS(x[i] / (i % 3 ? 1.0 : d.tau[i / 3]), want[i % 3], 1e-6, "x[%d]", i);
-    rb_friction_soclcp_data_free(&d);
 }
 
 TEST(other_text_files_are_refused)

@@ -14,7 +14,7 @@ static double uniform(unsigned *state)
 static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
 {
     const int m = d * nc;
-    double *B = rb_alloc((size_t)m, (size_t)m);
+    SCRATCH double *B = rb_alloc((size_t)m, (size_t)m);
     *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
                                .dimension = d,
                                .contacts = nc,
@@ -33,7 +33,6 @@ static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
         p->q[i] = uniform(&seed) - (i % d ? 0.0 : 0.3);
     for (int c = 0; c < nc; c++)
         p->mu[c] = 0.1 + 0.4 * fabs(uniform(&seed));
-    free(B);
 }
 
 /* W times a, q times b; the global form likewise: K over a, f times b/a, w times b. */
@@ -92,7 +91,7 @@ TEST(the_scaled_measure_sees_no_units)
 {
     for (int d = 2; d <= 3; d++) {
         enum { NC = 6 };
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         double r[3 * NC];
         rb_friction_errors first, again;
         unsigned seed = 17;
@@ -108,7 +107,6 @@ TEST(the_scaled_measure_sees_no_units)
         CHECK_REL(again.scaled, first.scaled, 1e-12, "in other units");
         assert_true(again.residual >
                     10.0 * first.scaled); /* (13) adds forces to velocities */
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -120,7 +118,7 @@ typedef struct {
 static outcome solved(const char *solver, rb_friction_problem *p, double tol)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
-    double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
+    SCRATCH double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
     opt.tol = tol;
@@ -129,8 +127,6 @@ static outcome solved(const char *solver, rb_friction_problem *p, double tol)
         rb_friction_solve(solver, p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
         0};
     o.iters = info.iters;
-    free(u);
-    free(r);
     return o;
 }
 
@@ -162,11 +158,10 @@ static void same_in_other_units(const char *name, rb_friction_problem *p, double
 TEST(every_solver_in_other_units)
 {
     for (int d = 2; d <= 3; d++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         random_problem(d, 20, 8u, &p);
         same_in_other_units(d == 2 ? "plane" : "space", &p, 1e-8);
         same_in_other_units(d == 2 ? "plane" : "space", &p, 1e-12);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -185,11 +180,10 @@ TEST(every_solver_on_files_in_other_units)
         "fclib/CubeH8.hdf5",
         "packings/scale_small.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_message why = {""};
         CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
         same_in_other_units(files[k], &p, 1e-8);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -255,7 +249,7 @@ TEST(the_measure_of_acary_decides_where_asked)
     int count, notes = 0;
     const rb_friction_solver *solvers = rb_friction_solvers(&count);
     for (int trial = 0; trial < 12; trial++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         double r[18], u[18];
         random_problem(2 + trial % 2, 6, 77u + (unsigned)trial, &p);
         rescale(&p, 1e-3, 1.0);
@@ -286,7 +280,6 @@ TEST(the_measure_of_acary_decides_where_asked)
                 assert_int_equal(note.text[0] != '\0', info.residual > opt.tol);
                 notes += note.text[0] != '\0';
             }
-        rb_friction_problem_free(&p);
     }
     assert_true(notes > 5);
 }

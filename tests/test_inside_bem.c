@@ -34,7 +34,7 @@ TEST(the_strip_is_flamants_on_the_surface)
 {
     const double ends[] = {-0.3, 0.5}, x[] = {-3.0, -0.31, -0.1, 0.1, 0.49, 40.0};
     double W[4 * 6];
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     const rb_strip strip = flat_strip(&mesh);
     CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 1.0), 1, ends, 6, x, W),
                  RB_OK);
@@ -49,7 +49,6 @@ TEST(the_strip_is_flamants_on_the_surface)
             CHECK_ABS(cimag(u), column[i] - column[0], 1e-18, "w_N at %g", x[i]);
             CHECK_ABS(creal(u), column[6 + i] - column[6], 1e-18, "w_T at %g", x[i]);
         }
-    rb_bem_mesh_free(&mesh);
 }
 
 TEST(its_tractions_are_those_of_the_stress)
@@ -57,7 +56,7 @@ TEST(its_tractions_are_those_of_the_stress)
     const double ends[] = {-0.3, 0.5}, p = 2.0, q = -0.7;
     const double xy[] = {0.1, 0.0, 0.2, 0.3, -1.0, 0.01, 5.0, 7.0};
     double sigma[12];
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     const rb_strip strip = flat_strip(&mesh);
     CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, &p, &q},
                                          (rb_bem_points){4, xy}, sigma),
@@ -71,13 +70,12 @@ TEST(its_tractions_are_those_of_the_stress)
             CHECK_ABS(creal(t), s[0] * nx + s[2] * ny, 1e-14, "t_x, point %d", k);
             CHECK_ABS(cimag(t), s[2] * nx + s[1] * ny, 1e-14, "t_y, point %d", k);
         }
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Far away the strip is a force: no digit is lost there. */
 TEST(far_away_it_keeps_its_digits)
 {
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     CHECK_STATUS(rb_bem_mesh_alloc(1, &mesh), RB_OK);
     mesh.x0[0] = -5e-11;
     mesh.x1[0] = 5e-11;
@@ -89,7 +87,6 @@ TEST(far_away_it_keeps_its_digits)
     const double complex want = point / (4.0 * M_PI * steel.shear);
     const double complex got = rb_strip_under(rb_strip_displacement(&strip, z), I);
     CHECK_MAX(cabs(got - want), 1e-14 * cabs(want), "against the force");
-    rb_bem_mesh_free(&mesh);
 }
 
 /* Two strips of different length that share an end where the traction has a kink, against
@@ -141,10 +138,9 @@ TEST(transforms_have_lengths_that_are_quick)
                                  {51, 54}, {61, 64}, {91, 96}, {961, 972}, {2501, 2560}};
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        rb_fourier f;
+        OWNED(rb_fourier) f;
         assert_true(rb_fourier_make(all[k][0], &f));
         assert_int_equal(f.size, all[k][1]);
-        rb_fourier_free(&f);
     }
 }
 
@@ -156,9 +152,9 @@ TEST(every_wave_has_its_own_inverse)
     static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
     double ends[m + 1];
     complex double wave[2][n];
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_bem_circulant *c;
-    rb_fourier transform;
+    OWNED(rb_fourier) transform;
 
     for (int i = 0; i <= m; i++)
         ends[i] = i;
@@ -167,7 +163,6 @@ TEST(every_wave_has_its_own_inverse)
     CHECK_STATUS(rb_bem_circulant_create(&f, stencil, stencil, &c), RB_OK);
     assert_true(rb_fourier_make(n + n / 8 + 2, &transform));
     const int size = transform.size;
-    rb_fourier_free(&transform);
     assert_in_range(size, n + 1, 2 * n - 1);
     double around[2][2 * n];
     for (int k = 0; k < 2; k++) {
@@ -206,7 +201,6 @@ TEST(every_wave_has_its_own_inverse)
             CHECK_ABS(cimag(wave[1][v]), cimag(want), 1e-12 * cabs(want), "wave %d", v);
     }
     rb_bem_circulant_free(c);
-    rb_bem_flexibility_free(&f);
 }
 
 /* ---- Memory and clusters ----------------------------------------------------------- */
@@ -250,7 +244,7 @@ TEST(supports_are_judged_in_any_unit)
     enum { n = 16 };
     static const double radii[] = {1e-9, 1e-3, 1.0, 1e6};
     for (size_t k = 0; k < sizeof radii / sizeof *radii; k++) {
-        rb_bem_mesh mesh;
+        OWNED(rb_bem_mesh) mesh;
         CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
         put_circle(&mesh, 0, n, radii[k], 1, -M_PI / n);
         mesh.condition[0] = mesh.condition[1] = RB_BEM_DISPLACEMENT;
@@ -259,7 +253,6 @@ TEST(supports_are_judged_in_any_unit)
         CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_EINVAL);
         mesh.condition[2 * 3] = RB_BEM_DISPLACEMENT;
         CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_OK);
-        rb_bem_mesh_free(&mesh);
     }
 }
 
@@ -306,7 +299,7 @@ TEST(the_table_is_the_sum)
         const rb_bem_wheel wheel = {.radius = 1.0, .inner = 1.0 - thickness};
         const double d = -log(wheel.inner), reach = fmin(1.0, 1e3 * thickness);
         const int last = (int)(RB_RING_REACH / d) + 2;
-        rb_ring_table table;
+        OWNED(rb_ring_table) table;
         CHECK_STATUS(rb_ring_table_create(&wheel, falling_waves, last, NULL,
                                           fmin(1.0, 0.01 * d), reach, &table),
                      RB_OK);
@@ -320,7 +313,6 @@ TEST(the_table_is_the_sum)
                       x);
             CHECK_ABS(at.C, cimag(sum), 2e-12 * scale, "C, %g at %g", d, x);
         }
-        rb_ring_table_free(&table);
     }
 }
 
@@ -518,13 +510,12 @@ static void plant(double decades, double K[ROWS * COLUMNS])
 
 static void decompose(const double *K, int kept, int *rank, int *order, double *T)
 {
-    rb_skeleton s;
+    OWNED(rb_skeleton) s;
     CHECK_STATUS(rb_skeleton_alloc(ROWS, COLUMNS, &s), RB_OK);
     memcpy(s.K, K, sizeof *K * ROWS * COLUMNS);
     CHECK_STATUS(rb_skeleton_factor(&s, 1e-9), RB_OK);
     *rank = s.rank;
     CHECK_STATUS(rb_skeleton_split(&s, kept < 0 ? *rank : kept, order, T), RB_OK);
-    rb_skeleton_free(&s);
 }
 
 static double worst_column(const double *K, int kept, const int *order, const double *T)
@@ -584,10 +575,10 @@ TEST(wide_matrices_are_shortened)
     static const int size[][2] = {{130, 100}, {100, 100}, {90, 100}, {130, 95}};
     for (int k = 0; k < 4; k++) {
         const int rows = size[k][0], columns = size[k][1];
-        double *K = rb_alloc((size_t)rows, (size_t)columns),
-               *T = rb_alloc((size_t)columns, (size_t)columns);
+        SCRATCH double *K = rb_alloc((size_t)rows, (size_t)columns),
+                       *T = rb_alloc((size_t)columns, (size_t)columns);
         int order[100];
-        rb_skeleton s;
+        OWNED(rb_skeleton) s;
         assert_true(K && T);
         CHECK_STATUS(rb_skeleton_alloc(rows, columns, &s), RB_OK);
         for (int j = 0; j < columns; j++)
@@ -607,9 +598,6 @@ TEST(wide_matrices_are_shortened)
                     sum += K[i + order[r] * rows] * T[r + (j - RANK) * RANK];
                 CHECK_ABS(sum, K[i + order[j] * rows], 1e-11, "size %d: %d %d", k, i, j);
             }
-        rb_skeleton_free(&s);
-        free(K);
-        free(T);
     }
 }
 

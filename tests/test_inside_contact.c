@@ -12,8 +12,8 @@ TEST(uncoupled_problems_are_solved_in_turn)
     numbers = 19;
     for (int k = 0; k < 16; k++) {
         const kind of = {.n = 9, .mu = 0.3, .force_given = 1, .axle = k / 8};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         random_problem(&of, &p);
         p.force_ratio = k % 2 ? -0.7 : 0.6;
         if (k / 4 % 2) {
@@ -27,8 +27,6 @@ TEST(uncoupled_problems_are_solved_in_turn)
             sticks += s.zone[i] == RB_ZONE_STICK;
             slides += s.zone[i] > RB_ZONE_STICK;
         }
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
     assert_true(sticks > 10 && slides > 10);
 }
@@ -39,8 +37,8 @@ TEST(pairs_move_as_their_elements)
     numbers = 18;
     const kind of = {
         .n = 8, .mu = 0.3, .coupling = 0.1, .load_given = 1, .force_given = 2};
-    rb_contact_problem p, half;
-    rb_contact_state fine, coarse;
+    OWNED(rb_contact_problem) p, half;
+    OWNED(rb_contact_state) fine, coarse;
     double gap[4], slip[4], most;
 
     random_problem(&of, &p);
@@ -71,10 +69,6 @@ TEST(pairs_move_as_their_elements)
               "M");
     CHECK_ABS(force_error(&half, &coarse, &most) - rb_contact_force(&half, &coarse),
               -p.force, 1e-12 * STRESS, "the force that is given");
-    rb_contact_state_free(&fine);
-    rb_contact_state_free(&coarse);
-    rb_contact_problem_free(&half);
-    rb_contact_problem_free(&p);
 }
 
 /* From zones of which one or two elements are wrong, a path leads to the solution within
@@ -91,8 +85,8 @@ TEST(paths_lead_back_to_the_solution)
                          .coupling = 0.05,
                          .load_given = k % 2,
                          .force_given = k / 2 % 3};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
@@ -107,8 +101,6 @@ TEST(paths_lead_back_to_the_solution)
         solves += s.iterations;
         if (status == RB_OK)
             CHECK_MAX(residual_of(&p, &s), 1e-10, "case %d", k);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
     assert_int_equal(solved, 61);
     assert_in_range(solves, 460, 468); /* three, and two for every bend */
@@ -134,8 +126,8 @@ TEST(products_follow_friction)
                          .force_given = all[k].force,
                          .rolls = 1};
         const rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p, with;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p, with;
+        OWNED(rb_contact_state) s;
         by_products by;
         outcome o = {0};
         rb_message why = {""};
@@ -152,9 +144,6 @@ TEST(products_follow_friction)
         CHECK_ABS(p.mu, of.mu, 0.0, "friction");
         for (int i = 0; i < of.n; i++)
             CHECK_ABS(p.bound[i], with.bound[i], 0.0, "bound %d", i);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
-        rb_contact_problem_free(&with);
     }
 }
 
@@ -174,8 +163,8 @@ TEST(zones_are_told_by_what_is_larger)
     for (int k = 0; k < 9; k++) {
         const kind of = {
             .n = 7, .mu = 0.3, .yields = 1 + k % 3, .order = k / 3, .coupling = 0.05};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         double u[7];
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
@@ -197,8 +186,6 @@ TEST(zones_are_told_by_what_is_larger)
         for (int i = 0; i < of.n; i++)
             if (s.zone[i] != zone[i])
                 fail_msg("case %d: element %d is in zone %d", k, i, s.zone[i]);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -214,8 +201,8 @@ TEST(residuals_and_forces_are_sums_over_elements)
                          .axle = k % 5 && k / 2 % 3,
                          .yields = k % 5 ? k / 8 % 4 : 0,
                          .order = k % 3};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         rb_contact_violation v;
         double most, gap = 0.0, slip, friction = 0.0;
         random_problem(&of, &p);
@@ -263,8 +250,6 @@ TEST(residuals_and_forces_are_sums_over_elements)
             assert_true(isinf(v.scaled));
             *spoilt[bad] = kept;
         }
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 
@@ -287,9 +272,9 @@ TEST(cones_move_as_the_problem_does)
     const kind of = {.n = 5, .mu = 0.3, .coupling = 0.1};
     static const rb_contact_cone_solvers by = {knows_it, number_tractions};
     rb_contact_options options = options_of(RB_SOLVER_CONE);
-    rb_contact_problem p;
-    rb_contact_state s;
-    rb_contact_cone cone;
+    OWNED(rb_contact_problem) p;
+    OWNED(rb_contact_state) s;
+    OWNED(rb_contact_cone) cone;
     rb_message why = {""};
     random_problem(&of, &p);
     CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
@@ -322,9 +307,6 @@ TEST(cones_move_as_the_problem_does)
         CHECK_REL(GAP * u[0], gap, 1e-11, "gap %d", i);
         CHECK_REL(SLIP * u[1], slip, 1e-11, "slip %d", i);
     }
-    rb_contact_cone_free(&cone);
-    rb_contact_state_free(&s);
-    rb_contact_problem_free(&p);
 }
 
 /* The same of a layer: one solve with the laws that a state nearly obeys. */
@@ -341,8 +323,8 @@ TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
                          .yields = 1 + k / 2 % 3,
                          .order = k / 6 % 3};
         const rb_contact_options options = options_of(RB_SOLVER_AUTO);
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         int zone[8], same = 1;
         random_problem(&of, &p);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
@@ -359,8 +341,6 @@ TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
                 same = same && s.zone[i] == zone[i];
             polished += same;
         }
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
     assert_int_equal(polished, 60);
 }
@@ -370,8 +350,8 @@ TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
 TEST(a_layer_that_cannot_be_followed_is_not_solved)
 {
     const kind of = {.n = 3, .mu = 0.3, .load_given = 1, .yields = 1};
-    rb_contact_problem p;
-    rb_contact_state s;
+    OWNED(rb_contact_problem) p;
+    OWNED(rb_contact_state) s;
 
     numbers = 20;
     random_problem(&of, &p);
@@ -384,8 +364,6 @@ TEST(a_layer_that_cannot_be_followed_is_not_solved)
         s.p[i] = s.q[i] = STRESS;
     }
     CHECK_STATUS(rb_contact_yield_newton(&p, 1, &s), RB_MAXITER);
-    rb_contact_state_free(&s);
-    rb_contact_problem_free(&p);
 }
 
 /* Allocations of a solve with the zones of the state. */
@@ -411,8 +389,8 @@ TEST(what_is_kept_can_be_forgotten)
     for (int k = 0; k < 4; k++) {
         const kind of = {
             .n = 24, .mu = 0.3, .coupling = k % 2 ? 0.05 : 0.0, .force_given = k / 2};
-        rb_contact_problem p;
-        rb_contact_state s;
+        OWNED(rb_contact_problem) p;
+        OWNED(rb_contact_state) s;
         double gap[24];
         numbers = 25;
         random_problem(&of, &p);
@@ -432,8 +410,6 @@ TEST(what_is_kept_can_be_forgotten)
         alloc_fail_after(again);
         CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_ENOMEM);
         alloc_succeed();
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&p);
     }
 }
 

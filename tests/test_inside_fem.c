@@ -62,8 +62,8 @@ TEST(common_motion_leaves_the_joints_alone)
     const rb_fem_wall_options o = small_wall(0);
     parts p;
     open_parts(&o, &p);
-    double *v = rb_alloc((size_t)p.system.dofs, 1);
-    double *u = rb_alloc(3, (size_t)p.contacts);
+    SCRATCH double *v = rb_alloc((size_t)p.system.dofs, 1);
+    SCRATCH double *u = rb_alloc(3, (size_t)p.contacts);
     for (int a = 0; a < p.mesh.nodes; a++) {
         const double *x = p.mesh.x + 3 * a;
         v[3 * a] = 1.0 - 0.7 * x[1] + 0.4 * x[2];
@@ -81,8 +81,6 @@ TEST(common_motion_leaves_the_joints_alone)
             CHECK_ABS(u[3 * i + k], sign * want, 1e-14, "contact %d, component %d", i, k);
         }
     }
-    free(v);
-    free(u);
     close_parts(&p);
 }
 
@@ -91,8 +89,8 @@ TEST(rigid_blocks_have_their_inertia)
 {
     const rb_fem_wall_options o = small_wall(1);
     parts p;
-    wall_system rigid;
-    rb_sparse R = {0};
+    OWNED(wall_system) rigid;
+    OWNED(rb_sparse) R = {0};
     open_parts(&o, &p);
     CHECK_STATUS(wall_rigid_system(&p.layout, &p.mesh, &p.system, &R, &rigid), RB_OK);
     const double m = 4.0; /* the first block: 0.2 x 0.1 x 0.1 m */
@@ -116,8 +114,6 @@ TEST(rigid_blocks_have_their_inertia)
     }
     CHECK_REL(weight, -9.81 * 2000.0 * 0.4 * 0.1 * 0.5, 1e-13, "weight");
     CHECK_REL(press, -1.0, 1e-14, "of a unit force on the upper support");
-    wall_system_free(&rigid);
-    rb_sparse_free(&R);
     close_parts(&p);
 }
 
@@ -144,10 +140,10 @@ TEST(steps_are_problems_for_every_solver)
     assert_true(step.shear > 500.0 && step.shear < 0.53 * 30e3);
     CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &why), RB_EINVAL);
     const size_t m = 3 * (size_t)rb_fem_wall_contacts(wall);
-    double *r = rb_alloc(m, 2), *u = rb_alloc(m, 2);
+    SCRATCH double *r = rb_alloc(m, 2), *u = rb_alloc(m, 2);
     for (int k = 2; k < 7; k += 4) {
         static const char *const solvers[] = {"nsn-ac", "nsn-jm"};
-        rb_friction_problem problem;
+        OWNED(rb_friction_problem) problem;
         rb_friction_info info;
         rb_friction_options options = rb_friction_defaults();
         options.tol = 1e-11;
@@ -168,10 +164,7 @@ TEST(steps_are_problems_for_every_solver)
             CHECK_REL(step.shear, shear, 1e-5, "shear");
             close_parts(&p);
         }
-        rb_friction_problem_free(&problem);
     }
-    free(r);
-    free(u);
     rb_fem_wall_free(wall);
 }
 

@@ -113,7 +113,7 @@ TEST(each_control_gives_its_unknown)
 TEST(ratios_come_from_load_and_friction)
 {
     rb_rolling_case rc = posed_plane(RB_STEADY);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rc.creep_ratio = 0.5;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     const double P = rb_rolling_model_load(&model), Q = rb_rolling_model_force(&model);
@@ -128,7 +128,6 @@ TEST(ratios_come_from_load_and_friction)
     assert_true(isnan(rb_rolling_ratio_of_creepage(&model, 0.1)));
     memset(model.state.p, 0, sizeof(double) * (size_t)model.state.n);
     assert_true(isnan(rb_rolling_force_ratio(&model)));
-    rb_rolling_model_free(&model);
 }
 
 /* Q of Coulomb's full sliding is -mu P beyond that creepage, whatever couples. */
@@ -137,7 +136,7 @@ TEST(everything_slides_at_the_sliding_creepage)
     static const double mu[] = {0.05, 0.3, 1.0};
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = posed_plane(RB_STEADY);
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         rc.mu = mu[k];
         rc.contact_elements = 30;
         posed d = pose(&rc, NULL);
@@ -145,7 +144,6 @@ TEST(everything_slides_at_the_sliding_creepage)
         release(&d);
         CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
         CHECK_REL(rb_rolling_force_ratio(&model), -1.0, 1e-9, "mu = %g", mu[k]);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -286,8 +284,8 @@ TEST(coefficients_forget_from_the_leading_edge_on)
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
         rc.creep_ratio = 0.5;
-        rb_rolling_model model;
-        rb_rolling_solution solution;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_solution) solution;
         rb_message why = {""};
         double mu[100], before[100];
         CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &solution, &why), RB_OK);
@@ -316,8 +314,6 @@ TEST(coefficients_forget_from_the_leading_edge_on)
             }
         }
         model.carried.mu = NULL;
-        rb_rolling_solution_free(&solution);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -325,7 +321,7 @@ TEST(starts_slide_up_to_their_place)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const double *x = model.bodies.f.x;
     CHECK_STATUS(rb_rolling_law_start(&model, x[10], NULL), RB_OK);
     for (int i = 0; i < model.problem.n; i++)
@@ -336,7 +332,6 @@ TEST(starts_slide_up_to_their_place)
     CHECK_ABS(model.problem.bound[0], 0.4, 1e-12, "at rest and cold");
     CHECK_STATUS(rb_rolling_law_start(&model, INFINITY, NULL), RB_OK);
     CHECK_ABS(model.problem.bound[5], 0.1, 1e-12, "fast and warm");
-    rb_rolling_model_free(&model);
 }
 
 /* The given coefficients that an iteration starts from count where bodies roll. */
@@ -346,7 +341,7 @@ TEST(bounds_start_where_they_are_told)
     const rb_rolling_table start = {2, x, y};
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     case_of(&model)->friction.start = &start;
     for (int k = 0; k < 2; k++) {
         case_of(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
@@ -359,7 +354,6 @@ TEST(bounds_start_where_they_are_told)
         }
         CHECK_ABS(model.problem.mu, 0.4, 1e-15, "the scale");
     }
-    rb_rolling_model_free(&model);
 }
 
 static rb_rolling_model steep_model(void)
@@ -375,14 +369,13 @@ TEST(newtons_method_ends_with_its_problems)
 {
     static const int most[] = {0, 1, 3};
     for (int k = 0; k < 3; k++) {
-        rb_rolling_model model = steep_model();
+        OWNED(rb_rolling_model) model = steep_model();
         rb_message why = {""};
         int left = most[k];
         for (int i = 0; i < model.problem.n; i++)
             model.problem.bound[i] *= i % 2 ? 0.9 : 1.0;
         CHECK_STATUS(rb_rolling_law_newton(&model, 0.0, &left, &why), RB_MAXITER);
         assert_int_equal(left, -1);
-        rb_rolling_model_free(&model);
     }
 }
 

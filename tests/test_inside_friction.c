@@ -185,8 +185,8 @@ TEST(blocks_multiply_as_the_matrix_does)
 {
     unsigned seed = 3;
     for (int k = 0; k < 4; k++) {
-        rb_friction_problem p;
-        rb_friction_blocks b;
+        OWNED(rb_friction_problem) p;
+        OWNED(rb_friction_blocks) b;
         const int d = 2 + k % 2, nc = 7, m = d * nc;
         double x[21], y[21];
         random_problem(d, nc, &seed, &p);
@@ -204,8 +204,6 @@ TEST(blocks_multiply_as_the_matrix_does)
                 sum += p.W[i + j * m] * x[j];
             CHECK_ABS(y[i], sum, 1e-14, "d = %d, form %d, row %d", d, (int)p.form, i);
         }
-        rb_friction_blocks_free(&b);
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -216,8 +214,8 @@ TEST(a_newton_step_solves_its_system)
     unsigned seed = 9;
     static const int sizes[] = {5, 130};
     for (int k = 0; k < 4; k++) {
-        rb_friction_problem p;
-        rb_friction_system s;
+        OWNED(rb_friction_problem) p;
+        OWNED(rb_friction_system) s;
         const int d = 2 + k % 2, nc = sizes[k / 2], m = d * nc, dd = d * d;
         double *A = rb_alloc((size_t)m, 3 * (size_t)d + 3), *B = A + m * d;
         double *F = B + m * d, *dr = F + m, *y = dr + m;
@@ -250,9 +248,7 @@ TEST(a_newton_step_solves_its_system)
                            B[c * dd + a + b * d] * y[c * d + b];
                 CHECK_ABS(sum, 0.0, 1e-11, "d = %d, nc = %d, row %d", d, nc, c * d + a);
             }
-        rb_friction_system_free(&s);
         rb_friction_blocks_free(&shared.blocks);
-        rb_friction_problem_free(&p);
         free(A);
     }
 }
@@ -264,7 +260,7 @@ TEST(acceleration_solves_a_linear_iteration)
     const double b[M] = {1.0, -2.0, 0.5, 3.0};
     unsigned seed = 21;
     double matrix[M * M], r[M] = {0.0}, u[M], start[M];
-    rb_anderson a;
+    OWNED(rb_anderson) a;
     for (int k = 0; k < M * M; k++)
         matrix[k] = 0.6 * uniform(&seed); /* on its own it need not converge */
     CHECK_STATUS(rb_anderson_init(M, &a), RB_OK);
@@ -286,14 +282,13 @@ TEST(acceleration_solves_a_linear_iteration)
         CHECK_ABS(r[i], next, 1e-8, "fixed point, r[%d]", i);
         CHECK_ABS(u[i], 2.0 * r[i] - 1.0, 1e-8, "u goes along, u[%d]", i);
     }
-    rb_anderson_free(&a);
 }
 
 TEST(acceleration_goes_back_where_it_was_led_astray)
 {
     static const double led_to[] = {1.0, 1.5, 40.0};
     double r[1] = {0.0}, u[1] = {0.0}, start[1];
-    rb_anderson a;
+    OWNED(rb_anderson) a;
     CHECK_STATUS(rb_anderson_init(1, &a), RB_OK);
     for (int k = 0; k < 3; k++) {
         start[0] = k == 1 ? 1.0 : r[0];
@@ -302,7 +297,6 @@ TEST(acceleration_goes_back_where_it_was_led_astray)
     }
     CHECK_ABS(r[0], 1.5, 0.0, "the last point before the extrapolation");
     CHECK_ABS(u[0], 1.5, 0.0, "with its velocity");
-    rb_anderson_free(&a);
 }
 
 /* A pile: every contact pressed by its neighbours, W_NN tridiagonal. */
@@ -327,7 +321,7 @@ static void pile(int nc, double coupling, rb_friction_problem *p)
 
 TEST(acceleration_saves_sweeps)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info plain, fast;
     double r[60], s[60], u[60];
     pile(30, 1.0, &p);
@@ -340,7 +334,6 @@ TEST(acceleration_saves_sweeps)
     CHECK_MAX((double)fast.iters, plain.iters / 5.0, "%d sweeps without", plain.iters);
     for (int k = 0; k < 60; k++)
         CHECK_ABS(s[k], r[k], 1e-4, "r[%d]", k);
-    rb_friction_problem_free(&p);
 }
 
 /* K dv - H dr = -e and B H' dv + A dr = -F of bodies in a row, each of which touches the
@@ -350,9 +343,9 @@ TEST(a_step_of_all_bodies_solves_its_system)
     unsigned seed = 6;
     for (int sparse = 0; sparse < 2; sparse++) {
         const int nc = sparse ? 60 : 3, m = 2 * nc, n = m + 2;
-        rb_triplets tk = {.rows = n, .cols = n}, th = {.rows = n, .cols = m};
-        rb_friction_problem p = {
-            .form = RB_FRICTION_GLOBAL, .dimension = 2, .contacts = nc, .dofs = n};
+        OWNED(rb_triplets) tk = {.rows = n, .cols = n}, th = {.rows = n, .cols = m};
+        OWNED(rb_friction_problem)
+        p = {.form = RB_FRICTION_GLOBAL, .dimension = 2, .contacts = nc, .dofs = n};
         double *A = rb_alloc((size_t)m, 7), *B = A + 2 * m, *F = B + 2 * m, *dr = F + m,
                *y = dr + m, *e = rb_alloc((size_t)n, 2), *dv = e + n, estimate;
         const rb_friction_linearised at = {F, A, B};
@@ -371,7 +364,7 @@ TEST(a_step_of_all_bodies_solves_its_system)
         }
         CHECK_STATUS(rb_sparse_from_triplets(&tk, &p.K), RB_OK);
         CHECK_STATUS(rb_sparse_from_triplets(&th, &p.H), RB_OK);
-        rb_friction_system s;
+        OWNED(rb_friction_system) s;
         rb_friction_task task = {.problem = &p, .d = 2, .contacts = nc, .m = m, .n = n};
         CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
         CHECK_STATUS(rb_friction_system_estimate(&s, &estimate), RB_OK);
@@ -397,10 +390,6 @@ TEST(a_step_of_all_bodies_solves_its_system)
                           B[own] * y[first] + B[own + 2] * y[first + 1],
                       -F[j], 1e-12, "contact equation %d", j);
         }
-        rb_friction_system_free(&s);
-        rb_friction_problem_free(&p);
-        rb_triplets_free(&tk);
-        rb_triplets_free(&th);
         free(A);
         free(e);
     }
@@ -412,7 +401,7 @@ TEST(a_step_of_all_bodies_solves_its_system)
 TEST(the_hybrid_sees_what_sweeps_are_worth)
 {
     for (int strong = 0; strong < 2; strong++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         rb_friction_info newton, hybrid;
         double r[120], u[120];
         pile(60, strong ? 1.0 : 0.9, &p);
@@ -428,7 +417,6 @@ TEST(the_hybrid_sees_what_sweeps_are_worth)
                      RB_OK);
         assert_true(newton.iters > 2);
         assert_int_equal(hybrid.iters, 7 + (strong ? newton.iters : 1));
-        rb_friction_problem_free(&p);
     }
 }
 
@@ -436,9 +424,9 @@ TEST(the_hybrid_sees_what_sweeps_are_worth)
  * that may yield pause where they stall, and go on when they are asked again. */
 TEST(sweeps_that_stall_yield)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     rb_friction_info info = {0};
-    rb_friction_shared shared;
+    OWNED(rb_friction_shared) shared;
     double r[8] = {0.0}, u[8], v[1], best[8];
     rb_friction_record record = {.r = best, .error = INFINITY};
     pile(4, 3.0, &p);
@@ -467,8 +455,6 @@ TEST(sweeps_that_stall_yield)
     assert_true(info.iters > 16 && info.iters < 40);
     method->finish(sweeps);
     free(sweeps);
-    rb_friction_shared_free(&shared);
-    rb_friction_problem_free(&p);
 }
 
 /* A method that pauses and goes on arrives where it does without pauses. */
@@ -477,14 +463,14 @@ TEST(pauses_change_nothing)
     static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
                                         "extragradient", "nsgs-fp", "fixed-point",
                                         "admm"};
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     packing("spheres 20 0.4 3", &p);
     const int m = 3 * p.contacts;
     double *whole = rb_alloc((size_t)m, 4), *r = whole + m, *u = r + m, *best = u + m;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         const rb_friction_solver *solver = rb_friction_solver_named(names[k]);
         rb_friction_info info, parts = {0};
-        rb_friction_shared shared;
+        OWNED(rb_friction_shared) shared;
         double v[1];
         rb_friction_record record = {.r = best, .error = INFINITY};
         CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
@@ -516,14 +502,12 @@ TEST(pauses_change_nothing)
         }
         solver->run->finish(state_of);
         free(state_of);
-        rb_friction_shared_free(&shared);
         CHECK_STATUS(s, RB_OK);
         assert_true(pauses >= 1);
         assert_int_equal(parts.iters, info.iters);
         assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);
     }
     free(whole);
-    rb_friction_problem_free(&p);
 }
 
 /* Its spectral values s and those of x obey s - mu^2/s = x, along the same axis; D is its

@@ -240,7 +240,7 @@ TEST(single_entries_make_blocks)
             for (int k = 0; k < m; k++)
                 x[k] = 1.0 + k;
             for (int sparse = 0; sparse < 2; sparse++) {
-                rb_friction_blocks b;
+                OWNED(rb_friction_blocks) b;
                 if (sparse)
                     CHECK_STATUS(rb_sparse_from_dense(m, m, W, m, &p.Ws), RB_OK);
                 p.form = sparse ? RB_FRICTION_LOCAL_SPARSE : RB_FRICTION_LOCAL_DENSE;
@@ -256,7 +256,6 @@ TEST(single_entries_make_blocks)
                     CHECK_ABS(y[entry % m], k == entry / m ? 2.0 : 0.0, 0.0,
                               "entry %d, column %d", entry, k);
                 }
-                rb_friction_blocks_free(&b);
             }
             rb_sparse_free(&p.Ws);
         }

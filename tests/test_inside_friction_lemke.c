@@ -198,7 +198,7 @@ TEST(every_attempt_solves_by_itself)
     int solved[KINDS][RB_FRICTION_LEMKE_ATTEMPTS + 1] = {{0}};
     for (int trial = 0; trial < TRIALS * KINDS; trial++) {
         const kind k = (kind)(trial % KINDS);
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         make_problem(k, &p);
         for (int a = 1; a <= RB_FRICTION_LEMKE_ATTEMPTS; a++) {
             static bench b;
@@ -217,7 +217,6 @@ TEST(every_attempt_solves_by_itself)
             }
             rb_friction_shared_free(&b.shared);
         }
-        rb_friction_problem_free(&p);
     }
     for (kind k = 0; k < KINDS; k++)
         for (int a = 1; a <= RB_FRICTION_LEMKE_ATTEMPTS; a++)
@@ -229,7 +228,7 @@ TEST(every_attempt_solves_by_itself)
  * first three have no rays. */
 TEST(limits_hold_for_every_attempt)
 {
-    rb_friction_problem p;
+    OWNED(rb_friction_problem) p;
     make_problem(DENSE, &p);
     for (int a = 0; a <= 3; a++) {
         static bench b;
@@ -247,7 +246,6 @@ TEST(limits_hold_for_every_attempt)
                      RB_INTERRUPTED);
         rb_friction_shared_free(&b.shared);
     }
-    rb_friction_problem_free(&p);
 }
 
 static rb_status solve_anew(void *context)
@@ -261,10 +259,9 @@ TEST(short_memory_is_reported)
 {
     int calls = 0; /* of all kinds together: a call fails once */
     for (kind k = 0; k < KINDS; k++) {
-        rb_friction_problem p;
+        OWNED(rb_friction_problem) p;
         make_problem(k, &p);
         calls += alloc_fail_each(solve_anew, &p);
-        rb_friction_problem_free(&p);
     }
     assert_true(calls > 10);
 }

@@ -84,8 +84,8 @@ static void multiply(const rb_bem_mesh *mesh, rb_bem_material material,
                      const double *unit, const double *x, double *y)
 {
     const size_t dofs = 2 * (size_t)mesh->n;
-    double *H = rb_alloc(dofs, dofs), *G = rb_alloc(dofs, dofs);
-    rb_held_contours held;
+    SCRATCH double *H = rb_alloc(dofs, dofs), *G = rb_alloc(dofs, dofs);
+    OWNED(rb_held_contours) held;
     assert_true(H && G);
     CHECK_STATUS(rb_bem_assemble(mesh, material, H, G, (int)dofs, NULL), RB_OK);
     CHECK_STATUS(rb_held_contours_find(mesh, material, &held), RB_OK);
@@ -98,9 +98,6 @@ static void multiply(const rb_bem_mesh *mesh, rb_bem_material material,
             if (held.count)
                 y[i] += x[j] * rb_held_contours_term(&held, (int)i, (int)j);
         }
-    rb_held_contours_free(&held);
-    free(H);
-    free(G);
 }
 
 /* Largest error of a known solution; frees the mesh. */
@@ -108,8 +105,8 @@ static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double 
                              double *ratio)
 {
     const size_t dofs = 2 * (size_t)mesh.n;
-    double *unit = units(&mesh, material), *x = rb_alloc(dofs, 1),
-           *b = rb_alloc(2 * dofs, 1);
+    SCRATCH double *unit = units(&mesh, material), *x = rb_alloc(dofs, 1),
+                   *b = rb_alloc(2 * dofs, 1);
     rb_hierarchical *h;
 
     assert_true(x && b);
@@ -126,9 +123,6 @@ static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double 
         CHECK_ABS(b[k], b[dofs + k], 0.0, "both columns");
     }
     rb_hierarchical_free(h);
-    free(unit);
-    free(x);
-    free(b);
     rb_bem_mesh_free(&mesh);
     return error;
 }
@@ -158,7 +152,7 @@ TEST(incompressible_bodies)
 /* Two holes at the same place: their rows are the same. */
 TEST(singular_systems_are_refused)
 {
-    rb_bem_mesh mesh = plate(-1.3);
+    OWNED(rb_bem_mesh) mesh = plate(-1.3);
     rb_message why;
     for (int dense = 0; dense < 2; dense++) {
         rb_bem_system *system;
@@ -167,7 +161,6 @@ TEST(singular_systems_are_refused)
         assert_null(system);
         assert_non_null(strstr(why.text, "singular"));
     }
-    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Behind the system ------------------------------------------------------------- */
@@ -176,14 +169,13 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
                      int subtracted, double *F)
 {
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why;
     CHECK_STATUS(rb_bem_system_create_as(mesh, material, dense, &system, &why), RB_OK);
     CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
                      system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
                  RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * (CONTACT + 1)), RB_OK);
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
 }
 
@@ -196,7 +188,7 @@ TEST(the_flexibility_is_the_dense_one)
     const double half[] = {0.01, 0.5, 2.5};
     const rb_bem_material incompressible = {1.0, 0.5};
     for (int k = 0; k < 12; k++) {
-        rb_bem_mesh mesh = wheel(support[k % 3], half[k % 3], 300);
+        OWNED(rb_bem_mesh) mesh = wheel(support[k % 3], half[k % 3], 300);
         double F[2][SIZE], most = 0.0;
         for (int dense = 0; dense < 2; dense++)
             condense(&mesh, k < 6 ? steel : incompressible, dense, k / 3 % 2, F[dense]);
@@ -204,7 +196,6 @@ TEST(the_flexibility_is_the_dense_one)
             most = fmax(most, fabs(F[1][i]));
         for (int i = 0; i < SIZE; i++)
             CHECK_ABS(F[0][i], F[1][i], 1e-6 * most, "case %d, entry %d", k, i);
-        rb_bem_mesh_free(&mesh);
     }
 }
 
@@ -213,9 +204,9 @@ TEST(the_flexibility_is_the_dense_one)
 TEST(plates_are_solved_as_by_the_dense_matrix)
 {
     const double poisson[] = {0.3, 0.5, 0.4999999};
-    rb_bem_mesh mesh = plate(1.1);
+    OWNED(rb_bem_mesh) mesh = plate(1.1);
     const size_t dofs = 2 * (size_t)mesh.n;
-    double *u = rb_alloc(dofs, 2), *t = rb_alloc(dofs, 2);
+    SCRATCH double *u = rb_alloc(dofs, 2), *t = rb_alloc(dofs, 2);
 
     assert_true(u && t);
     for (int k = 0; k < 3; k++) {
@@ -235,9 +226,6 @@ TEST(plates_are_solved_as_by_the_dense_matrix)
             CHECK_ABS(t[i], t[dofs + i], 1e-5 * most_t, "t of %d", (int)i);
         }
     }
-    free(u);
-    free(t);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* H u = G t at some points of a long boundary, from its own integrals. */
@@ -273,9 +261,9 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
 
 TEST(long_boundaries_are_solved)
 {
-    rb_bem_mesh mesh = wheel(RB_BEM_HUB, 0.5, 2800);
+    OWNED(rb_bem_mesh) mesh = wheel(RB_BEM_HUB, 0.5, 2800);
     rb_bem_system *system;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why;
     const size_t dofs = 2 * (size_t)mesh.n;
     double *u = rb_alloc(dofs, 1), *t = rb_alloc(dofs, 1), load[2 * CONTACT];
@@ -301,9 +289,7 @@ TEST(long_boundaries_are_solved)
         CHECK_ABS(w[i], ui[1], 1e-9 * fabs(w[0]), "w_N of %d", i);
         CHECK_ABS(w[CONTACT + 1 + i], ui[0], 1e-9 * fabs(w[0]), "w_T of %d", i);
     }
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&mesh);
     free(u);
     free(t);
 }
@@ -317,13 +303,12 @@ static rb_status solve_by_clusters(void *of)
 {
     const solid *b = of;
     rb_bem_system *system = NULL;
-    double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
+    SCRATCH double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
     rb_status s =
         u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
     rb_bem_system_free(system);
-    free(u);
     return s;
 }
 
@@ -340,8 +325,8 @@ TEST(clusters_tell_of_missing_memory)
 
 TEST(failing_allocations)
 {
-    rb_bem_mesh mesh = wheel(RB_BEM_HUB, 2.5, 20);
-    double *unit = units(&mesh, steel);
+    OWNED(rb_bem_mesh) mesh = wheel(RB_BEM_HUB, 2.5, 20);
+    SCRATCH double *unit = units(&mesh, steel);
     for (int k = 0, refused = 1; refused; k++) {
         rb_hierarchical *h;
         alloc_fail_after(k);
@@ -355,18 +340,15 @@ TEST(failing_allocations)
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, 0, &system, NULL), RB_OK);
     for (int k = 0, refused = 1; refused; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         alloc_fail_after(k);
         const rb_status s =
             rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
-        rb_bem_flexibility_free(&f);
     }
     rb_bem_system_free(system);
-    free(unit);
-    rb_bem_mesh_free(&mesh);
 }
 
 /* What stands for all that is far is a closed polygon: a uniform pressure on it takes no
@@ -375,11 +357,11 @@ TEST(a_pressed_circle_displaces_nothing_outside)
 {
     enum { n = 12, rows = 2 * n };
     const rb_bem_material rubber = {1.0, 0.5};
-    rb_bem_mesh mesh = circle(n, 1.0);
+    OWNED(rb_bem_mesh) mesh = circle(n, 1.0);
     double unit[n];
     int order[n], row[rows];
-    rb_mixed a;
-    rb_mixed_rows r;
+    OWNED(rb_mixed) a;
+    OWNED(rb_mixed_rows) r;
     for (int j = 0; j < n; j++)
         unit[j] = 1.0;
     for (int i = 0; i < rows; i++)
@@ -404,9 +386,6 @@ TEST(a_pressed_circle_displaces_nothing_outside)
         }
         free(G);
     }
-    rb_mixed_rows_free(&r);
-    rb_mixed_free(&a);
-    rb_bem_mesh_free(&mesh);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -72,7 +72,7 @@ TEST(whole_elements_ahead_are_their_midpoints)
         pressed d = press(&rc, -3.0, 3.0);
         double w_T[ELEMENTS];
         for (int steps = 1; steps <= 3; steps++) {
-            rb_rolling_former_place ahead;
+            OWNED(rb_rolling_former_place) ahead;
             CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies,
                                                         steps * 6.0 / ELEMENTS, &ahead),
                          RB_OK);
@@ -80,7 +80,6 @@ TEST(whole_elements_ahead_are_their_midpoints)
             for (int i = 0; i + steps <= ELEMENTS; i++)
                 CHECK_ABS(w_T[i], d.w[ELEMENTS + 1 + i + steps], 1e-12 * largest(&d),
                           "case %d: %d elements ahead of %d", k, steps, i);
-            rb_rolling_former_place_free(&ahead);
         }
         release_pressed(&d);
     }
@@ -93,7 +92,7 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
     const rb_rolling_case rc = plane_ahead(1, ELEMENTS),
                           longer = plane_ahead(1, ELEMENTS + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
-    rb_rolling_former_place ahead;
+    OWNED(rb_rolling_former_place) ahead;
     double w_T[ELEMENTS], W_T[2 * 2 * ELEMENTS], outside[2] = {0.0, 0.0};
     memset(more.p, 0, sizeof(double) * (ELEMENTS + 4));
     memset(more.q, 0, sizeof(double) * (ELEMENTS + 4));
@@ -105,7 +104,6 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
     for (int i = 0; i < ELEMENTS; i++)
         CHECK_ABS(w_T[i], more.w[ELEMENTS + 5 + i + 4], 1e-12 * largest(&d), "element %d",
                   i);
-    rb_rolling_former_place_free(&ahead);
 
     memset(W_T, 0, sizeof W_T);
     CHECK_STATUS(rb_rolling_displacement_outside(&rc, &d.bodies, W_T), RB_OK);
@@ -126,14 +124,13 @@ TEST(a_wheel_is_nearly_on_the_line_of_its_midpoints)
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 60;
     pressed d = press(&rc, -0.6, 0.6);
-    rb_rolling_former_place ahead;
+    OWNED(rb_rolling_former_place) ahead;
     double w_T[ELEMENTS], W_T[2 * 2 * ELEMENTS], outside[2] = {0.0, 0.0};
     const double h = d.bodies.f.h[ELEMENTS / 2];
     CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, h, &ahead), RB_OK);
     rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < ELEMENTS; i++)
         CHECK_ABS(w_T[i], d.w[ELEMENTS + 2 + i], 1e-5 * largest(&d), "element %d", i);
-    rb_rolling_former_place_free(&ahead);
     memset(W_T, 0, sizeof W_T);
     CHECK_STATUS(rb_rolling_displacement_outside(&rc, &d.bodies, W_T), RB_OK);
     for (int j = 0; j < ELEMENTS; j++)
@@ -223,9 +220,9 @@ TEST(large_contacts_know_what_is_ahead)
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 100.0;
     rc.contact_elements = RB_ROLLING_LARGE;
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
-    rb_rolling_former_place ahead;
+    OWNED(rb_rolling_mesh) mesh;
+    OWNED(rb_rolling_bodies) bodies;
+    OWNED(rb_rolling_former_place) ahead;
     const int n = RB_ROLLING_LARGE, m = n + 1;
 
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL), RB_OK);
@@ -233,8 +230,9 @@ TEST(large_contacts_know_what_is_ahead)
     assert_null(bodies.F);
     CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead),
                  RB_OK);
-    double *r = calloc((size_t)(2 * n), sizeof *r),
-           *w = calloc((size_t)(2 * m), sizeof *w), *w_T = calloc((size_t)n, sizeof *w_T);
+    SCRATCH double *r = calloc((size_t)(2 * n), sizeof *r),
+                   *w = calloc((size_t)(2 * m), sizeof *w),
+                   *w_T = calloc((size_t)n, sizeof *w_T);
     for (int i = n / 3; i < 2 * n / 3; i++) {
         r[i] = 1.0 + 0.3 * sin(0.01 * i);
         r[n + i] = cos(0.02 * i);
@@ -243,12 +241,6 @@ TEST(large_contacts_know_what_is_ahead)
     rb_rolling_former_place_apply(&ahead, &bodies, r, r + n, w_T);
     for (int i = 0; i < n; i++)
         CHECK_ABS(w_T[i], w[m + i + 1], 1e-11 * fabs(w[m + n / 2]), "element %d", i);
-    free(r);
-    free(w);
-    free(w_T);
-    rb_rolling_former_place_free(&ahead);
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* What a step of 1.3 elements brings, with a matrix and by transforms. */
@@ -265,9 +257,9 @@ TEST(an_interface_moves_with_the_steps)
         rc.a.young = 210000.0;
         rc.a.poisson = 0.28;
         rc.a.radius = 500.0;
-        rb_rolling_mesh mesh;
-        rb_rolling_bodies bodies;
-        rb_rolling_former_place ahead;
+        OWNED(rb_rolling_mesh) mesh;
+        OWNED(rb_rolling_bodies) bodies;
+        OWNED(rb_rolling_former_place) ahead;
         rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
         rc.interlayer_tangential = 1e-2;
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
@@ -277,9 +269,6 @@ TEST(an_interface_moves_with_the_steps)
                      RB_OK);
         w[large] = rb_alloc((size_t)n, 1);
         rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
-        rb_rolling_former_place_free(&ahead);
-        rb_rolling_bodies_free(&bodies);
-        rb_rolling_mesh_free(&mesh);
     }
     for (int i = 0; i < n; i++)
         CHECK_ABS(w[0][i], w[1][i], 1e-9, "element %d", i);
@@ -524,12 +513,12 @@ TEST(whole_elements_ahead_are_known)
 {
     for (int hub = 0; hub < 2; hub++) {
         const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
         const int n = model.mesh.n, m = n + 1;
         const double *F = model.bodies.F, size = fabs(F[0]);
         for (int k = 0; k <= 3; k++) {
-            rb_rolling_former_place ahead;
+            OWNED(rb_rolling_former_place) ahead;
             CHECK_STATUS(rb_rolling_former_place_create(
                              &rc, &model.bodies, k * model.bodies.f.h[n / 2], &ahead),
                          RB_OK);
@@ -537,9 +526,7 @@ TEST(whole_elements_ahead_are_known)
                 for (int i = 0; i + k < m && i < n; i++)
                     CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m],
                               1e-12 * size, "%d ahead of %d, column %d", k, i, j);
-            rb_rolling_former_place_free(&ahead);
         }
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -548,14 +535,14 @@ TEST(whole_elements_ahead_are_known)
 TEST(a_quarter_ahead_is_a_midpoint_of_halves)
 {
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
-    rb_rolling_model coarse, fine;
+    OWNED(rb_rolling_model) coarse, fine;
     rc.a.datum = rc.b.datum = 100.0;
     rc.outer_elements = 200;
     CHECK_STATUS(rb_rolling_model_create(&rc, &coarse, NULL), RB_OK);
     rc.contact_elements *= 2;
     CHECK_STATUS(rb_rolling_model_create(&rc, &fine, NULL), RB_OK);
     const int n = coarse.mesh.n, m = 2 * n + 1;
-    rb_rolling_former_place ahead;
+    OWNED(rb_rolling_former_place) ahead;
     CHECK_STATUS(rb_rolling_former_place_create(&rc, &coarse.bodies,
                                                 0.25 * coarse.bodies.f.h[n / 2], &ahead),
                  RB_OK);
@@ -566,9 +553,6 @@ TEST(a_quarter_ahead_is_a_midpoint_of_halves)
             CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d",
                       i, j, 2 * n);
         }
-    rb_rolling_former_place_free(&ahead);
-    rb_rolling_model_free(&coarse);
-    rb_rolling_model_free(&fine);
 }
 
 /* Steps of more than an element: what has yielded comes from between midpoints, and from
@@ -627,8 +611,8 @@ TEST(the_past_moves_with_the_material)
 {
     enum { N = 6, TAIL = 3, ALL = N + TAIL };
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_mesh mesh;
-    rb_rolling_memory_track track;
+    OWNED(rb_rolling_mesh) mesh;
+    OWNED(rb_rolling_memory_track) track;
     double w0[2 * (N + 1)], past[2 * ALL], own[2 * ALL], sum[2 * ALL], w[2 * (ALL + 1)];
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
@@ -658,8 +642,6 @@ TEST(the_past_moves_with_the_material)
             CHECK_REL(w0[N + 1 + i], w[ALL + 1 + TAIL + i], 1e-12, "w_T %d", i);
         }
     }
-    rb_rolling_memory_track_free(&track);
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* x F y over the elements of a body. */
@@ -680,7 +662,7 @@ TEST(a_step_loses_what_its_dashpot_does)
     enum { N = 6 };
     static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_mesh mesh;
+    OWNED(rb_rolling_mesh) mesh;
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
     rc.contact_elements = N;
@@ -693,7 +675,7 @@ TEST(a_step_loses_what_its_dashpot_does)
                      f1 = (double)(0.5L * faded * faded / r),
                      f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) /
                                    (r * r));
-        rb_rolling_memory_track track;
+        OWNED(rb_rolling_memory_track) track;
         double e[2 * N] = {0.0}, d[2 * N], next[2 * N];
         CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, 0, &track, NULL), RB_OK);
         for (int i = 0; i < 2 * N; i++)
@@ -713,9 +695,7 @@ TEST(a_step_loses_what_its_dashpot_does)
                                  f2 * work_of(f, d, d));
         CHECK_REL(track.lost - was, want, kind == 2 ? 1e-7 : 1e-9, "step %g, %d", step,
                   kind);
-        rb_rolling_memory_track_free(&track);
     }
-    rb_rolling_mesh_free(&mesh);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -67,12 +67,11 @@ static void fill_columns(const column_case *c, const rb_column_variant *variant,
                          int with_G, columns_of_H_and_G to)
 {
     const rb_constants k = rb_constants_make(&c->e, c->material);
-    rb_points points;
+    OWNED(rb_points) points;
     CHECK_STATUS(rb_points_make(n_seen, c->x, c->y, &points), RB_OK);
     variant->fill(
         &k, &c->e, c->self, &points,
         (double *const[4]){to[0], to[1], with_G ? to[2] : NULL, with_G ? to[3] : NULL});
-    rb_points_free(&points);
 }
 
 static void put_blocks(const double H[4], const double G[4], int i, columns_of_H_and_G to)

@@ -48,8 +48,8 @@ static void check_pairs(const rb_rolling_model *model, const rb_contact_problem 
 {
     const rb_contact_problem *p = &model->problem;
     const int n = p->n, m = half->n, inner = p->differences ? m - 1 : m;
-    double *gap = rb_alloc((size_t)n, 2), *half_gap = rb_alloc((size_t)m, 2);
-    double *r = rb_alloc((size_t)n, 2), *w = rb_alloc((size_t)n + 1, 2);
+    SCRATCH double *gap = rb_alloc((size_t)n, 2), *half_gap = rb_alloc((size_t)m, 2);
+    SCRATCH double *r = rb_alloc((size_t)n, 2), *w = rb_alloc((size_t)n + 1, 2);
 
     rb_contact_kinematics(p, fine, gap, gap + n);
     rb_contact_kinematics(half, coarse, half_gap, half_gap + m);
@@ -69,17 +69,13 @@ static void check_pairs(const rb_rolling_model *model, const rb_contact_problem 
         if (!alone)
             CHECK_ABS(half_gap[m + k], want, 1e-11 * p->slip_length, "slip %d", k);
     }
-    free(gap);
-    free(half_gap);
-    free(r);
-    free(w);
 }
 
 static void check_half(const rb_rolling_model *model)
 {
     const rb_contact_problem *p = &model->problem;
-    rb_contact_problem half;
-    rb_contact_state fine, coarse;
+    OWNED(rb_contact_problem) half;
+    OWNED(rb_contact_state) fine, coarse;
 
     CHECK_STATUS(rb_contact_halve(p, &half), RB_OK);
     assert_int_equal(half.n, (p->n + 1) / 2);
@@ -97,9 +93,6 @@ static void check_half(const rb_rolling_model *model)
     rb_contact_start_from_half(&coarse, &fine);
     assert_int_equal(fine.zone[p->n - 1], coarse.zone[half.n - 1]);
     check_pairs(model, &half, &fine, &coarse);
-    rb_contact_state_free(&fine);
-    rb_contact_state_free(&coarse);
-    rb_contact_problem_free(&half);
 }
 
 TEST(pairs_answer_as_their_elements_do)
@@ -112,9 +105,8 @@ TEST(pairs_answer_as_their_elements_do)
             rc.creep_ratio = NAN;
             rc.shift = 0.01;
         }
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         check_half(&model);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -125,7 +117,7 @@ static void check_beside_lemke(rb_rolling_model *model)
 {
     rb_contact_problem *p = &model->problem;
     rb_rolling_case rc = *model->rc;
-    rb_contact_state newton, lemke;
+    OWNED(rb_contact_state) newton, lemke;
 
     CHECK_STATUS(rb_contact_state_alloc(p->n, &newton), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(p->n, &lemke), RB_OK);
@@ -139,8 +131,6 @@ static void check_beside_lemke(rb_rolling_model *model)
     }
     CHECK_REL(newton.delta, lemke.delta, 1e-10, "delta");
     CHECK_ABS(newton.xi, lemke.xi, 1e-10 * p->slip_length / p->e_T[0], "xi");
-    rb_contact_state_free(&newton);
-    rb_contact_state_free(&lemke);
 }
 
 /* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls.
@@ -157,10 +147,9 @@ TEST(cold_starts_end_where_lemke_does)
         }
         if (k == 3)
             rc.mesh = RB_MESH_FITTED;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
         check_beside_lemke(&model);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -182,10 +171,9 @@ TEST(circles_are_left_on_a_path)
         rc.force_ratio = cases[k].force_ratio;
         if (!isnan(rc.force_ratio))
             rc.creep_ratio = NAN;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
         check_beside_lemke(&model);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -201,13 +189,12 @@ TEST(full_sliding_needs_no_other_solver)
         rc.contact.solver = RB_SOLVER_NEWTON;
         if (k < 2)
             rc.b.young = rc.a.young;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         assert_int_equal(s.solver, RB_SOLVER_NEWTON);
         assert_int_equal(s.stick, 0);
         for (int i = 0; i < s.n; i++)
             CHECK_ABS(s.q[i], -sign * rc.mu * s.p[i], 1e-9 * s.max_pressure,
                       "case %d, element %d", k, i);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -221,14 +208,13 @@ TEST(steps_grow_by_levels)
         if (similar)
             rc.b.young = rc.a.young;
         for (int doubled = 0; doubled < 3; doubled++, rc.contact_elements *= 2) {
-            rb_rolling_model model = solved_model(&rc);
+            OWNED(rb_rolling_model) model = solved_model(&rc);
             CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
             CHECK_STATUS(rb_contact_newton(&model.problem, 0, &cold), RB_OK);
             if (doubled == 0)
                 few = cold.iterations;
             CHECK_MAX(cold.iterations, few + 6 * doubled, "level %d", doubled);
             rb_contact_state_free(&cold);
-            rb_rolling_model_free(&model);
         }
     }
 }
@@ -283,8 +269,8 @@ static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns,
 TEST(a_kept_lu_serves_other_zones)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model model = solved_model(&rc);
-    rb_contact_state s;
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    OWNED(rb_contact_state) s;
     int changes = 0;
 
     srand(5);
@@ -295,18 +281,16 @@ TEST(a_kept_lu_serves_other_zones)
         changes += check_kept(&model.problem, (rb_contact_unknowns)(1 + k % 3), &s);
     }
     assert_true(changes > 60);
-    rb_contact_state_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* From no contact to all in stick: nothing that is kept may be used. */
 TEST(a_kept_lu_gives_way_to_a_new_one)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_contact_problem *p = &model.problem;
     rb_contact_reduced r;
-    rb_contact_state s;
+    OWNED(rb_contact_state) s;
 
     CHECK_STATUS(rb_contact_state_alloc(p->n, &s), RB_OK);
     p->load_given = 0;
@@ -321,8 +305,6 @@ TEST(a_kept_lu_gives_way_to_a_new_one)
         s.zone[i] = i % 2 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
     assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
     rb_contact_reduced_free(&r);
-    rb_contact_state_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* Zones solved with the friction of `bound`, by what is kept or anew. */
@@ -343,10 +325,10 @@ TEST(a_kept_lu_serves_friction_that_changes)
 {
     static const double change[] = {1e-9, 1e-4, 0.05, 0.09, 2.0};
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const int n = model.mesh.n;
-    rb_contact_state kept, fresh;
-    double *bound = rb_alloc((size_t)n, 1);
+    OWNED(rb_contact_state) kept, fresh;
+    SCRATCH double *bound = rb_alloc((size_t)n, 1);
 
     CHECK_STATUS(rb_contact_state_alloc(n, &kept), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(n, &fresh), RB_OK);
@@ -357,10 +339,9 @@ TEST(a_kept_lu_serves_friction_that_changes)
         for (int i = 0; i < n; i++)
             bound[i] = rc.mu * (1.0 + change[k] * (i % 3) / 2.0);
         rb_contact_set_friction(&model.problem, rc.mu, bound);
-        rb_contact_reduced r;
+        OWNED(rb_contact_reduced) r;
         assert_int_equal(direct(&model.problem, RB_BOTH, RB_LU_KEPT, &kept, &r), 0);
         assert_int_equal(r.slight > 0, k < 4);
-        rb_contact_reduced_free(&r);
         solve_with(&model, NULL, 1, &kept);
         solve_with(&model, bound, 0, &kept);
         solve_with(&model, bound, 1, &fresh);
@@ -370,10 +351,6 @@ TEST(a_kept_lu_serves_friction_that_changes)
             CHECK_ABS(kept.q[i], fresh.q[i], 1e-12 * p0, "friction %d, %g", i, change[k]);
         }
     }
-    free(bound);
-    rb_contact_state_free(&kept);
-    rb_contact_state_free(&fresh);
-    rb_rolling_model_free(&model);
 }
 
 /* ---- A block that has no inverse --------------------------------------------------- */
@@ -395,9 +372,9 @@ static double compliance(rb_contact_problem problem, rb_contact_state *s)
 TEST(a_given_load_does_not_feel_the_datum)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model usual = solved_model(&rc), critical;
+    OWNED(rb_rolling_model) usual = solved_model(&rc), critical;
     rb_contact_problem *p;
-    rb_contact_state s;
+    OWNED(rb_contact_state) s;
 
     CHECK_STATUS(rb_contact_state_alloc(usual.mesh.n, &s), RB_OK);
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
@@ -416,9 +393,6 @@ TEST(a_given_load_does_not_feel_the_datum)
         CHECK_ABS(s.p[i], usual.state.p[i], 1e-9 * p->stress, "pressure %d", i);
         CHECK_ABS(s.q[i], usual.state.q[i], 1e-9 * p->stress, "friction %d", i);
     }
-    rb_contact_state_free(&s);
-    rb_rolling_model_free(&usual);
-    rb_rolling_model_free(&critical);
 }
 
 /* ---- Memory ------------------------------------------------------------------------ */
@@ -426,19 +400,17 @@ TEST(a_given_load_does_not_feel_the_datum)
 TEST(failing_allocations)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 120);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
 
     for (int k = 0, refused = 1; refused; k += 1 + k / 10) {
-        rb_contact_state cold;
+        OWNED(rb_contact_state) cold;
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
         alloc_fail_after(k);
         const rb_status s = rb_contact_newton(&model.problem, 0, &cold);
         refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        rb_contact_state_free(&cold);
     }
-    rb_rolling_model_free(&model);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -146,7 +146,7 @@ TEST(unlike_bodies_share_by_temperature)
         rc.heat_b.heat_capacity *= k == 1 ? 2.0 : 1.0;
         rc.heat_b.temperature += k == 2 ? 10.0 : 0.0;
         rc.heat_b.conductivity *= k == 3 ? 2.0 : 1.0;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         int touch = 0;
         for (int i = 0; i < s.n; i++) {
             touch += s.zone[i] != RB_ZONE_SEPARATED;
@@ -165,7 +165,6 @@ TEST(unlike_bodies_share_by_temperature)
             CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
             CHECK_ABS(s.temperature_b[i], rc.heat_b.temperature, 1e-12, "B");
         }
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -177,7 +176,7 @@ TEST(shares_of_equal_elements_are_those_of_any)
     rc.contact_elements = 60;
     rc.heat_b =
         (rb_rolling_heat){.conductivity = 7.0, .heat_capacity = 2.0, .temperature = 30.0};
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     double power[200], t[4][200];
     assert_true(s.n <= 200 && s.contact > 20);
     for (int hole = 0; hole < 2; hole++) {
@@ -199,19 +198,17 @@ TEST(shares_of_equal_elements_are_those_of_any)
                 CHECK_REL(t[0][i], t[1][i], 1e-11, "both at %d, hole %d", i, hole);
         }
     }
-    rb_rolling_solution_free(&s);
 }
 
 TEST(tracks_longer_than_memory_are_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
+    OWNED(rb_rolling_heat_track) track = {.n = 1000, .h = 1.0, .step = 1e-15};
     rb_message why = {""};
     rc.speed = 1e6;
     rc.heat_a = rc.heat_b = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
     CHECK_STATUS(rb_rolling_heat_track_create(&rc, 1.0, &track, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "the heat of steps"));
-    rb_rolling_heat_track_free(&track);
 }
 
 /* ---- Columns and sums -------------------------------------------------------------- */
@@ -220,8 +217,8 @@ TEST(columns_are_those_of_the_state)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = rolled_plane((rb_rolling_formulation)k);
-        rb_rolling_model model;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_solution) s;
         rc.b = rc.a;
         rc.b.radius = INFINITY;
         rc.elastic_b = 1;
@@ -270,8 +267,6 @@ TEST(columns_are_those_of_the_state)
         if (k != RB_STATIC)
             assert_int_equal(s.slip_violations, 0);
         free(w);
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -283,7 +278,7 @@ TEST(a_support_holds_the_load)
     rc.a.core_young = 1e3; /* not read: there is no cover */
     rc.outer_elements = 60;
     rc.contact_elements = 16;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_rolling_solution s = solution_of(&model);
     CHECK_ABS(s.support_balance, 0.0, 2e-2, "reaction");
     assert_true(s.support_balance != 0.0);
@@ -301,7 +296,6 @@ TEST(a_support_holds_the_load)
     s = solution_of(&model);
     assert_true(isnan(s.support_balance)); /* nothing to hold */
     rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* Along normals that turn with the surface pressure and friction have both components. */
@@ -312,8 +306,8 @@ TEST(tilted_tractions_add_up_to_both_forces)
     rc.approach = 2.0; /* a wide contact */
     rc.mu = 0.5;
     rc.contact_elements = 16;
-    rb_rolling_model model = solved_model(&rc);
-    rb_rolling_solution s = solution_of(&model);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    OWNED(rb_rolling_solution) s = solution_of(&model);
     double t[2 * 64], down = 0.0, along = 0.0;
     assert_true(s.n <= 64);
     rb_rolling_contact_tractions(&model, t);
@@ -327,8 +321,6 @@ TEST(tilted_tractions_add_up_to_both_forces)
     for (int i = 0; i < s.n; i++)
         plain += s.h[i] * s.p[i];
     CHECK_MAX(1e-4, fabs(down / plain - 1.0), "tilt");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* ---- Patches ----------------------------------------------------------------------- */

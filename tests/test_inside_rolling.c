@@ -158,7 +158,7 @@ TEST(patches_share_the_elements_by_their_width)
         const rb_rolling_case rc = half_plane(RB_STATIC, rows[k].elements);
         const rb_rolling_span span[2] = {{.from = 0.0, .to = rows[k].to[0]},
                                          {.from = 4.0, .to = rows[k].to[1]}};
-        rb_rolling_mesh mesh;
+        OWNED(rb_rolling_mesh) mesh;
         CHECK_STATUS(
             rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         for (int i = 0; i < 2; i++) {
@@ -166,7 +166,6 @@ TEST(patches_share_the_elements_by_their_width)
                              rows[k].across[i]);
             assert_true(has_end(&mesh, span[i].from) && has_end(&mesh, span[i].to));
         }
-        rb_rolling_mesh_free(&mesh);
     }
 }
 
@@ -181,7 +180,7 @@ TEST(elements_between_patches_meet)
         const rb_rolling_span span[2] = {{.from = -1.0 - e, .to = -e},
                                          {.from = e, .to = 1.0 + e}};
         const double step = gsl_pow_2(sin(0.5 * M_PI / 30.0));
-        rb_rolling_mesh mesh;
+        OWNED(rb_rolling_mesh) mesh;
         CHECK_STATUS(
             rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         const int n = count_between(&mesh, -e, e), first = 6 + 30;
@@ -200,7 +199,6 @@ TEST(elements_between_patches_meet)
         if (n > 1) /* stretched by less than another element of either side would need */
             assert_true(length(&mesh, first) > 0.999 * step &&
                         length(&mesh, first) < 2.5 * step);
-        rb_rolling_mesh_free(&mesh);
     }
 }
 
@@ -209,14 +207,13 @@ TEST(patches_far_apart_have_64_elements_between_them)
     const rb_rolling_case rc = half_plane(RB_STATIC, 60);
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
                                      {.from = 19.9999, .to = 20.0}};
-    rb_rolling_mesh mesh;
+    OWNED(rb_rolling_mesh) mesh;
     CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
                  RB_OK);
     const int n = count_between(&mesh, -19.9999, 19.9999);
     assert_in_range(n, 60, 64);
     for (int i = 0; i < mesh.n; i++)
         assert_true(length(&mesh, i) > 0.0);
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* A narrow and a wide patch: the smaller elements grow alone until they are as long. */
@@ -224,7 +221,7 @@ TEST(unequal_elements_grow_until_they_are_alike)
 {
     const rb_rolling_case rc = half_plane(RB_STATIC, 60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
-    rb_rolling_mesh mesh;
+    OWNED(rb_rolling_mesh) mesh;
     CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
                  RB_OK);
     const int n = count_between(&mesh, 0.0, 1.0), first = 6 + 15;
@@ -234,7 +231,6 @@ TEST(unequal_elements_grow_until_they_are_alike)
               8.0 * gsl_pow_2(sin(0.5 * M_PI / 59.0)) /
                   (0.1 * gsl_pow_2(sin(0.5 * M_PI / 15.0))),
               1e-9, "as the elements beside them");
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* The spline goes through the points, or where they are smoothed through as many places,
@@ -383,12 +379,11 @@ TEST(more_overlaps_than_there_is_room_end_in_one)
     for (int k = 0; k < MOST; k++)
         x[k] = 1.5 * (k - MOST / 2);
     table *t = bumps(MOST, x, height);
-    rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
+    OWNED(rb_rolling_model) model = solved_between(&t->rc, -0.5, 0.5);
     rb_rolling_overlap o;
     CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
     assert_int_equal(o.count, RB_MOST_OVERLAPS);
     CHECK_ABS(o.to[RB_MOST_OVERLAPS - 1], x[MOST - 1], 0.3, "up to the last one");
-    rb_rolling_model_free(&model);
     bumps_free(t);
 }
 
@@ -402,7 +397,7 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
         table *t = bumps(2, x, high);
         double w[2 * 41], limit = NAN;
         t->rc.a.support = RB_BEM_HUB;
-        rb_rolling_model near = solved_between(&t->rc, -0.5, 0.5);
+        OWNED(rb_rolling_model) near = solved_between(&t->rc, -0.5, 0.5);
         rb_rolling_model model =
             solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
         CHECK_STATUS(
@@ -411,7 +406,6 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
         for (int i = 0; i + 1 < model.mesh.n; i++)
             if (model.bodies.f.x[i] <= x[1] && model.bodies.f.x[i + 1] > x[1])
                 limit = near.state.delta - w[i];
-        rb_rolling_model_free(&near);
         rb_rolling_model_free(&model);
         bumps_free(t);
         for (int k = 0; k < 2; k++) {

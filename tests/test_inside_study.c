@@ -216,8 +216,8 @@ TEST(nothing_is_halved_below_its_least)
     rb_rolling_solution s = {0};
     rb_rolling_errors errors;
     rb_rolling_curve curve, bars;
-    rb_rolling_model model;
-    rb_rolling_history h;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) h;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_EINVAL);
     CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &why), RB_EINVAL);
@@ -229,8 +229,6 @@ TEST(nothing_is_halved_below_its_least)
     rc.distance = 1.0;
     CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &why),
                  RB_EINVAL);
-    rb_rolling_history_free(&h);
-    rb_rolling_model_free(&model);
 }
 
 /* ---- Starts from coarse solutions -------------------------------------------------- */
@@ -324,8 +322,8 @@ TEST(nothing_is_known_beyond_the_coarse_line)
 {
     const rb_rolling_case rc = half_plane(RB_STATIC, FINE);
     line *coarse = calloc(1, sizeof *coarse);
-    double *ends = rb_alloc(COARSE + 2, 1), *p = rb_alloc(COARSE, 1);
-    int *zone = rb_alloc_int(COARSE);
+    SCRATCH double *ends = rb_alloc(COARSE + 2, 1), *p = rb_alloc(COARSE, 1);
+    SCRATCH int *zone = rb_alloc_int(COARSE);
     line fine;
     assert_true(coarse && ends && p && zone);
     make(coarse, COARSE, 3.0);
@@ -347,9 +345,6 @@ TEST(nothing_is_known_beyond_the_coarse_line)
         assert_int_equal(fine.zone[i], RB_ZONE_SEPARATED);
         CHECK_ABS(fine.p[i], i < 6 ? 1.0 : COARSE, 0.0, "p of %d", i);
     }
-    free(zone);
-    free(p);
-    free(ends);
     free(coarse);
 }
 

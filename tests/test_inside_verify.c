@@ -46,7 +46,7 @@ TEST(failures_have_a_reason)
     rb_verify_check check;
     rb_verify v = {.each = keep, .context = &check};
     rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
 
     rb_verify_note(&v, RB_MAXITER, &(rb_message){""});
     assert_string_equal(v.why, rb_status_text(RB_MAXITER));
@@ -61,7 +61,6 @@ TEST(failures_have_a_reason)
     rb_verify_relative(&v, s.force_ratio, 0.64, 1.0, "Carter");
     assert_false(check.holds);
     assert_ptr_equal(check.why, v.why);
-    rb_rolling_solution_free(&s);
 }
 
 typedef struct {

@@ -46,13 +46,12 @@ static const char SOCLCP[] = "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 1 2 0.5 0.25";
 static void check_matrix(rb_io_matrix *m)
 {
     const double want[] = {2.0, 0.0, 1.0, 3.0};
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     CHECK_STATUS(rb_io_matrix_to_sparse(m, &a), RB_OK);
     double y[2], x[2] = {1.0, 10.0};
     rb_sparse_apply(1.0, &a, x, 0.0, y);
     CHECK_ABS(y[0], 12.0, 0.0, "sparse product");
     CHECK_ABS(y[1], 30.0, 0.0, "sparse product");
-    rb_sparse_free(&a);
     CHECK_STATUS(rb_io_matrix_to_dense(m), RB_OK);
     CHECK_STATUS(rb_io_matrix_to_dense(m), RB_OK);
     for (int k = 0; k < 4; k++)
@@ -82,8 +81,8 @@ TEST(every_storage_gives_the_same_lcp)
 
 TEST(friction_and_cones)
 {
-    rb_io_friction f;
-    rb_io_soclcp s;
+    OWNED(rb_io_friction) f;
+    OWNED(rb_io_soclcp) s;
     rb_io_siconos_kind kind;
     put(FRICTION);
     CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
@@ -94,7 +93,6 @@ TEST(friction_and_cones)
     CHECK_ABS(f.mu[0], 0.5, 0.0, "mu");
     CHECK_ABS(f.q[1], -6.0, 0.0, "q");
     check_matrix(&f.W);
-    rb_io_friction_free(&f);
     put(SOCLCP);
     CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
     assert_int_equal(kind, RB_IO_SICONOS_SOCLCP);
@@ -103,7 +101,6 @@ TEST(friction_and_cones)
     assert_int_equal(s.start[1], 1);
     CHECK_ABS(s.tau[1], 0.25, 0.0, "tau");
     check_matrix(&s.M);
-    rb_io_soclcp_free(&s);
 }
 
 /* By five numbers at the head; -1: of no kind. */
@@ -139,14 +136,13 @@ TEST(kinds_are_told_by_their_sizes)
 TEST(blocks_of_other_sizes_are_in_their_places)
 {
     static const double want[] = {1, 0, 0, 2, 4, 5, 3, 6, 7};
-    rb_io_lcp p;
+    OWNED(rb_io_lcp) p;
     put("3\n1\n3 3\n3\n2\n2\n1 3\n1 3\n3\n3\n0 2 3\n0 1 1\n"
         "0\n1\n1\n2 3\n2\n4 5 6 7\n-1 -2 -3");
     CHECK_STATUS(rb_io_siconos_read_lcp(path, &p, NULL), RB_OK);
     CHECK_STATUS(rb_io_matrix_to_dense(&p.M), RB_OK);
     for (int k = 0; k < 9; k++)
         CHECK_ABS(p.M.dense[k], want[k], 0.0, "entry %d", k);
-    rb_io_lcp_free(&p);
 }
 
 /* ---- Refusals --------------------------------------------------------------------- */
@@ -167,37 +163,33 @@ static void put_second(const char *text)
 
 static rb_status read_lcp(void)
 {
-    rb_io_lcp p;
+    OWNED(rb_io_lcp) p;
     const rb_status s = rb_io_siconos_read_lcp(path, &p, &why);
     if (s != RB_OK)
         assert_null(p.q);
-    rb_io_lcp_free(&p);
     return s;
 }
 
 static rb_status read_any_lcp(void)
 {
-    rb_io_lcp p;
+    OWNED(rb_io_lcp) p;
     const rb_status s = rb_io_lcp_read(path, NULL, &p, &why);
     if (s != RB_OK)
         assert_null(p.q);
-    rb_io_lcp_free(&p);
     return s;
 }
 
 static rb_status read_friction(void)
 {
-    rb_io_friction p;
+    OWNED(rb_io_friction) p;
     const rb_status s = rb_io_siconos_read_friction(path, &p, &why);
-    rb_io_friction_free(&p);
     return s;
 }
 
 static rb_status read_soclcp(void)
 {
-    rb_io_soclcp p;
+    OWNED(rb_io_soclcp) p;
     const rb_status s = rb_io_siconos_read_soclcp(path, &p, &why);
-    rb_io_soclcp_free(&p);
     return s;
 }
 
@@ -210,9 +202,9 @@ static const char GLOBAL[] =
 
 TEST(global_friction_problems)
 {
-    rb_io_friction_global g;
+    OWNED(rb_io_friction_global) g;
     rb_io_siconos_kind kind;
-    rb_sparse H;
+    OWNED(rb_sparse) H;
     put(GLOBAL);
     CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
     assert_int_equal(kind, RB_IO_SICONOS_FRICTION_GLOBAL);
@@ -228,23 +220,19 @@ TEST(global_friction_problems)
         assert_int_equal(H.p[j], j);
         assert_int_equal(H.i[j], row[j]);
     }
-    rb_sparse_free(&H);
-    rb_io_friction_global_free(&g);
 }
 
 static rb_status read_global(void)
 {
-    rb_io_friction_global g;
+    OWNED(rb_io_friction_global) g;
     const rb_status s = rb_io_siconos_read_friction_global(path, &g, &why);
-    rb_io_friction_global_free(&g);
     return s;
 }
 
 static rb_status read_market(void)
 {
-    rb_io_matrix m;
+    OWNED(rb_io_matrix) m;
     const rb_status s = rb_io_matrix_market_read(path, &m, &why);
-    rb_io_matrix_free(&m);
     return s;
 }
 
@@ -382,7 +370,7 @@ TEST(damaged_files_are_refused_or_read)
     const char bytes[] = {'0', '9', '-', ' ', '\n', 'e', 0, '\xff', ':', '7'};
     for (int k = 0; k < 8; k++) {
         const size_t n = strlen(texts[k]);
-        char *text = strdup(texts[k]);
+        SCRATCH char *text = strdup(texts[k]);
         for (size_t i = 0; i < n; i++) {
             put_bytes(text, i);
             const rb_status cut = read[k]();
@@ -397,7 +385,6 @@ TEST(damaged_files_are_refused_or_read)
             }
             text[i] = texts[k][i];
         }
-        free(text);
     }
 }
 
@@ -446,7 +433,7 @@ TEST(short_memory_is_reported)
 TEST(market_gives_back_the_same_numbers)
 {
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
-    rb_io_matrix m;
+    OWNED(rb_io_matrix) m;
     CHECK_STATUS(
         rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &why),
         RB_OK);
@@ -456,7 +443,6 @@ TEST(market_gives_back_the_same_numbers)
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 3; i++)
             CHECK_ABS(m.dense[i + 3 * j], x[i + 4 * j], 0.0, "entry %d, %d", i, j);
-    rb_io_matrix_free(&m);
 }
 
 /* The four kinds give the same matrix. */
@@ -471,13 +457,12 @@ TEST(market_kinds)
         "3\n"};
     const double want[] = {4.0, -1.0, -1.0, 3.0};
     for (int k = 0; k < 4; k++) {
-        rb_io_matrix m;
+        OWNED(rb_io_matrix) m;
         put(files[k]);
         CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
         CHECK_STATUS(rb_io_matrix_to_dense(&m), RB_OK);
         for (int i = 0; i < 4; i++)
             CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
-        rb_io_matrix_free(&m);
     }
 }
 
@@ -573,22 +558,20 @@ TEST(market_heads_are_taken_word_by_word)
          "matrix: expected 450 numbers"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         check_refused(read_market, bad[k].text, bad[k].words);
-    rb_io_matrix m;
+    OWNED(rb_io_matrix) m;
     put("%%MatrixMarket matrix coordinate real general\n2 3 0\n");
     CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
     CHECK_STATUS(rb_io_matrix_to_dense(&m), RB_OK);
     for (int k = 0; k < 6; k++)
         CHECK_ABS(m.dense[k], 0.0, 0.0, "entry %d", k);
-    rb_io_matrix_free(&m);
 }
 
 static rb_status read_as_dense(void)
 {
-    rb_io_matrix m;
+    OWNED(rb_io_matrix) m;
     rb_status s = rb_io_matrix_market_read(path, &m, &why);
     if (s == RB_OK)
         s = rb_io_matrix_to_dense(&m);
-    rb_io_matrix_free(&m);
     return s;
 }
 
@@ -596,7 +579,7 @@ static rb_status read_as_dense(void)
 
 static rb_status read_with_q(void)
 {
-    rb_io_lcp p;
+    OWNED(rb_io_lcp) p;
     const rb_status s = rb_io_lcp_read(path, second, &p, &why);
     if (s == RB_OK) {
         assert_int_equal(p.n, 2);
@@ -605,17 +588,15 @@ static rb_status read_with_q(void)
     } else {
         assert_null(p.q);
     }
-    rb_io_lcp_free(&p);
     return s;
 }
 
 static rb_status read_game(void)
 {
-    rb_io_bimatrix p;
+    OWNED(rb_io_bimatrix) p;
     const rb_status s = rb_io_bimatrix_read(path, &p, &why);
     if (s != RB_OK)
         assert_true(!p.A && !p.B);
-    rb_io_bimatrix_free(&p);
     return s;
 }
 
@@ -661,14 +642,13 @@ TEST(kinds_of_lcp_are_told_apart)
     CHECK_STATUS(rb_io_lcp_read("/nowhere/x", NULL, &(rb_io_lcp){0}, &why), RB_ENOENT);
     CHECK_STATUS(rb_io_lcp_read("/nowhere/x", path, &(rb_io_lcp){0}, &why), RB_ENOENT);
     /* the head of a friction problem, but n, n rows of M and q */
-    rb_io_lcp p;
+    OWNED(rb_io_lcp) p;
     put("2 1 0 2 2 -7 8");
     CHECK_STATUS(rb_io_lcp_read(path, NULL, &p, &why), RB_OK);
     static const double want[] = {1.0, 2.0, 0.0, 2.0};
     for (int k = 0; k < 4; k++)
         CHECK_ABS(p.M.dense[k], want[k], 0.0, "M, entry %d", k);
     CHECK_ABS(p.q[1], 8.0, 0.0, "q");
-    rb_io_lcp_free(&p);
     unlink(second);
 }
 

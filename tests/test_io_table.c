@@ -19,7 +19,7 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 
 static void check_history(const char *text, int first_line)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     rb_message why = {""};
     const rb_status s = read_text(text, &t, &why);
     if (s != RB_OK)
@@ -35,7 +35,6 @@ static void check_history(const char *text, int first_line)
     CHECK_ABS(force[0], -1.5, 0.0, "force");
     assert_null(rb_io_table_column(&t, "creep"));
     assert_int_equal(t.line[0], first_line);
-    rb_io_table_free(&t);
 }
 
 /* As written by hand, with tabs or commas, and as the program writes its own tables. */
@@ -48,13 +47,12 @@ TEST(columns_are_named_in_three_ways)
 
 TEST(names_may_be_missing)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     assert_int_equal(read_text("# two numbers a row\n1 2\n3 4 # end\n", &t, NULL), RB_OK);
     assert_null(t.name);
     assert_null(rb_io_table_column(&t, "load"));
     CHECK_ABS(t.x[2], 2.0, 0.0, "second column first");
     assert_int_equal(t.line[1], 3);
-    rb_io_table_free(&t);
 }
 
 TEST(bad_tables_are_named_with_their_line)
@@ -113,11 +111,10 @@ TEST(comments_name_columns_or_not)
                {"# load force\n1 2\n3 4 # other words\n", "force"},
                {"#\n1 2\n", NULL}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        rb_io_table t;
+        OWNED(rb_io_table) t;
         CHECK_STATUS(read_text(all[k].text, &t, NULL), RB_OK);
         assert_int_equal(t.columns, 2);
         assert_int_equal(rb_io_table_column(&t, "force") != NULL, all[k].name != NULL);
-        rb_io_table_free(&t);
     }
 }
 
@@ -128,7 +125,7 @@ TEST(long_tables_keep_every_row)
     int used = 0;
     for (int i = 0; i < ROWS; i++)
         used += sprintf(text + used, "%d,%d\r\n%s", i, -2 * i, i % 7 ? "" : "\n");
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     CHECK_STATUS(read_text(text, &t, NULL), RB_OK);
     assert_int_equal(t.rows, ROWS);
     for (int i = 0; i < ROWS; i++) {
@@ -136,7 +133,6 @@ TEST(long_tables_keep_every_row)
         CHECK_ABS(t.x[ROWS + i], -2.0 * i, 0.0, "row %d", i);
         assert_int_equal(t.line[i], i + 1 + (i + 6) / 7);
     }
-    rb_io_table_free(&t);
 }
 
 TEST(columns_are_counted_where_they_are_known)
@@ -186,12 +182,11 @@ TEST(lines_of_any_length_are_read)
 {
     enum { NUMBERS = 3000 };
     static char text[2 * NUMBERS + 1];
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     for (int i = 0; i < NUMBERS; i++)
         memcpy(text + 2 * i, i + 1 < NUMBERS ? "1 " : "1\n", 2);
     assert_int_equal(read_text(text, &t, NULL), RB_OK);
     assert_int_equal(t.columns, NUMBERS);
-    rb_io_table_free(&t);
 }
 
 TEST(tables_without_memory)
@@ -201,13 +196,12 @@ TEST(tables_without_memory)
     for (int i = 0; i < 200; i++)
         strcat(text, "1 2\n");
     for (int k = 0; refused; k++) {
-        rb_io_table t;
+        OWNED(rb_io_table) t;
         alloc_fail_after(k);
         const rb_status s = read_text(text, &t, NULL);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
-        rb_io_table_free(&t);
     }
 }
 

@@ -69,11 +69,11 @@ TEST(a_law_that_is_followed_equals_one_begun_at_rest)
 /* The model's problem once more, with the matrix. */
 static void compare_with_matrix(const rb_rolling_case *rc)
 {
-    rb_rolling_model model = solved_model(rc);
+    OWNED(rb_rolling_model) model = solved_model(rc);
     rb_rolling_case dense = *rc;
-    rb_rolling_bodies bodies;
-    rb_contact_problem problem;
-    rb_contact_state state;
+    OWNED(rb_rolling_bodies) bodies;
+    OWNED(rb_contact_problem) problem;
+    OWNED(rb_contact_state) state;
     rb_message why;
 
     if (rb_rolling_is_large(rc, &model.mesh)) {
@@ -103,10 +103,6 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     }
     CHECK_REL(model.state.delta, state.delta, 1e-11, "delta");
     CHECK_REL(model.state.xi, state.xi, 1e-9, "xi");
-    rb_contact_state_free(&state);
-    rb_contact_problem_free(&problem);
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_model_free(&model);
 }
 
 TEST(equals_the_matrix_in_steady_rolling)
@@ -169,11 +165,10 @@ TEST(equals_the_matrix_where_a_layer_yields)
         rc.hardening = hardening[k % 4];
         rc.yield_stress = 0.5 * rc.mu * rb_rolling_derive(&rc).stress;
         compare_with_matrix(&rc);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
         yielding += s.yielding > 15;
         slipping += s.slipping > 5;
-        rb_rolling_solution_free(&s);
     }
     assert_true(yielding >= 12 && slipping >= 20);
 }
@@ -187,7 +182,7 @@ TEST(the_matrix_can_be_added)
     rc.slip_operator = RB_SLIP_SECOND;
     rc.interlayer_normal = 1e-6;
     rc.interlayer_tangential = 2e-6;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_contact_violation with, without;
     assert_null(model.bodies.F);
     CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &without), RB_OK);
@@ -197,11 +192,9 @@ TEST(the_matrix_can_be_added)
     CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &with), RB_OK);
     CHECK_MAX(without.scaled, 1e-10, "by products");
     CHECK_MAX(with.scaled, 1e-10, "by the matrix");
-    rb_contact_lcp lcp;
+    OWNED(rb_contact_lcp) lcp;
     CHECK_STATUS(rb_rolling_model_lcp(&model, &lcp, NULL), RB_OK);
-    rb_contact_lcp_free(&lcp);
     CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* once */
-    rb_rolling_model_free(&model);
 }
 
 /* What GMRES leaves is more than so small a tolerance: the matrix solves once more. */
@@ -215,10 +208,9 @@ TEST(a_small_tolerance_is_met_by_the_matrix)
             rc.creep_ratio = NAN;
             rc.force_ratio = 0.5;
         }
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         assert_int_equal(model.state.solver, RB_SOLVER_NEWTON);
         CHECK_MAX(model.state.residual, rc.contact.tol, "residual");
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -279,7 +271,7 @@ TEST(the_matrix_stands_in_for_products)
         rb_rolling_case rc = steady(DISSIMILAR, k == 2 ? 60 : 240);
         rc.mesh = RB_MESH_UNIFORM;
         rc.contact.solver = RB_SOLVER_LEMKE; /* which keeps the matrix */
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         const int n = model.mesh.n;
         double *gap = rb_alloc((size_t)n, 3), *p = gap + n, *q = p + n;
         watched by;
@@ -296,7 +288,6 @@ TEST(the_matrix_stands_in_for_products)
             CHECK_ABS(model.state.q[i], q[i], 1e-9 * model.problem.stress, "q of %d", i);
         }
         free(gap);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -351,13 +342,12 @@ TEST(residual_is_true)
 {
     for (int pair = SIMILAR; pair <= RIGID; pair++) {
         const rb_rolling_case rc = steady((pairing)pair, 4000);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         assert_int_equal(s.large, 1);
         CHECK_MAX(s.residual, 1e-10, "pair %d", pair);
         CHECK_MAX(s.load_error, 1e-12, "pair %d", pair);
         check_rows(&rc, &s);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -366,7 +356,7 @@ TEST(residual_is_true)
 TEST(much_friction_is_reached_step_by_step)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
 
     rc.mu = 2.0;
     rc.creep_ratio = 0.5;
@@ -375,7 +365,6 @@ TEST(much_friction_is_reached_step_by_step)
     assert_true(s.stick > 100);
     CHECK_MAX(s.residual, 1e-10, "residual");
     check_rows(&rc, &s);
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Closed forms ------------------------------------------------------------------ */
@@ -385,7 +374,7 @@ TEST(carter)
 {
     for (int n = 5000; n <= 80000; n *= 4) {
         const rb_rolling_case rc = steady(SIMILAR, n);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_REL(-s.force_ratio, 0.64, 1.5 / n, "n = %d", n);
         CHECK_REL(s.half_width, 1.0, 0.5 / n, "n = %d", n);
@@ -395,7 +384,6 @@ TEST(carter)
         CHECK_ABS(s.free_creepage, 0.0, 0.0, "n = %d", n);
         assert_int_equal(s.slip_violations, 0);
         CHECK_MAX(s.residual, 1e-9, "n = %d", n);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -403,7 +391,7 @@ TEST(carter)
 TEST(cattaneo)
 {
     rb_rolling_case rc = steady(SIMILAR, 20000);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.formulation = RB_STATIC;
     rc.creep_ratio = NAN;
     rc.force_ratio = 0.6;
@@ -411,27 +399,24 @@ TEST(cattaneo)
     CHECK_REL(s.force_ratio, 0.6, 1e-10, "Q/(mu P)");
     CHECK_REL(s.stick_to, sqrt(0.4), 5e-4, "stick");
     CHECK_REL(s.stick_from, -sqrt(0.4), 5e-4, "stick");
-    rb_rolling_solution_free(&s);
 }
 
 /* The same elements find free rolling too: beta = 0.3, mu = beta/2. */
 TEST(driven_contacts_know_how_they_roll_freely)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.a.poisson = 2.0 / 7.0;
     rc.mu = 0.15;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     assert_int_equal(s.large, 1);
     CHECK_REL(s.free_creepage * rc.a.radius / 0.3, -0.715826, 1e-3, "free creepage");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     double creepage;
     CHECK_MAX(model.state.iterations, 10, "steps from the solution on fewer elements");
     alloc_fail_after(0);
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_ENOMEM);
     alloc_succeed();
-    rb_rolling_model_free(&model);
 }
 
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
@@ -441,12 +426,11 @@ TEST(bentall_johnson)
     rc.mu = 1e-3;
     rc.creep_ratio = NAN;
     rc.force = 0.0;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     const double beta = (1 - 2 * 0.28) / (2 * (1 - 0.28));
     CHECK_REL(fabs(s.creepage), 2 * beta * s.half_width / 500.0 * 0.457386, 5e-3, "xi");
     CHECK_ABS(s.tangential_load / (rc.mu * s.normal_load), 0.0, 1e-9, "Q");
-    rb_rolling_solution_free(&s);
 }
 
 TEST(frictionless_and_sliding)
@@ -487,7 +471,7 @@ TEST(steps_hardly_grow)
 TEST(without_a_matrix_some_refuse)
 {
     const rb_rolling_case rc = steady(SIMILAR, 1500);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_contact_lcp lcp;
     rb_contact_cone cone;
     rb_message why = {""};
@@ -496,7 +480,6 @@ TEST(without_a_matrix_some_refuse)
     assert_non_null(strstr(why.text, "1500 contact elements are too many"));
     CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &why),
                  RB_EINVAL);
-    rb_rolling_model_free(&model);
 }
 
 TEST(failing_allocations)
@@ -519,7 +502,7 @@ TEST(failing_allocations)
     rb_message why;
 
     for (int k = 0, refused = 1, runs = 0; refused; k += 1 + k / 12, runs++) {
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         alloc_fail_after(k);
         const rb_status s = rb_rolling_model_create(&rc, &model, &why);
         refused = alloc_failed();
@@ -528,7 +511,6 @@ TEST(failing_allocations)
             CHECK_STATUS(s, RB_OK);
         else if (s != RB_OK) /* a refused guess of the zone is no failure */
             CHECK_STATUS(s, RB_ENOMEM);
-        rb_rolling_model_free(&model);
         assert_true(runs < 200);
     }
 }

@@ -243,7 +243,7 @@ TEST(what_relaxes_everywhere_alike_has_the_elastic_stress)
         rc.formulation = RB_STEADY;
         rc.creep_ratio = 0.4;
         rc.speed = 100.0;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, relaxing, NULL), RB_OK);
         case_of(&model)->a.memory.n = 0; /* the same tractions */
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, elastic, NULL), RB_OK);
@@ -251,7 +251,6 @@ TEST(what_relaxes_everywhere_alike_has_the_elastic_stress)
             CHECK_REL(relaxing[i].sxx, elastic[i].sxx, 1e-12, "sxx, point %d", i);
             CHECK_REL(relaxing[i].von_mises, elastic[i].von_mises, 1e-12, "point %d", i);
         }
-        rb_rolling_model_free(&model);
     }
 }
 

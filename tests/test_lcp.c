@@ -525,7 +525,7 @@ TEST(the_collection_is_solved)
     };
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
         char name[80];
-        rb_io_lcp p;
+        OWNED(rb_io_lcp) p;
         rb_lcp_info info;
         rb_message why;
         double z[32];
@@ -540,7 +540,6 @@ TEST(the_collection_is_solved)
         CHECK_MAX(natural_residual(p.n, p.M.dense, p.n, p.q, z),
                   1e-13 * size_of(p.n, p.q), "%s", files[k].file);
         assert_int_equal(info.iters, files[k].pivots + 1); /* z0's entry is one */
-        rb_io_lcp_free(&p);
     }
 }
 
@@ -580,23 +579,20 @@ TEST(plane_friction_problems_are_solved)
     };
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
         char name[80];
-        rb_io_friction p;
+        OWNED(rb_io_friction) p;
         rb_lcp_info info;
         snprintf(name, sizeof name, "siconos/fc2d/%s.dat", files[k].file);
         CHECK_STATUS(rb_io_siconos_read_friction(outside_data(name), &p, NULL), RB_OK);
         CHECK_STATUS(rb_io_matrix_to_dense(&p.W), RB_OK);
         const int n = 3 * p.contacts;
-        double *M = calloc((size_t)(n * n), sizeof *M), *q = calloc((size_t)n, sizeof *q);
-        double *z = calloc((size_t)n, sizeof *z);
+        SCRATCH double *M = calloc((size_t)(n * n), sizeof *M),
+                       *q = calloc((size_t)n, sizeof *q);
+        SCRATCH double *z = calloc((size_t)n, sizeof *z);
         friction_matrix(&p, M, q);
         CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, &info), RB_OK);
         CHECK_MAX(natural_residual(n, M, n, q, z), 1e-12 * size_of(n, q), "%s",
                   files[k].file);
         assert_true(info.iters <= files[k].pivots + 1);
-        free(M);
-        free(q);
-        free(z);
-        rb_io_friction_free(&p);
     }
 }
 

@@ -57,8 +57,8 @@ TEST(every_claim_is_true)
                 lcp_family f, scaled;
                 assert_int_equal(lcp_family_create(kind, orders[o] + 7, &f), RB_OK);
                 assert_int_equal(lcp_family_create(kind, orders[o] + 7, &scaled), RB_OK);
-                double *column = malloc((size_t)f.n * sizeof *column);
-                double *z = malloc((size_t)f.n * sizeof *z);
+                SCRATCH double *column = malloc((size_t)f.n * sizeof *column);
+                SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
                 lcp_family_scale(&scaled, scales[e], column);
                 for (int s = 0; s < count; s++) {
                     const rb_lcp_mixed_problem p = {.M = &scaled.M, .q = scaled.q};
@@ -73,8 +73,6 @@ TEST(every_claim_is_true)
                         CHECK_MAX(judge(&f, z, column), 1e-8, "%s by %s, order %d, 2^%g",
                                   lcp_families[kind].name, info.solver, f.n, scales[e]);
                 }
-                free(column);
-                free(z);
                 lcp_family_free(&f);
                 lcp_family_free(&scaled);
             }
@@ -94,13 +92,12 @@ TEST(the_solver_is_said)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         lcp_family f;
         assert_int_equal(lcp_family_create(cases[k].kind, cases[k].n, &f), RB_OK);
-        double *z = malloc((size_t)f.n * sizeof *z);
+        SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
         rb_lcp_info info;
         CHECK_STATUS(rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q},
                                   NULL, z, &info),
                      RB_OK);
         assert_string_equal(info.solver, cases[k].solver);
-        free(z);
         lcp_family_free(&f);
     }
 }
@@ -112,9 +109,9 @@ TEST(coarser_problems_come_first)
     for (int k = 0; k < 3; k++) {
         lcp_family f;
         assert_int_equal(lcp_family_create(kinds[k], 10000, &f), RB_OK);
-        double *z = malloc((size_t)f.n * sizeof *z),
-               *ones = malloc((size_t)f.n * sizeof *z);
-        double *same = malloc((size_t)f.n * sizeof *z);
+        SCRATCH double *z = malloc((size_t)f.n * sizeof *z),
+                       *ones = malloc((size_t)f.n * sizeof *z);
+        SCRATCH double *same = malloc((size_t)f.n * sizeof *z);
         for (int i = 0; i < f.n; i++)
             ones[i] = 1.0;
         rb_lcp_info info, plain;
@@ -126,9 +123,6 @@ TEST(coarser_problems_come_first)
                    "%d systems, %d without coarser problems", info.iters, plain.iters);
         for (int i = 0; i < f.n; i++)
             CHECK_ABS(z[i], same[i], 1e-11 * rb_norm_inf((size_t)f.n, same), "z(%d)", i);
-        free(z);
-        free(ones);
-        free(same);
         lcp_family_free(&f);
     }
 }
@@ -154,13 +148,12 @@ TEST(no_solution_is_said_by_lemke)
         lcp_family f;
         rb_lcp_info info;
         without_solution(orders[k], &f);
-        double *z = malloc((size_t)f.n * sizeof *z);
+        SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
         const rb_lcp_mixed_problem p = {.M = &f.M, .q = f.q};
         CHECK_STATUS(rb_lcp_solve("auto", &p, NULL, z, &info), RB_RAY);
         assert_non_null(strstr(info.msg.text, "secondary ray"));
         assert_int_equal(strncmp(info.solver, "lemke", 5), 0);
         CHECK_TRUE(info.scaled > 1e-3, "a residual of %g", info.scaled);
-        free(z);
         lcp_family_free(&f);
     }
 }
@@ -215,7 +208,7 @@ TEST(short_memory_is_reported)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         lcp_family f;
         assert_int_equal(lcp_family_create(cases[k].kind, cases[k].n, &f), RB_OK);
-        double *z = malloc((size_t)f.n * sizeof *z);
+        SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
         const rb_lcp_mixed_problem p = {.M = &f.M, .q = f.q};
         rb_status s = RB_ENOMEM;
         for (int left = 0; s == RB_ENOMEM && left < 2000; left++) {
@@ -227,7 +220,6 @@ TEST(short_memory_is_reported)
                 assert_non_null(strstr(info.msg.text, "memory"));
         }
         CHECK_STATUS(s, RB_OK);
-        free(z);
         lcp_family_free(&f);
     }
 }

@@ -97,7 +97,7 @@ static void battle_of_the_sexes(void)
 
 TEST(all_equilibria_of_a_game)
 {
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     rb_message why;
     int mixed = 0;
     battle_of_the_sexes();
@@ -114,7 +114,6 @@ TEST(all_equilibria_of_a_game)
         }
     }
     assert_int_equal(mixed, 1);
-    rb_lcp_solutions_free(&all);
 }
 
 /* A nondegenerate game has an odd number of equilibria, and every label leads to one of
@@ -124,7 +123,7 @@ TEST(every_label_leads_to_an_equilibrium)
     for (int k = 0; k < 30; k++) {
         const int m = 2 + k % 3, n = 2 + k % 4;
         const rb_lcp_game game = {m, n, A, B, LD};
-        rb_lcp_solutions all;
+        OWNED(rb_lcp_solutions) all;
         double z[N];
         random_game(m, n, 0);
         CHECK_STATUS(rb_lcp_bimatrix_enumerate(&game, &all, NULL), RB_OK);
@@ -140,7 +139,6 @@ TEST(every_label_leads_to_an_equilibrium)
             }
             assert_true(found);
         }
-        rb_lcp_solutions_free(&all);
     }
 }
 
@@ -251,14 +249,13 @@ TEST(a_bound_may_change_the_sign_of_a_row)
 {
     const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
     const double q[] = {1.0 / 3.0, -1e-8, 1e8};
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL),
                  RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], (1e8 - 1.0 / 3.0) / 24.75, 1e-13, "z1");
     CHECK_ABS(all.z[1], 0.0, 0.0, "z2");
     CHECK_REL(all.z[2], 4e6, 1e-13, "z3");
-    rb_lcp_solutions_free(&all);
 }
 
 /* M = 1: z = -q cut off by its box, whatever ends that has. */
@@ -318,7 +315,7 @@ TEST(too_many_bases_are_refused)
 {
     enum { BOXED = 14 };
     double M[BOXED * BOXED] = {0.0}, q[BOXED], low[BOXED], high[BOXED];
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     rb_message why = {""};
     for (int i = 0; i < BOXED; i++) {
         M[i * BOXED + i] = 1.0;
@@ -330,7 +327,6 @@ TEST(too_many_bases_are_refused)
         rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, &all, &why),
         RB_EINVAL);
     assert_non_null(strstr(why.text, "4.78e+06 complementary bases"));
-    rb_lcp_solutions_free(&all);
 }
 
 /* Lemke's answers are among them. */
@@ -413,20 +409,18 @@ TEST(bad_input_is_named)
 TEST(points_beyond_the_largest_number_are_no_solutions)
 {
     const double M[] = {1e-300}, q[] = {-1e300};
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
                  RB_OK);
     assert_int_equal(all.count, 0);
-    rb_lcp_solutions_free(&all);
 }
 
 static rb_status solve_anew(void *context)
 {
     double z[4];
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     const rb_status s = rb_lcp_bimatrix(context, 0, NULL, z, NULL);
     const rb_status t = rb_lcp_bimatrix_enumerate(context, &all, NULL);
-    rb_lcp_solutions_free(&all);
     return s == RB_OK ? t : s;
 }
 
@@ -435,14 +429,13 @@ TEST(short_memory_is_reported)
     battle_of_the_sexes();
     for (int i = 0;; i++) {
         double z[4];
-        rb_lcp_solutions all;
+        OWNED(rb_lcp_solutions) all;
         alloc_fail_after(i);
         const rb_status s = rb_lcp_bimatrix(&two, 0, NULL, z, NULL);
         const rb_status t = rb_lcp_bimatrix_enumerate(&two, &all, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
         assert_true(refused == (s == RB_ENOMEM || t == RB_ENOMEM));
-        rb_lcp_solutions_free(&all);
         if (!refused)
             break;
     }

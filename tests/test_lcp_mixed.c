@@ -42,11 +42,10 @@ static double natural_residual(const problem *p, const double *z)
 static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info)
 {
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     CHECK_STATUS(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M), RB_OK);
     const rb_status s =
         rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p->q, p->lower, p->upper}, opt, z, info);
-    rb_sparse_free(&M);
     return s;
 }
 
@@ -111,12 +110,11 @@ TEST(the_floor_is_of_magnitudes)
 {
     const double M[4] = {3.0, -1.0, 2.0, 0.5}, q[2] = {6.0, -8.0}, z[2] = {-2.0, 1.0};
     double room[2];
-    rb_sparse sparse;
+    OWNED(rb_sparse) sparse;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &sparse), RB_OK);
     CHECK_REL(
         rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
         14e-14, 1e-12, "|3 (-2)| + |2| + 6");
-    rb_sparse_free(&sparse);
 }
 
 TEST(boxes_of_all_kinds_are_solved)
@@ -693,7 +691,7 @@ TEST(a_start_without_basis_begins_at_the_bounds)
 /* The obstacle problem on m x m points, M: minus the five-point Laplacian. */
 static void obstacle(int m, rb_sparse *M, double *q)
 {
-    rb_triplets t = {.rows = m * m, .cols = m * m};
+    OWNED(rb_triplets) t = {.rows = m * m, .cols = m * m};
     const double h = 1.0 / (m + 1);
     for (int k = 0; k < m * m; k++) {
         const int i = k % m, j = k / m;
@@ -708,14 +706,13 @@ static void obstacle(int m, rb_sparse *M, double *q)
         }
     }
     CHECK_STATUS(rb_sparse_from_triplets(&t, M), RB_OK);
-    rb_triplets_free(&t);
 }
 
 TEST(a_large_obstacle_is_solved_as_by_newton)
 {
     enum { SIDE = 40 };
     static double q[SIDE * SIDE], z[SIDE * SIDE], want[SIDE * SIDE];
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     rb_lcp_info info;
     obstacle(SIDE, &M, q);
     CHECK_STATUS(rb_lcp_newton(&M, q, NULL, want, &info), RB_OK);
@@ -725,7 +722,6 @@ TEST(a_large_obstacle_is_solved_as_by_newton)
     CHECK_MAX(info.res, 1e-15, "residual");
     for (int i = 0; i < SIDE * SIDE; i++)
         CHECK_ABS(z[i], want[i], 1e-14, "z(%d)", i + 1);
-    rb_sparse_free(&M);
 }
 
 /* ---- Ends and bad input ------------------------------------------------------------ */
@@ -803,14 +799,13 @@ TEST(bad_input_is_named)
     rb_sparse_free(&wide);
     /* of what is no number the residual is none */
     const double one[] = {1.0}, no[] = {NAN};
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 1, &M), RB_OK);
     assert_true(
         isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = one}, no, z)));
     assert_true(
         isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = no}, one, z)));
     assert_true(isnan(rb_lcp_residual(&(rb_lcp_problem){1, one, 1, no}, one, z)));
-    rb_sparse_free(&M);
 }
 
 static rb_status solve_anew(void *context)
@@ -824,7 +819,7 @@ TEST(short_memory_is_reported)
     static problem p;
     positive_definite(6, &p);
     p.lower[2] = -INFINITY;
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     CHECK_STATUS(rb_sparse_from_dense(p.n, p.n, p.M, p.n, &M), RB_OK);
     for (int i = 0;; i++) {
         double z[N];
@@ -839,7 +834,6 @@ TEST(short_memory_is_reported)
     }
     rb_lcp_mixed_problem one = {&M, p.q, p.lower, p.upper};
     assert_true(alloc_fail_each(solve_anew, &one) > 5);
-    rb_sparse_free(&M);
 }
 
 /* -1.1e-4 z1 - 1e-8 z2 = 23.75 has no z >= 0; the other row is 300 decades larger and
@@ -850,7 +844,7 @@ TEST(a_large_row_hides_no_wrong_one)
     double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
     const double lower[] = {0.0, 0.0}, upper[] = {INFINITY, INFINITY};
     double z[2];
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     rb_lcp_info info;
     CHECK_STATUS(
         rb_sparse_from_triplets(
@@ -862,7 +856,6 @@ TEST(a_large_row_hides_no_wrong_one)
     assert_int_not_equal(
         rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, q, lower, upper}, NULL, z, &info),
         RB_OK);
-    rb_sparse_free(&M);
 }
 
 RUN_TESTS(NULL, NULL)

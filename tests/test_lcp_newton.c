@@ -49,7 +49,7 @@ TEST(p_matrices_are_solved_as_by_lemke)
     double M[N * N], q[N], z[N], want[N];
     for (int k = 0; k < 300; k++) {
         const int n = 1 + k % N;
-        rb_sparse a;
+        OWNED(rb_sparse) a;
         rb_lcp_info info;
         random_problem(n, M, q);
         CHECK_STATUS(rb_sparse_from_dense(n, n, M, n, &a), RB_OK);
@@ -66,7 +66,6 @@ TEST(p_matrices_are_solved_as_by_lemke)
         warm.start = want;
         CHECK_STATUS(rb_lcp_newton(&a, q, &warm, z, &info), RB_OK);
         assert_int_equal(info.iters, 1);
-        rb_sparse_free(&a);
     }
 }
 
@@ -76,7 +75,7 @@ TEST(cycling_newton_steps_end_by_single_ones)
 {
     const double M[] = {1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0};
     const double q[] = {-1.0, -1.0, -1.0}, start[] = {1.0, 0.0, 0.0};
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[3];
     rb_lcp_options opt = rb_lcp_defaults();
@@ -86,14 +85,13 @@ TEST(cycling_newton_steps_end_by_single_ones)
     CHECK_MAX(natural_residual(3, M, q, z), 1e-15, "residual");
     opt.max_iters = 1;
     CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_MAXITER);
-    rb_sparse_free(&a);
 }
 
 TEST(what_it_cannot_solve_is_said)
 {
     const double M[] = {0.0, 1.0, 1.0, 0.0}, q[] = {-1.0, 1.0};
     const double bad[] = {NAN, 1.0};
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[2];
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
@@ -104,7 +102,6 @@ TEST(what_it_cannot_solve_is_said)
     a.x[0] = INFINITY;
     CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M(2, 1) = inf"));
-    rb_sparse_free(&a);
 }
 
 /* z_2 = -0.1 would be rounding beside z_1 = 1e16, but not in w_1 = -1 + 1e-16 z_1 + z_2:
@@ -113,7 +110,7 @@ TEST(columns_of_any_scale_are_solved)
 {
     const double M[] = {1e-16, 0.0, 1.0, 1.0}, q[] = {-1.0, 0.1}, both[] = {1.0, 1.0};
     rb_lcp_options opt = rb_lcp_defaults();
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[2];
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
@@ -121,7 +118,6 @@ TEST(columns_of_any_scale_are_solved)
     CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
     CHECK_REL(z[0], 1e16, 1e-15, "z(1)");
     CHECK_ABS(z[1], 0.0, 0.0, "z(2)");
-    rb_sparse_free(&a);
 }
 
 /* z_2 = -0.1 is rounding beside z_1 = 1e16 and becomes zero, which leaves w_3 = z_2 + z_3
@@ -131,7 +127,7 @@ TEST(a_large_row_hides_no_small_one)
     const double M[] = {1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0};
     const double q[] = {-1e16, 0.1, -1.0}, all[] = {1.0, 1.0, 1.0};
     rb_lcp_options opt = rb_lcp_defaults();
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[3];
     CHECK_STATUS(rb_sparse_from_dense(3, 3, M, 3, &a), RB_OK);
@@ -148,7 +144,6 @@ TEST(a_large_row_hides_no_small_one)
                  RB_OK);
     CHECK_REL(scaled, 0.1 / 2.1, 1e-9, "residual of row 3 as a part of its terms");
     assert_int_equal(row, 2);
-    rb_sparse_free(&a);
 }
 
 static rb_status solve_anew(void *context)
@@ -161,7 +156,7 @@ static rb_status solve_anew(void *context)
 TEST(short_memory_is_reported)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
     for (int i = 0;; i++) {
         double z[2];
@@ -174,7 +169,6 @@ TEST(short_memory_is_reported)
             break;
     }
     assert_true(alloc_fail_each(solve_anew, &a) > 2);
-    rb_sparse_free(&a);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -87,7 +87,7 @@ static int solve(const problem *p, int k)
     const int n = p->n;
     const rb_lcp_problem dense = {n, p->scaled, n, p->scaled_q};
     double z[LARGEST];
-    rb_sparse M;
+    OWNED(rb_sparse) M;
     int solved = 0;
     CHECK_STATUS(rb_sparse_from_dense(n, n, p->scaled, n, &M), RB_OK);
     const rb_lcp_mixed_problem sparse = {.M = &M, .q = p->scaled_q};
@@ -107,7 +107,6 @@ static int solve(const problem *p, int k)
         CHECK_STATUS(rb_lcp_scaled_residual(&sparse, z, &scaled, NULL), RB_OK);
         CHECK_MAX(scaled, 1e-12, "problem %d, n = %d, solver %d", k, n, solver);
     }
-    rb_sparse_free(&M);
     return solved;
 }
 
@@ -143,13 +142,12 @@ TEST(rows_in_other_units_change_nothing)
     CHECK_REL(z[0], 1.0, 1e-14, "z(1)");
     CHECK_REL(z[1], 2.0, 1e-14, "z(2)");
     CHECK_ABS(z[2], 0.0, 0.0, "z(3)");
-    rb_lcp_solutions all;
+    OWNED(rb_lcp_solutions) all;
     CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL),
                  RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], 1.0, 1e-14, "enumerated z(1)");
     CHECK_REL(all.z[1], 2.0, 1e-14, "enumerated z(2)");
-    rb_lcp_solutions_free(&all);
 }
 
 /* Powers of two change no digit of the measure, and a wrong small row is seen. */
@@ -159,7 +157,7 @@ TEST(the_scaled_residual_has_no_units)
     double z[LARGEST], scaled_z[LARGEST];
     for (int k = 0; k < 100; k++) {
         const int n = 2 + k % 20;
-        rb_sparse M, S;
+        OWNED(rb_sparse) M, S;
         double plain, scaled;
         int row;
         make(&p, 1, n, 40.0);
@@ -180,8 +178,6 @@ TEST(the_scaled_residual_has_no_units)
         assert_true(plain > 1e-5 && scaled > 1e-5);
         assert_true(scaled < 8.0 * plain && plain < 8.0 * scaled);
         assert_in_range(row, 0, n - 1);
-        rb_sparse_free(&M);
-        rb_sparse_free(&S);
     }
 }
 
@@ -243,7 +239,7 @@ static rb_status solve_anew(void *context)
 {
     const problem *p = context;
     double z[LARGEST], scaled;
-    rb_sparse M = {0};
+    OWNED(rb_sparse) M = {0};
     rb_status s = rb_lcp_lemke(&(rb_lcp_problem){p->n, p->scaled, p->n, p->scaled_q},
                                NULL, z, NULL);
     if (s == RB_OK)
@@ -255,7 +251,6 @@ static rb_status solve_anew(void *context)
         s = rb_lcp_mixed(&sparse, NULL, z, NULL);
     if (s == RB_OK)
         s = rb_lcp_scaled_residual(&sparse, z, &scaled, NULL);
-    rb_sparse_free(&M);
     return s;
 }
 

@@ -51,7 +51,7 @@ static void write_all(char *text, size_t size)
 {
     rb_api *a = rb_api_create();
     rb_case *words = rb_case_create(RB_CASE_SINGLE);
-    rb_case_result result = {0};
+    OWNED(rb_case_result) result = {0};
     rb_message why = {""};
     char value[64];
     FILE *out = fmemopen(text, size, "w");
@@ -94,13 +94,11 @@ static void write_all(char *text, size_t size)
     CHECK_STATUS(rb_report_json_write(out, inputs), RB_OK);
     rb_report_notes(out, &c->rc, s, 0);
     assert_int_equal(fclose(out), 0);
-    rb_case_result_free(&result);
     rb_case_free(words);
 
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     CHECK_STATUS(rb_io_table_read_columns("gap.txt", 2, &t, &why), RB_OK);
     CHECK_REL(t.x[1], 0.5, 1e-15, "x");
-    rb_io_table_free(&t);
 }
 
 TEST(numbers_have_points)

@@ -675,14 +675,13 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 
 TEST(columns_are_read)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     rb_message why = {""};
     assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why),
                      RB_OK);
     assert_int_equal(t.rows, 3);
     CHECK_ABS(t.x[2], -0.5, 0.0, "x");
     CHECK_ABS(t.x[3 + 1], 4.0, 0.0, "gap");
-    rb_io_table_free(&t);
 }
 
 TEST(bad_columns_are_named)
@@ -703,7 +702,7 @@ TEST(bad_columns_are_named)
 TEST(columns_without_memory)
 {
     int refused = 1;
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     char name[] = "/tmp/rollbem-columns-XXXXXX";
     const int fd = mkstemp(name);
     for (int i = 0; i < 200; i++)
@@ -716,7 +715,6 @@ TEST(columns_without_memory)
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
     }
-    rb_io_table_free(&t);
     unlink(name);
 }
 

@@ -522,7 +522,7 @@ TEST(matrices_are_written_all_or_none)
 {
     char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
-    rb_case_result two = {0}, flat = {0};
+    OWNED(rb_case_result) two = {0}, flat = {0};
     solve(wheels, &two);
     solve(planes, &flat);
     dump_job j = {folder, &two.model};
@@ -534,8 +534,6 @@ TEST(matrices_are_written_all_or_none)
     assert_true(alloc_fail_every_call(dump, &j) > 10);
     CHECK_STATUS(rb_report_dump("/dev/null/d", &flat.model, &why), RB_EWRITE);
     assert_non_null(strstr(why.text, "/dev/null/d: cannot write"));
-    rb_case_result_free(&two);
-    rb_case_result_free(&flat);
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
 }

@@ -34,12 +34,11 @@ TEST(carters_law_has_second_order)
             const int n = 50 << j;
             rb_rolling_case rc = carter(n);
             rc.creep_ratio = ratio[k];
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(ratio[k]),
                       1.2 * error[k][j], "s = %g, n = %d", ratio[k], n);
             assert_int_equal(s.contact, n);
             CHECK_REL(s.half_width, 0.05, 1e-4, "half-width");
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -51,9 +50,8 @@ TEST(the_upstream_difference_has_first_order)
         rb_rolling_case rc = carter(100 << j);
         rc.creep_ratio = 0.5;
         rc.slip_operator = RB_SLIP_UPSTREAM;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         error[j] = fabs(s.force_ratio + 0.75);
-        rb_rolling_solution_free(&s);
     }
     CHECK_REL(error[0], 2.7e-3, 0.05, "n = 100");
     CHECK_REL(error[0] / error[1], 2.0, 0.05, "order");
@@ -65,10 +63,9 @@ TEST(a_given_force_finds_its_creepage)
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(50 << j);
         rc.force_ratio = -0.6;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.creep_ratio, 1.0 - sqrt(0.4), 1.2 * error[j], "n = %d", 50 << j);
         CHECK_ABS(s.force_ratio, -0.6, 1e-12, "the force itself");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -79,7 +76,7 @@ TEST(dissipation_balances_the_creepage)
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(50 << j);
         rc.creep_ratio = 0.5;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         double power[400], sum = 0.0;
         assert_true(s.n <= 400);
         rb_rolling_friction_power(&s, power);
@@ -88,7 +85,6 @@ TEST(dissipation_balances_the_creepage)
         CHECK_REL(s.dissipation, -s.creepage * s.tangential_load, error[j], "n = %d",
                   50 << j);
         CHECK_REL(sum, s.dissipation, 1e-12, "power density, n = %d", 50 << j);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -97,10 +93,9 @@ TEST(transforms_reach_seven_digits)
     const int n = getenv("ROLLBEM_TEST_ALL") ? 100000 : 20000;
     rb_rolling_case rc = carter(n);
     rc.creep_ratio = 0.5;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_true(s.large);
     CHECK_ABS(s.force_ratio, -0.75, 1e-8, "n = %d", n);
-    rb_rolling_solution_free(&s);
 }
 
 /* f = 4, V tau = a_g, xi R/(mu a_g) = 0.5, similar bodies: -0.390667 on elements aligned
@@ -114,9 +109,8 @@ TEST(bodies_with_memory_converge_too)
         rc.a.memory = (rb_rolling_memory){1, {0.05}, {4.0}};
         rc.speed = 1.0;
         rc.creep_ratio = 0.5;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.force_ratio, -0.390667, error[j], "n = %d", 100 << j);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -127,9 +121,8 @@ TEST(dissimilar_bodies_roll_freely)
     rc.a.poisson = 2.0 / 7.0; /* (1-2nu)/(2(1-nu)) = 0.3 */
     rc.mu = 0.15;
     rc.force = 0.0;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creepage * rc.a.radius / (0.3 * 0.05), -0.715826, 2e-4, "n = 100");
-    rb_rolling_solution_free(&s);
 }
 
 /* Aligned and fitted elements of a wheel tend to the same force, both with second order.
@@ -146,9 +139,8 @@ TEST(wheels_take_aligned_elements_too)
             rc.mesh = RB_MESH_FITTED;
             rc.slip_operator = RB_SLIP_UPSTREAM;
         }
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         ratio[k] = s.force_ratio;
-        rb_rolling_solution_free(&s);
     }
     CHECK_ABS(ratio[0], ratio[2], 6e-5, "n = 100");
     CHECK_ABS(ratio[1], ratio[2], 2e-5, "n = 200");
@@ -176,7 +168,7 @@ TEST(what_cannot_be_aligned_is_refused)
 TEST(edge_lies_before_the_first_open_midpoint)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.a.support = RB_BEM_HUB;
     rc.mesh = RB_MESH_ALIGNED;
@@ -194,7 +186,6 @@ TEST(edge_lies_before_the_first_open_midpoint)
         if (open && s.zone[i - 1] != RB_ZONE_SEPARATED)
             CHECK_MAX(s.contact_to, s.x[i] + 1e-9 * s.h[i], "right edge");
     }
-    rb_rolling_solution_free(&s);
 }
 
 /* Nine elements in contact tell the edges that others are aligned to; with fewer they
@@ -210,16 +201,14 @@ TEST(nine_elements_tell_the_edges)
         rc.slip_operator = RB_SLIP_UPSTREAM;
         rc.zone = (1.2 + 0.05 * k) * a;
         rc.mesh = RB_MESH_UNIFORM;
-        rb_rolling_solution first = solved(&rc);
+        OWNED(rb_rolling_solution) first = solved(&rc);
         for (int i = 0; i < first.n; i++)
             touch += first.zone[i] != RB_ZONE_SEPARATED;
         rc.mesh = RB_MESH_ALIGNED;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         assert_int_equal(s.equal_instead, touch < 9);
         nine += touch == 9;
         eight += touch < 9;
-        rb_rolling_solution_free(&first);
-        rb_rolling_solution_free(&s);
     }
     assert_true(nine > 0 && eight > 0);
 }
@@ -240,9 +229,8 @@ TEST(many_elements_are_solved_once)
     assert_int_equal(model.equal_instead, 0);
     assert_int_equal(model.mesh.n, 30000 + 8);
     rb_rolling_model_free(&model);
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 2e-9, "Q/(mu P)");
-    rb_rolling_solution_free(&s);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -28,14 +28,12 @@ TEST(similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane)
         pair.b.radius = 3.0 * pair.a.radius;
         pair.elastic_b = 1;
         rigid.creep_ratio = pair.creep_ratio = 0.1 * k;
-        rb_rolling_solution one = solved(&rigid), two = solved(&pair);
+        OWNED(rb_rolling_solution) one = solved(&rigid), two = solved(&pair);
         assert_int_equal(one.n, two.n);
         CHECK_ABS(two.force_ratio, one.force_ratio, 1e-9, "s = %g", 0.1 * k);
         for (int i = 0; i < one.n; i++)
             CHECK_ABS(two.q[i] / two.max_pressure, one.q[i] / one.max_pressure, 1e-8,
                       "q, element %d", i);
-        rb_rolling_solution_free(&one);
-        rb_rolling_solution_free(&two);
     }
 }
 
@@ -48,10 +46,9 @@ TEST(equal_wheels_lose_their_coupling)
     rc.elastic_b = 1;
     rc.half_width = 0.02 * rc.a.radius;
     rc.creep_ratio = 0.4;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_ABS(s.free_creepage, 0.0, 1e-9 * s.creepage, "free rolling of equal wheels");
     CHECK_ABS(s.force_ratio, -0.64, 2e-2, "Carter, a/R = 0.02");
-    rb_rolling_solution_free(&s);
 }
 
 /* Who is A and who is B: mirrored, the creepage and the friction change their sign. */
@@ -67,18 +64,16 @@ TEST(exchanging_the_bodies_mirrors_the_result)
     rc.half_width = 0.01 * rc.a.radius;
     rc.zone = 1.3 * rc.half_width;
     rc.creep_ratio = 0.3;
-    rb_rolling_solution ab = solved(&rc);
+    OWNED(rb_rolling_solution) ab = solved(&rc);
     const rb_rolling_body a = rc.a;
     rc.a = rc.b;
     rc.b = a;
     rc.creep_ratio = -0.3;
-    rb_rolling_solution ba = solved(&rc);
+    OWNED(rb_rolling_solution) ba = solved(&rc);
     for (int i = 0; i < ab.n; i++) {
         CHECK_ABS(ab.p[i], ba.p[i], 1e-7 * ab.max_pressure, "p, element %d", i);
         CHECK_ABS(ab.q[i], -ba.q[i], 1e-7 * ab.max_pressure, "q, element %d", i);
     }
-    rb_rolling_solution_free(&ab);
-    rb_rolling_solution_free(&ba);
 }
 
 /* Aluminium on steel (theory.md 6), free rolling, both wheels with hubs. */
@@ -94,9 +89,8 @@ static double finite_free_creepage(double ratio, double mu)
     rc.contact_elements = 60;
     rc.half_width = ratio * rc.a.radius;
     rc.force = 0.0;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double scaled = s.creepage * rb_rolling_radius(&rc) / rc.half_width;
-    rb_rolling_solution_free(&s);
     return scaled;
 }
 
@@ -138,11 +132,10 @@ TEST(force_control_never_fails_on_wheels)
         rc.half_width = ratio * rb_rolling_radius(&rc);
         rc.mu = fmin(10.0, log_uniform(1e-6, 0.1) / ratio);
         rc.force_ratio = k % 4 ? uniform(-0.999, 0.999) : 0.999;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
         CHECK_MAX(s.load_error, 1e-10, "case %d", k);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -154,16 +147,14 @@ TEST(at_rest_relaxing_bodies_need_steps_in_time)
     rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
     rc.a.memory = (rb_rolling_memory){.n = 1, .ratio = {ratio}, .time = {time}};
     rc.formulation = RB_STATIC;
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
+    OWNED(rb_rolling_mesh) mesh;
+    OWNED(rb_rolling_bodies) bodies;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_EINVAL);
     assert_string_equal(why.text,
                         "relaxation: bodies that relax and do not roll steadily "
                         "need a history of steps in time");
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_mesh_free(&mesh);
 }
 
 TEST(absurd_sizes_are_refused)

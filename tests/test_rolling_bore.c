@@ -34,13 +34,12 @@ TEST(parabolas_are_one_of_the_difference_of_curvatures)
     rc.load = rb_closed_hertz_load(a, R, modulus_of(&rc));
     rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.4;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(rb_rolling_radius(&rc), R, 1e-13, "combined radius");
     CHECK_REL(s.half_width, a, 2e-4, "half-width");
     CHECK_REL(s.max_pressure, rb_closed_hertz_max_pressure(rc.load, a), 3e-4, "p0");
     CHECK_REL(s.creepage, 0.4 * rc.mu * a / R, 1e-9, "creepage");
     CHECK_ABS(s.force_ratio, -0.64, 5e-4, "Carter");
-    rb_rolling_solution_free(&s);
 }
 
 /* Under circles the load of half-planes is in closed form at any arc. */
@@ -53,10 +52,9 @@ TEST(a_conforming_arc_carries_the_load_of_its_closed_form)
             const double a = part[k] * rc.a.radius, E = modulus_of(&rc);
             rc.load = rb_closed_circle_load(a, rc.a.radius, E) +
                       rb_closed_circle_load(a, rc.b.radius, E);
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             CHECK_REL(s.half_width, a, 3e-4, "bore wider by %g, a/R = %g", wider[w],
                       part[k]);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -104,9 +102,8 @@ TEST(free_rolling_knows_the_combined_radius_alone)
             rc.a.radius = 300.0;
             rc.b.radius = 1500.0;
         }
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         creepage[k] = s.creepage;
-        rb_rolling_solution_free(&s);
     }
     assert_true(fabs(creepage[0]) > 1e-8);
     CHECK_REL(creepage[0], creepage[1], 1e-9, "free creepage");

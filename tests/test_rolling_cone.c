@@ -23,10 +23,10 @@ TEST(cone_solvers_agree_with_lemke)
 {
     static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
     rb_rolling_case rc = dissimilar_rolling();
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        rb_contact_state cone;
+        OWNED(rb_contact_state) cone;
         rb_message why = {""};
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cone), RB_OK);
         cone.delta = model.state.delta;
@@ -44,15 +44,13 @@ TEST(cone_solvers_agree_with_lemke)
             CHECK_ABS(cone.q[i], model.state.q[i], 1e-8 * model.problem.stress,
                       "%s: q %d", names[k], i);
         }
-        rb_contact_state_free(&cone);
     }
-    rb_rolling_model_free(&model);
 }
 
 TEST(a_case_may_name_a_cone_solver)
 {
     rb_rolling_case rc = dissimilar_rolling();
-    rb_rolling_solution lemke, cone;
+    OWNED(rb_rolling_solution) lemke, cone;
     CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
     rc.contact.solver = RB_SOLVER_CONE;
     rb_message why = {""};
@@ -68,8 +66,6 @@ TEST(a_case_may_name_a_cone_solver)
     assert_int_equal(cone.solver, RB_SOLVER_CONE);
     CHECK_MAX(cone.residual, 1e-10, "residual");
     CHECK_ABS(cone.force_ratio, lemke.force_ratio, 1e-9, "Q");
-    rb_rolling_solution_free(&cone);
-    rb_rolling_solution_free(&lemke);
 }
 
 static const rb_contact_state *known; /* of the case at hand */
@@ -97,8 +93,8 @@ TEST(separated_elements_carry_nothing)
 {
     static const rb_contact_cone_solvers rough = {knows_any, solve_roughly};
     rb_rolling_case rc = dissimilar_rolling();
-    rb_rolling_model model;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
     int separated = 0;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     known = &model.state;
@@ -116,8 +112,6 @@ TEST(separated_elements_carry_nothing)
                 fail_msg("element %d is open with p = %g, q = %g", i, s.p[i], s.q[i]);
         }
     assert_true(separated > 0);
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 RUN_TESTS(NULL, NULL)

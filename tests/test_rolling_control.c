@@ -48,8 +48,8 @@ TEST(lemke_and_newton_agree_on_500_cases)
     srand(11);
     for (int k = 0; k < 500; k++) {
         rb_rolling_case rc = random_case(1e-4, 1.0);
-        rb_rolling_model model;
-        rb_contact_state newton;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_contact_state) newton;
         rb_message why = {""};
         rc.contact.solver = RB_SOLVER_LEMKE;
         if (rb_rolling_model_create(&rc, &model, &why) != RB_OK)
@@ -64,8 +64,6 @@ TEST(lemke_and_newton_agree_on_500_cases)
             CHECK_ABS(newton.q[i], model.state.q[i], 1e-8 * model.problem.stress,
                       "q, case %d element %d", k, i);
         }
-        rb_contact_state_free(&newton);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -74,7 +72,7 @@ TEST(force_control_never_fails_on_the_halfplane)
     srand(12);
     for (int k = 0; k < 400; k++) {
         rb_rolling_case rc = random_case(1e-6, 10.0);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rc.formulation = RB_STEADY;
         rc.creep_ratio = rc.shift = NAN;
@@ -85,7 +83,6 @@ TEST(force_control_never_fails_on_the_halfplane)
         CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
         CHECK_MAX(s.load_error, 1e-10, "case %d", k);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -168,14 +165,13 @@ TEST(approach_control_finds_the_force_too_large)
 TEST(the_creepage_ratio_is_met_under_approach_control)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.a.support = RB_BEM_HALFPLANE;
     rc.formulation = RB_STEADY;
     rc.approach = 1e-3;
     rc.creep_ratio = 0.4;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     CHECK_REL(s.creep_ratio, 0.4, 1e-10, "xi R/(mu a)");
-    rb_rolling_solution_free(&s);
 }
 
 /* A solve that misses its tolerance leaves its own tractions, with the force that was
@@ -183,7 +179,7 @@ TEST(the_creepage_ratio_is_met_under_approach_control)
 TEST(a_failed_force_leaves_its_iterate)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.a.support = RB_BEM_HALFPLANE;
     rc.formulation = RB_STEADY;
     rc.approach = 1e-4;
@@ -193,7 +189,6 @@ TEST(a_failed_force_leaves_its_iterate)
     CHECK_REL(s.tangential_load, 1e-3, 1e-9, "force");
     CHECK_MAX(s.residual, 1e-10, "residual");
     assert_true(s.stick > 0);
-    rb_rolling_solution_free(&s);
 }
 
 /* Wide contacts answer a creepage with load: plain substitution was 2.5e-9 off after 40
@@ -201,7 +196,7 @@ TEST(a_failed_force_leaves_its_iterate)
 TEST(the_creepage_ratio_is_met_where_the_load_depends_on_it)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.a.poisson = 0.38;
     rc.mu = 1.616;
     rc.approach = 1.898;
@@ -211,7 +206,6 @@ TEST(the_creepage_ratio_is_met_where_the_load_depends_on_it)
     rc.mesh = RB_MESH_FITTED;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     CHECK_REL(s.creep_ratio, 1.36, 1e-12, "xi R/(mu a)");
-    rb_rolling_solution_free(&s);
 }
 
 /* With the tolerance between the residual of the case and that of its free rolling, the
@@ -222,7 +216,7 @@ TEST(a_failed_free_creepage_leaves_the_case_solved)
     for (int n = 20; n < 32; n++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         rb_rolling_solution s;
-        rb_rolling_curve c;
+        OWNED(rb_rolling_curve) c;
         rc.a.support = RB_BEM_HALFPLANE;
         rc.formulation = RB_STEADY;
         rc.half_width = 0.1;
@@ -238,7 +232,6 @@ TEST(a_failed_free_creepage_leaves_the_case_solved)
         CHECK_STATUS(
             rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1}, &c, NULL),
             RB_OK);
-        rb_rolling_curve_free(&c);
     }
     assert_true(unknown > 0);
 }

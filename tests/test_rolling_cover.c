@@ -23,9 +23,9 @@ static void equal_ends(double half, double *ends)
 static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, double half)
 {
     const rb_bem_material rubber = {.shear = 3.0, .poisson = 0.3};
-    rb_bem_mesh mesh, inner = {0};
+    OWNED(rb_bem_mesh) mesh, inner = {0};
     rb_bem_system *system = NULL;
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why = {""};
     double ends[N + 2];
     double *F = malloc(sizeof(double) * 4 * M * N);
@@ -43,10 +43,7 @@ static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, do
     CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
                  RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
-    rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    rb_bem_mesh_free(&inner);
-    rb_bem_mesh_free(&mesh);
     return F;
 }
 
@@ -86,14 +83,12 @@ TEST(one_material_has_no_seam)
 {
     const rb_bem_material same = {.shear = 3.0, .poisson = 0.3};
     for (int fine = 1; fine <= 2; fine++) {
-        double *A = flexibility(5.0, same, 0.5, fine),
-               *B = flexibility(0.0, same, 0.5, fine);
+        SCRATCH double *A = flexibility(5.0, same, 0.5, fine),
+                       *B = flexibility(0.0, same, 0.5, fine);
         for (int block = 0; block < 2; block++) {
             CHECK_ABS(difference(A, B, block, 1), 0.0, 1e-6 / fine, "block %d", block);
             CHECK_ABS(difference(A, B, block, 0), 0.0, 1e-2 / fine, "block %d", block);
         }
-        free(A);
-        free(B);
     }
 }
 
@@ -103,13 +98,12 @@ TEST(a_stiff_core_is_a_rigid_one)
     double *B = flexibility(5.0, rigid, 5.0, 1.0), before = 0.0;
     for (int k = 0; k < 3; k++) {
         const rb_bem_material stiff = {.shear = 3e4 * pow(10.0, k), .poisson = 0.3};
-        double *A = flexibility(5.0, stiff, 5.0, 1.0);
+        SCRATCH double *A = flexibility(5.0, stiff, 5.0, 1.0);
         const double d = difference(A, B, 0, 0) + difference(A, B, 1, 0);
         CHECK_ABS(d, 0.0, 1e-2 * pow(10.0, -k), "core of %g", stiff.shear);
         if (k > 0)
             CHECK_REL(before / d, 10.0, 1e-2, "a tenth of the compliance");
         before = d;
-        free(A);
     }
     free(B);
 }
@@ -117,13 +111,12 @@ TEST(a_stiff_core_is_a_rigid_one)
 static int elements_of(rb_bem_cylinder cylinder, double half)
 {
     double ends[N + 2];
-    rb_bem_mesh mesh;
+    OWNED(rb_bem_mesh) mesh;
     rb_message why = {""};
 
     equal_ends(half, ends);
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &why), RB_OK);
     const int n = mesh.n;
-    rb_bem_mesh_free(&mesh);
     return n;
 }
 
@@ -166,7 +159,7 @@ TEST(neighbours_are_nearly_as_long)
                                    .hub_ratio = 0.3,
                                    .cover = 8.0,
                                    .refinement = fine ? 2.0 : 1.0};
-        rb_bem_mesh mesh, core;
+        OWNED(rb_bem_mesh) mesh, core;
         CHECK_STATUS(rb_bem_mesh_cylinder(&c, N, ends, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_bem_mesh_core(&c, &mesh, &core, NULL), RB_OK);
         count[fine] = mesh.n;
@@ -178,8 +171,6 @@ TEST(neighbours_are_nearly_as_long)
                          b = rb_bem_mesh_length(&mesh, (j + 1) % mesh.n);
             longest[fine] = fmax(longest[fine], fmax(a / b, b / a));
         }
-        rb_bem_mesh_free(&core);
-        rb_bem_mesh_free(&mesh);
     }
     print_message("# %d %d %g %g\n", count[0], count[1], longest[0], longest[1]);
     CHECK_MAX(longest[0], 1.2, "neighbours");
@@ -193,7 +184,7 @@ TEST(a_core_needs_its_cover)
     double approach[2];
     for (int core = 0; core < 2; core++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rc.a.support = RB_BEM_HUB;
         rc.a.core_young = core ? 10.0 : 0.0;
@@ -203,7 +194,6 @@ TEST(a_core_needs_its_cover)
         if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
             fail_msg("%s", why.text);
         approach[core] = s.approach;
-        rb_rolling_solution_free(&s);
     }
     CHECK_REL(approach[1], approach[0], 1e-14, "approach");
 }
@@ -291,7 +281,7 @@ TEST(a_thin_cover_is_the_layer)
             const double ratio = 0.1 / (1 << j);
             const rb_rolling_case wheel = roll(100.0 * ratio, kind[k].nu, kind[k].core),
                                   layer = flat(wheel);
-            rb_rolling_solution w, l;
+            OWNED(rb_rolling_solution) w, l;
             solved(&wheel, &w);
             solved(&layer, &l);
             const double deviation[2] = {(w.creepage - l.creepage) / ratio,
@@ -305,8 +295,6 @@ TEST(a_thin_cover_is_the_layer)
             }
             CHECK_REL(w.max_pressure, l.max_pressure, 0.05 * ratio, "kind %d: p0", k);
             CHECK_REL(w.half_width, l.half_width, 0.05 * ratio, "kind %d: width", k);
-            rb_rolling_solution_free(&w);
-            rb_rolling_solution_free(&l);
         }
     }
 }
@@ -335,7 +323,7 @@ TEST(sixty_points_take_three_seconds)
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 50;
     for (int try = 0; try < 3 && best > 3.0; try++) {
-        rb_rolling_curve c;
+        OWNED(rb_rolling_curve) c;
         const clock_t start = clock();
         CHECK_STATUS(
             rb_rolling_curve_solve(
@@ -345,7 +333,6 @@ TEST(sixty_points_take_three_seconds)
         assert_int_equal(c.n, 60);
         CHECK_ABS(c.force_ratio[59], -1.0, 1e-9, "full sliding");
         CHECK_MAX(c.residual[30], 1e-10, "residual");
-        rb_rolling_curve_free(&c);
     }
     CHECK_MAX(best, SANITIZED ? 60.0 : 3.0, "seconds");
 }
@@ -385,8 +372,8 @@ TEST(the_bond_carries_the_load)
     rb_rolling_stress at[2][POINTS];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = roll(k ? 0.0 : 5.0, 0.3, k ? 0.0 : 10.0);
-        rb_rolling_model model;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rc.half_width = 2.0;
         rc.outer_refinement = 2.0;
@@ -405,8 +392,6 @@ TEST(the_bond_carries_the_load)
             CHECK_ABS(at[0][i].sxx, at[1][i].sxx, 2e-3 * s.max_pressure, "sxx %d", i);
             CHECK_ABS(at[0][i].sxy, at[1][i].sxy, 1e-3 * s.max_pressure, "sxy %d", i);
         }
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -417,7 +402,7 @@ TEST(bad_covers_are_refused)
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc =
             roll(k == 1 ? 100.0 : 5.0, k == 2 ? 0.4995 : 0.4, k == 3 ? -1.0 : 1000.0);
-        rb_rolling_solution s = {0};
+        OWNED(rb_rolling_solution) s = {0};
         rb_message why = {""};
         rc.half_width = 1.0;
         if (k == 0)
@@ -427,7 +412,6 @@ TEST(bad_covers_are_refused)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
         if (!strstr(why.text, word[k]))
             fail_msg("'%s' does not say '%s'", why.text, word[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -436,9 +420,9 @@ TEST(bad_covers_are_refused)
 TEST(a_cover_that_nothing_holds_is_singular)
 {
     rb_rolling_case rc = roll(5.0, 0.3, 1e-90);
-    rb_rolling_model model = {0};
+    OWNED(rb_rolling_model) model = {0};
     rb_rolling_solution s;
-    rb_rolling_curve curve;
+    OWNED(rb_rolling_curve) curve;
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.contact_elements = 8;
@@ -459,25 +443,22 @@ TEST(a_cover_that_nothing_holds_is_singular)
                                         &curve, &why),
                  RB_SINGULAR);
     assert_int_equal(curve.n, 0);
-    rb_rolling_curve_free(&curve);
     rc.a.core_young = 1e5;
     CHECK_STATUS(rb_rolling_solve_model_reuse(&rc, &model, &s, &why), RB_OK);
     rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* A cover of nu = 1/2 carries by waves as short as it is thick. */
 TEST(elements_longer_than_the_cover_are_refused)
 {
     rb_rolling_case rc = roll(0.2, 0.5, 0.0);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.contact_elements = 6;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "cover thickness: with nu = 0.5 the elements"));
     assert_non_null(strstr(why.text, "may not be longer than the thickness, 0.2 mm"));
-    rb_rolling_solution_free(&s);
 }
 
 RUN_TESTS(NULL, NULL)

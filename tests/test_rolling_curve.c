@@ -42,7 +42,7 @@ static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
 
 static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case *rc)
 {
-    rb_rolling_solution s = solved(rc);
+    OWNED(rb_rolling_solution) s = solved(rc);
     double contact = 0.0, stick = 0.0;
     for (int i = 0; i < s.n; i++) {
         contact += s.zone[i] != RB_ZONE_SEPARATED ? s.h[i] : 0.0;
@@ -61,7 +61,6 @@ static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case 
     CHECK_ABS(c->hysteresis[k], s.hysteresis, 1e-9 * s.normal_load, "point %d: lost", k);
     CHECK_ABS(c->speed[k], rc->speed, 1e-9 * rc->speed, "point %d: speed", k);
     CHECK_MAX(c->residual[k], 1e-9, "point %d: residual", k);
-    rb_rolling_solution_free(&s);
 }
 
 TEST(every_point_is_its_case)
@@ -86,10 +85,9 @@ TEST(every_point_is_its_case)
                       1e-9 * scale, "point %d", k);
         }
         CHECK_ABS(c.free_creepage, 0.0, 0.0, "similar bodies");
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(c.half_width, s.hertz_half_width, 1e-9, "Hertz's");
         CHECK_REL(c.stick_step, 1.0 / s.contact, 1e-9, "one element");
-        rb_rolling_solution_free(&s);
         rb_rolling_curve_free(&c);
         assert_null(c.creepage);
     }
@@ -98,30 +96,27 @@ TEST(every_point_is_its_case)
 TEST(a_single_point_is_the_first)
 {
     rb_rolling_case rc = carter(20);
-    rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 0.9, 1);
+    OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 0.9, 1);
     assert_int_equal(c.n, 1);
     CHECK_REL(c.creep_ratio[0], 0.4, 1e-9, "from");
-    rb_rolling_curve_free(&c);
 }
 
 /* Equal steps of its logarithm, each with bodies of its own. */
 TEST(speeds_have_their_own_bodies)
 {
     rb_rolling_case rc = relaxing();
-    rb_rolling_curve c = run(&rc, RB_OVER_SPEED, 100.0, 10000.0, 3);
+    OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_SPEED, 100.0, 10000.0, 3);
     rc.formulation = RB_STEADY;
     assert_int_equal(c.n, 3);
     for (int k = 0; k < 3; k++) {
         rc.speed = 100.0 * pow(10.0, k);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(c.speed[k], rc.speed, 1e-12, "speed %d", k);
         CHECK_REL(c.resistance_moment[k], s.resistance_moment, 1e-8, "M of %d", k);
         CHECK_REL(c.hysteresis[k], s.hysteresis, 1e-6, "lost at %d", k);
-        rb_rolling_solution_free(&s);
     }
     assert_true(isnan(c.free_creepage));
     assert_true(c.iterations > 0);
-    rb_rolling_curve_free(&c);
 }
 
 /* Between midpoints of four elements nothing touches. */
@@ -129,7 +124,7 @@ TEST(a_curve_without_contact_says_so)
 {
     rb_rolling_case rc = relaxing();
     rb_message why = {""};
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     const rb_rolling_range range = {
         .over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
     rc.load = NAN;
@@ -141,7 +136,6 @@ TEST(a_curve_without_contact_says_so)
     assert_int_equal(c.n, 1);
     CHECK_ABS(c.stick_ratio[0], 0.0, 0.0, "nothing sticks");
     CHECK_ABS(c.stick_step, 0.0, 0.0, "nothing sticks");
-    rb_rolling_curve_free(&c);
 }
 
 /* Unlike bodies move the contact: fitted and aligned meshes follow it, and every point is
@@ -154,16 +148,14 @@ TEST(meshes_follow_the_contact)
         rc.a.poisson = 0.0;
         rc.mu = 1.0;
         rc.mesh = k ? RB_MESH_ALIGNED : RB_MESH_FITTED;
-        rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, -2.0, 2.0, 3);
+        OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_CREEP_RATIO, -2.0, 2.0, 3);
         rc.formulation = RB_STEADY;
         for (int i = 0; i < 3; i += 2) {
             rc.creep_ratio = -2.0 + 2.0 * i;
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             CHECK_REL(c.tangential_load[i], s.tangential_load, 2e-4, "Q of %d", i);
             CHECK_REL(c.resistance_moment[i], s.resistance_moment, 1e-2, "M of %d", i);
-            rb_rolling_solution_free(&s);
         }
-        rb_rolling_curve_free(&c);
     }
 }
 
@@ -176,7 +168,7 @@ TEST(falling_friction_goes_there_and_back)
     rc.friction.slip_scale[0] = 2.0;
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.2, 1.2, 3);
+        OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_CREEP_RATIO, 0.2, 1.2, 3);
         static const double ratio[] = {0.2, 0.7, 1.2, 1.2, 0.7, 0.2};
         assert_int_equal(c.n, 6);
         assert_int_equal(c.rising, 3);
@@ -188,7 +180,6 @@ TEST(falling_friction_goes_there_and_back)
             CHECK_MAX(c.residual[i], 1e-9, "residual of %d", i);
         }
         CHECK_REL(c.tangential_load[2], c.tangential_load[3], 1e-3, "where it turns");
-        rb_rolling_curve_free(&c);
     }
 }
 
@@ -202,9 +193,8 @@ TEST(warm_curves_have_the_temperatures_of_their_cases)
     rc.formulation = RB_STEADY;
     for (int k = 0; k < 2; k++) {
         rc.creep_ratio = k ? 1.2 : 0.4;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(c.max_temperature[k], s.max_temperature, 1e-8, "point %d", k);
-        rb_rolling_solution_free(&s);
     }
     rb_rolling_curve_free(&c);
     c = run(&rc, RB_OVER_SPEED, 1000.0, 2000.0, 2); /* heat depends on it */
@@ -214,13 +204,12 @@ TEST(warm_curves_have_the_temperatures_of_their_cases)
 
 static void refused(rb_rolling_case rc, rb_rolling_range range, const char *words)
 {
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_EINVAL);
     if (!strstr(why.text, words))
         fail_msg("'%s' does not say '%s'", why.text, words);
     assert_int_equal(c.n, 0);
-    rb_rolling_curve_free(&c);
 }
 
 TEST(ranges_that_make_no_sense_are_refused)
@@ -241,10 +230,9 @@ TEST(ranges_that_make_no_sense_are_refused)
             "expected from and to > 0");
     refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3},
             "no body is viscoelastic");
-    rb_rolling_curve c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
+    OWNED(rb_rolling_curve) c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
     assert_true(isnan(c.free_creepage));
     assert_true(isnan(c.creep_ratio[1]));
-    rb_rolling_curve_free(&c);
 }
 
 /* A mesh is fitted again, which takes many iterations, where the point's solution on the
@@ -263,23 +251,21 @@ TEST(a_hundredth_of_the_half_width_is_followed)
         rc.elastic_b = 0;
         rc.a.poisson = 0.2;
         rc.creep_ratio = -1.0;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         for (int i = 0; i < 2; i++) {
             rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i],
                                      &to[i]);
             case_of(&model)->creep_ratio = last;
             CHECK_STATUS(rb_rolling_model_control(&model, NULL), RB_OK);
         }
-        rb_rolling_model_free(&model);
         const double moved = fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) /
                              (0.5 * (to[0] - from[0]));
-        rb_rolling_curve one = run(&rc, RB_OVER_CREEP_RATIO, -1.0, -1.0, 1),
-                         two = run(&rc, RB_OVER_CREEP_RATIO, -1.0, last, 2);
+        OWNED(rb_rolling_curve)
+        one = run(&rc, RB_OVER_CREEP_RATIO, -1.0, -1.0, 1),
+        two = run(&rc, RB_OVER_CREEP_RATIO, -1.0, last, 2);
         assert_int_equal(two.iterations > one.iterations + 12, moved > 0.01);
         stay += moved > 0.006 && moved <= 0.01;
         follow += moved > 0.01 && moved < 0.015;
-        rb_rolling_curve_free(&one);
-        rb_rolling_curve_free(&two);
     }
     assert_true(stay > 0 && follow > 0);
 }

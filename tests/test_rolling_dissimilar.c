@@ -258,7 +258,7 @@ static void compare(const pair *b, int k)
 {
     static contact c;
     rb_rolling_case rc = the_same(b);
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double a = s.hertz_half_width, small = 2e-3 * fmax(b->mu, 0.1) * a;
     double moment = 0.0, power = 0.0, from = INFINITY, to = -INFINITY;
     set_up(&c, b, NODES);
@@ -279,7 +279,6 @@ static void compare(const pair *b, int k)
     CHECK_ABS(s.resistance_moment, moment, 1e-4 * a, "moment of pair %d", k);
     CHECK_ABS(s.stick_from, from, 0.03 * a, "stick of pair %d begins", k);
     CHECK_ABS(s.stick_to, to, 0.03 * a, "stick of pair %d ends", k);
-    rb_rolling_solution_free(&s);
 }
 
 TEST(steady_rolling_of_dissimilar_bodies)
@@ -314,8 +313,8 @@ TEST(dissimilar_bodies_roll_from_rest)
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
         const pair *b = &pairs[k];
         rb_rolling_case rc = the_same(b);
-        rb_rolling_model model;
-        rb_rolling_history h;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
         double distance = 0.0;
         rc.formulation = RB_TRANSIENT;
         rc.mesh = RB_MESH_UNIFORM;
@@ -333,8 +332,6 @@ TEST(dissimilar_bodies_roll_from_rest)
                 CHECK_ABS(c.creepage, creepage_at(&h, distance), 5e-3 * b->mu * c.a,
                           "pair %d after %g a", (int)k, distance);
         }
-        rb_rolling_history_free(&h);
-        rb_rolling_model_free(&model);
     }
 }
 

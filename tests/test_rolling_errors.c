@@ -16,7 +16,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
     int before = 0;
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case rc = carter(24);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         rb_message why = {""};
         int elements;
@@ -29,7 +29,6 @@ TEST(an_accuracy_is_reached_by_more_elements)
         CHECK_ABS(s.force_ratio, -0.75, accuracy[k], "Carter");
         assert_true(elements >= before && (k == 0) == (elements == 24));
         before = elements;
-        rb_rolling_solution_free(&s);
     }
     CHECK_MAX(before, 1600, "elements");
 }
@@ -39,7 +38,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
 TEST(little_friction_asks_for_no_more_elements)
 {
     rb_rolling_case rc = carter(40);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     rb_message why = {""};
     int elements;
@@ -56,7 +55,6 @@ TEST(little_friction_asks_for_no_more_elements)
     CHECK_MAX(e.scalar.creepage, 0.2 * fabs(s.creepage), "the error of the creepage");
     assert_true(e.scalar.creepage > 5.0 * unit);
     CHECK_ABS(fabs(s.creepage), exact, e.scalar.creepage, "Bentall and Johnson");
-    rb_rolling_solution_free(&s);
 }
 
 TEST(what_is_no_accuracy_is_refused)
@@ -80,7 +78,7 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(12);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
         rb_message why = {""};
         int elements;
@@ -91,7 +89,6 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
         assert_int_equal(elements, 12);
         assert_non_null(strstr(why.text, "accuracy 1e-12 not reached with 12 elements"));
         assert_int_equal(strstr(why.text, "a fitted mesh needs fewer") != NULL, !k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -101,7 +98,7 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
     int none = 0, some = 0;
     for (int count = 50; count < 3000; count = count * 5 / 4) {
         rb_rolling_case rc = carter(12);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
         rb_message why = {""};
         int elements;
@@ -117,7 +114,6 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
         }
         none += failed && elements == 0;
         some += failed && elements > 0;
-        rb_rolling_solution_free(&s);
     }
     assert_true(none > 0 && some > 0);
 }
@@ -129,7 +125,7 @@ TEST(a_given_force_has_an_accurate_creepage)
     static const double accuracy[] = {0.1, 0.05, 0.02};
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = carter(12);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         rb_message why = {""};
         int elements;
@@ -141,7 +137,6 @@ TEST(a_given_force_has_an_accurate_creepage)
             fail_msg("%s", why.text);
         CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
                   accuracy[k % 3], "case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -149,7 +144,7 @@ TEST(a_given_force_has_an_accurate_creepage)
 TEST(accuracy_takes_more_steps_too)
 {
     rb_rolling_case rc = carter(12);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors errors;
     int elements;
     rc.formulation = RB_TRANSIENT;
@@ -160,10 +155,8 @@ TEST(accuracy_takes_more_steps_too)
     assert_true(elements > 12 && elements % 12 == 0);
     rc.contact_elements = elements;
     rc.steps = 4 * elements / 12;
-    rb_rolling_solution same = solved(&rc);
+    OWNED(rb_rolling_solution) same = solved(&rc);
     CHECK_REL(s.tangential_load, same.tangential_load, 1e-12, "Q");
-    rb_rolling_solution_free(&same);
-    rb_rolling_solution_free(&s);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -24,27 +24,24 @@ static const rb_rolling_heat warm = {.conductivity = 40.0, .heat_capacity = 3.5}
 
 static rb_status solve(void *context)
 {
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     const rb_status status = rb_rolling_solve(context, &s, NULL);
-    rb_rolling_solution_free(&s);
     return status;
 }
 
 static rb_status find_all(void *context)
 {
-    rb_rolling_model model;
-    rb_rolling_solutions all = {0};
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solutions) all = {0};
     rb_status s = rb_rolling_model_create(context, &model, NULL);
     if (s == RB_OK)
         s = rb_rolling_find_solutions(&model, &all, NULL);
-    rb_rolling_solutions_free(&all);
-    rb_rolling_model_free(&model);
     return s;
 }
 
 static rb_status find_shakedown(void *context)
 {
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_shakedown limit;
     rb_rolling_stress_maxima maxima;
     rb_status s = rb_rolling_model_create(context, &model, NULL);
@@ -52,7 +49,6 @@ static rb_status find_shakedown(void *context)
         s = rb_rolling_shakedown_find(&model, &limit, NULL);
     if (s == RB_OK)
         s = rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL);
-    rb_rolling_model_free(&model);
     return s;
 }
 
@@ -64,21 +60,17 @@ static rb_status wear(void *context)
                                .way = 1.0,
                                .steps = 1,
                                .increments = 1};
-    rb_rolling_wear_history h;
-    rb_rolling_solution last;
+    OWNED(rb_rolling_wear_history) h;
+    OWNED(rb_rolling_solution) last;
     const rb_status s = rb_rolling_wear_run(rc, &w, NULL, &h, &last, NULL);
-    rb_rolling_wear_history_free(&h);
-    rb_rolling_solution_free(&last);
     return s;
 }
 
 static rb_status draw(void *context)
 {
-    rb_rolling_curve curve, errors;
+    OWNED(rb_rolling_curve) curve, errors;
     const rb_status s = rb_rolling_curve_with_errors(
         context, &(rb_rolling_range){0, 0.1, 0.2, 2}, NULL, NULL, &curve, &errors, NULL);
-    rb_rolling_curve_free(&curve);
-    rb_rolling_curve_free(&errors);
     return s;
 }
 
@@ -86,17 +78,14 @@ static rb_status draw(void *context)
 static rb_status pose_large(void *context)
 {
     const rb_rolling_case *rc = context;
-    rb_rolling_mesh mesh = {0};
-    rb_rolling_bodies bodies = {0};
-    rb_contact_problem p = {0};
+    OWNED(rb_rolling_mesh) mesh = {0};
+    OWNED(rb_rolling_bodies) bodies = {0};
+    OWNED(rb_contact_problem) p = {0};
     rb_status s = rb_rolling_mesh_uniform(rc, NULL, -1.3, 1.3, &mesh, NULL);
     if (s == RB_OK)
         s = rb_rolling_bodies_create(rc, NULL, &mesh, &bodies, NULL);
     if (s == RB_OK)
         s = rb_rolling_problem_create(rc, &mesh, &bodies, NULL, &p, NULL);
-    rb_contact_problem_free(&p);
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_mesh_free(&mesh);
     return s;
 }
 

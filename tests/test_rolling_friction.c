@@ -60,7 +60,7 @@ static void check_residual(const rb_rolling_model *model)
 /* Lemke on both forms, Newton, a cone solver; every formulation and mesh. */
 TEST(each_element_has_its_bound)
 {
-    rb_rolling_model first = {0};
+    OWNED(rb_rolling_model) first = {0};
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = steady();
         rc.contact.solver = k == 2   ? RB_SOLVER_NEWTON
@@ -84,7 +84,7 @@ TEST(each_element_has_its_bound)
         rb_rolling_model model = solved_model(&rc);
         check_laws(&model);
         const double Q = rb_contact_capacity(&model.problem, &model.state);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
         CHECK_REL(s.force_ratio, s.tangential_load / Q, 1e-12, "ratio, case %d", k);
         if (k == 5 || k == 7)
@@ -93,7 +93,6 @@ TEST(each_element_has_its_bound)
             CHECK_REL(s.tangential_load, rc.force, 1e-9, "given force");
         if (k == 7)
             assert_int_equal(s.stick, 0);
-        rb_rolling_solution_free(&s);
         for (int i = 0; k > 0 && k < 4 && i < model.mesh.n; i++)
             CHECK_ABS(model.state.q[i], first.state.q[i], 1e-8 * model.problem.stress,
                       "solver %d, element %d", k, i);
@@ -102,7 +101,6 @@ TEST(each_element_has_its_bound)
         else
             rb_rolling_model_free(&model);
     }
-    rb_rolling_model_free(&first);
 }
 
 /* Matrices and transforms, transient steps, a curve: the same law everywhere. */
@@ -115,23 +113,21 @@ TEST(large_contacts_and_steps_too)
     check_laws(&model);
     rb_rolling_model_free(&model);
 
-    rb_rolling_history history;
+    OWNED(rb_rolling_history) history;
     rc = steady();
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, NULL), RB_OK);
     check_laws(&model);
-    rb_rolling_history_free(&history);
     rb_rolling_model_free(&model);
 
-    rb_rolling_curve curve;
+    OWNED(rb_rolling_curve) curve;
     rc = steady();
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6},
                                &curve, NULL),
         RB_OK);
     CHECK_ABS(curve.force_ratio[5], -1.0, 1e-9, "full sliding");
-    rb_rolling_curve_free(&curve);
 }
 
 /* One value everywhere gives the bytes of one coefficient. */
@@ -140,15 +136,13 @@ TEST(an_even_table_is_one_coefficient)
     static const double even[] = {0.4, 0.4};
     rb_rolling_case rc = steady();
     rc.friction.table = (rb_rolling_table){2, places, even};
-    rb_rolling_model table = solved_model(&rc);
+    OWNED(rb_rolling_model) table = solved_model(&rc);
     rc.friction.law = RB_FRICTION_constant;
-    rb_rolling_model one = solved_model(&rc);
+    OWNED(rb_rolling_model) one = solved_model(&rc);
     for (int i = 0; i < one.mesh.n; i++) {
         CHECK_ABS(table.state.p[i], one.state.p[i], 0.0, "p %d", i);
         CHECK_ABS(table.state.q[i], one.state.q[i], 0.0, "q %d", i);
     }
-    rb_rolling_model_free(&table);
-    rb_rolling_model_free(&one);
 }
 
 /* ---- A yielding interface ---------------------------------------------------------- */
@@ -158,8 +152,8 @@ TEST(an_interface_yields_by_itself)
 {
     for (int large = 0; large < 2; large++) {
         rb_rolling_case rc = steady();
-        rb_rolling_mesh mesh;
-        rb_rolling_bodies with, without;
+        OWNED(rb_rolling_mesh) mesh;
+        OWNED(rb_rolling_bodies) with, without;
         rc.contact_elements = large ? 1501 : 31;
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &without, NULL), RB_OK);
@@ -167,7 +161,7 @@ TEST(an_interface_yields_by_itself)
         rc.interlayer_tangential = 3e-5;
         CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &with, NULL), RB_OK);
         const int n = mesh.n, m = n + 1;
-        double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 2);
+        SCRATCH double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 2);
         for (int i = 0; i < 2 * n; i++)
             r[i] = 100.0 * rand() / RAND_MAX;
         rb_bem_flexibility_apply(&with.f, r, w);
@@ -177,11 +171,6 @@ TEST(an_interface_yields_by_itself)
             CHECK_ABS(w[m + i] - w[3 * m + i], i < n ? 3e-5 * r[n + i] : 0.0, 1e-12,
                       "T %d", i);
         }
-        free(r);
-        free(w);
-        rb_rolling_bodies_free(&with);
-        rb_rolling_bodies_free(&without);
-        rb_rolling_mesh_free(&mesh);
     }
 }
 
@@ -198,7 +187,7 @@ TEST(a_soft_interface_is_a_brush)
         rc.creep = 0.4;
         rc.contact_elements = large ? 1501 : 201;
         rc.mesh = RB_MESH_UNIFORM;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         check_residual(&model);
         const double slope = rc.creep / c, scale = model.problem.stress;
         double lead = 0.0;
@@ -212,7 +201,6 @@ TEST(a_soft_interface_is_a_brush)
             CHECK_ABS(model.state.q[i], want, 0.03 * rc.mu * scale, "large %d, q at %g",
                       large, x);
         }
-        rb_rolling_model_free(&model);
     }
 }
 

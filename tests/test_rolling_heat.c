@@ -127,12 +127,11 @@ TEST(elliptic_source_meets_its_closed_form)
 
     for (int k = 0; k < 4; k++) {
         const rb_rolling_case rc = sliding(1e6, n[k]);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "n = %d", n[k]);
         CHECK_ABS(s.max_temperature_at / rc.half_width, -0.65223, 40.0 / gsl_pow_2(n[k]),
                   "n = %d: its place", n[k]);
         CHECK_REL(s.peclet, 1e6, 1e-3, "Peclet number");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -144,10 +143,9 @@ TEST(high_peclet_number_is_a_limit)
 
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case rc = sliding(peclet[k], 200);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "Pe = %g",
                   peclet[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -160,7 +158,7 @@ TEST(meshes_agree)
         rb_rolling_case rc = sliding(5e3, 200);
         rc.mesh = mesh[k];
         rc.slip_operator = RB_SLIP_UPSTREAM;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         double power = 0.0, column[1000];
         CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 3e-3, "mesh %d", mesh[k]);
         assert_true(s.n < 1000);
@@ -168,7 +166,6 @@ TEST(meshes_agree)
         for (int i = 0; i < s.n; i++)
             power += column[i] * s.h[i];
         CHECK_REL(power, s.dissipation, 1e-12, "mesh %d: all power is heat", mesh[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -202,7 +199,7 @@ TEST(conduction_between_bodies)
     rc.creep = 0.0;
     rc.heat_a.temperature = 100.0;
     rc.heat_b = (rb_rolling_heat){20.0, 2.0, 20.0};
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double e1 = sqrt(50.0 * 3.5), e2 = sqrt(20.0 * 2.0), a = s.half_width;
     const double middle = (e1 * 100.0 + e2 * 20.0) / (e1 + e2);
     for (int i = 0; i < s.n; i++) {
@@ -219,7 +216,6 @@ TEST(conduction_between_bodies)
                       "B behind, x/a = %g", x / a);
         }
     }
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Steps ------------------------------------------------------------------------- */
@@ -230,12 +226,12 @@ TEST(steps_tend_to_the_steady_state)
     rb_rolling_case rc = sliding(1e4, 120);
     rc.mesh = RB_MESH_UNIFORM;
     rc.slip_operator = RB_SLIP_UPSTREAM;
-    rb_rolling_solution steady = solved(&rc);
+    OWNED(rb_rolling_solution) steady = solved(&rc);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 3.0;
     for (int k = 0; k < 2; k++) {
-        rb_rolling_history h;
-        rb_rolling_model model;
+        OWNED(rb_rolling_history) h;
+        OWNED(rb_rolling_model) model;
         rb_message why = {""};
         rc.steps = steps[k];
         CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why), RB_OK);
@@ -245,24 +241,19 @@ TEST(steps_tend_to_the_steady_state)
         for (int i = 1; i < h.n; i++)
             assert_true(h.max_temperature[i] >= h.max_temperature[i - 1] * (1.0 - 1e-5));
         CHECK_ABS(h.max_temperature[0], 0.0, 0.0, "at rest nothing is warm");
-        rb_rolling_history_free(&h);
-        rb_rolling_model_free(&model);
     }
-    rb_rolling_solution_free(&steady);
 }
 
 TEST(curve_has_the_temperature_of_its_cases)
 {
     rb_rolling_case rc = sliding(500.0, 60);
-    rb_rolling_curve curve;
+    OWNED(rb_rolling_curve) curve;
     rb_message why = {""};
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2}, &curve, &why),
         RB_OK);
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
-    rb_rolling_curve_free(&curve);
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Without, and refused ---------------------------------------------------------- */
@@ -271,11 +262,10 @@ TEST(other_cases_have_no_temperature)
 {
     rb_rolling_case rc = sliding(500.0, 60);
     rc.heat_a.conductivity = 0.0;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_null(s.temperature);
     assert_null(s.temperature_b);
     assert_true(isnan(s.max_temperature) && isnan(s.peclet));
-    rb_rolling_solution_free(&s);
 }
 
 TEST(meaningless_cases_are_refused)
@@ -310,7 +300,7 @@ TEST(meaningless_cases_are_refused)
 TEST(slow_steps_are_refused)
 {
     rb_rolling_case rc = sliding(5.0, 60);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.mesh = RB_MESH_UNIFORM;
     rc.slip_operator = RB_SLIP_UPSTREAM;
@@ -318,7 +308,6 @@ TEST(slow_steps_are_refused)
     rc.distance = 1.0;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "diffusivity"));
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Parts ------------------------------------------------------------------------- */
@@ -327,11 +316,10 @@ TEST(slow_steps_are_refused)
 TEST(without_steps_no_heat_is_known)
 {
     rb_rolling_case rc = warm_sliding(RB_TRANSIENT);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rc.distance = 1.0;
     CHECK_STATUS(rb_rolling_solve_between(&rc, -1.3, 1.3, &s, NULL), RB_OK);
     CHECK_ABS(s.max_temperature, 0.0, 0.0, "nothing is warm");
-    rb_rolling_solution_free(&s);
 }
 
 int main(void)

@@ -95,7 +95,7 @@ TEST(the_limit_is_the_steady_state)
         rb_rolling_case rc = steel_wheel(40);
         rb_rolling_model model;
         rb_rolling_history h;
-        rb_rolling_solution steady;
+        OWNED(rb_rolling_solution) steady;
         rc.elastic_b = !dissimilar;
         rc.formulation = RB_TRANSIENT;
         rc.creep = 2e-4;
@@ -108,7 +108,6 @@ TEST(the_limit_is_the_steady_state)
                       "q, element %d", i);
         CHECK_ABS(h.force_ratio[h.n - 1], steady.force_ratio, 1e-4, "Q");
         assert_true(h.steady_from > 0 && h.steady_from < h.n);
-        rb_rolling_solution_free(&steady);
         release(&model, &h);
     }
 }
@@ -443,7 +442,7 @@ static void run_recorded(const rb_rolling_case *rc, rb_rolling_states *states,
 TEST(states_are_followed_to_the_same_history)
 {
     rb_rolling_case rc = steel_wheel(20);
-    rb_rolling_states states = {0};
+    OWNED(rb_rolling_states) states = {0};
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
     rb_message why = {""};
@@ -491,7 +490,6 @@ TEST(states_are_followed_to_the_same_history)
     check_refused(
         rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &why), &why,
         "whose state variables are not stored");
-    rb_rolling_states_free(&states);
     release(&model, &h);
 }
 
@@ -500,7 +498,7 @@ TEST(states_are_followed_to_the_same_history)
 TEST(states_of_a_ratio_are_followed)
 {
     rb_rolling_case rc = steel_wheel(20);
-    rb_rolling_states states = {0};
+    OWNED(rb_rolling_states) states = {0};
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
     rb_message why = {""};
@@ -527,7 +525,6 @@ TEST(states_of_a_ratio_are_followed)
         release(&again, &followed);
         states.xi[states.steps - 1] *= 1.001;
     }
-    rb_rolling_states_free(&states);
     release(&model, &h);
 }
 

@@ -38,7 +38,7 @@ TEST(brushes_meet_their_law)
             /* above s = 3/4 the element at the leading edge slips, whatever its length */
             const double finer = s[k] > 0.75 ? pow(coarse, 0.7) : gsl_pow_2(coarse);
             const rb_rolling_case rc = brushes(n[j], s[k]);
-            rb_rolling_solution it = solved(&rc);
+            OWNED(rb_rolling_solution) it = solved(&rc);
             CHECK_ABS(it.force_ratio, -(1.0 - gsl_pow_3(1.0 - s[k])), bound[k] * finer,
                       "n = %d, s = %g", n[j], s[k]);
             CHECK_ABS(it.half_width, 1.0, 1e-4 * gsl_pow_2(coarse), "n = %d: half-width",
@@ -46,7 +46,6 @@ TEST(brushes_meet_their_law)
             CHECK_ABS(it.stick_from, -1.0 + 2.0 * s[k], 2.0 / n[j] + 1e-3,
                       "n = %d, s = %g: start of stick", n[j], s[k]);
             CHECK_MAX(it.residual, 1e-10, "residual");
-            rb_rolling_solution_free(&it);
         }
 }
 
@@ -79,9 +78,8 @@ TEST(layer_lowers_the_slope)
 
     for (int k = 0; k < 6; k++) {
         const rb_rolling_case rc = layered(lam[k], 100, 1e-3);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(-s.force_ratio / 2e-3, slope[k], 1e-3, "Lam = %g", lam[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -91,9 +89,8 @@ TEST(layer_moves_the_whole_curve)
 
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case rc = layered(1.0, 200, s[k]);
-        rb_rolling_solution it = solved(&rc);
+        OWNED(rb_rolling_solution) it = solved(&rc);
         CHECK_ABS(-it.force_ratio, ratio[k], 1e-4, "s = %g", s[k]);
-        rb_rolling_solution_free(&it);
     }
 }
 
@@ -102,12 +99,12 @@ TEST(formulations_agree)
 {
     rb_rolling_case rc = layered(1.0, 100, 0.5);
     rc.interlayer_normal = 0.5 * rc.interlayer_tangential;
-    rb_rolling_solution aligned = solved(&rc);
+    OWNED(rb_rolling_solution) aligned = solved(&rc);
     rc.slip_operator = RB_SLIP_UPSTREAM;
     rc.mesh = RB_MESH_FITTED;
-    rb_rolling_solution fitted = solved(&rc);
+    OWNED(rb_rolling_solution) fitted = solved(&rc);
     rc.contact.solver = RB_SOLVER_LEMKE;
-    rb_rolling_solution lemke = solved(&rc);
+    OWNED(rb_rolling_solution) lemke = solved(&rc);
     CHECK_REL(fitted.force_ratio, aligned.force_ratio, 2e-3, "fitted");
     CHECK_REL(fitted.max_pressure, aligned.max_pressure, 1e-3, "fitted: p0");
     CHECK_REL(lemke.force_ratio, fitted.force_ratio, 1e-9, "Lemke");
@@ -115,17 +112,12 @@ TEST(formulations_agree)
     rc.mesh = RB_MESH_UNIFORM;
     rc.creep_ratio = NAN;
     rc.force_ratio = fitted.force_ratio;
-    rb_rolling_solution uniform = solved(&rc);
+    OWNED(rb_rolling_solution) uniform = solved(&rc);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 4.0;
-    rb_rolling_solution rolled = solved(&rc);
+    OWNED(rb_rolling_solution) rolled = solved(&rc);
     CHECK_REL(uniform.creep_ratio, fitted.creep_ratio, 3e-2, "equal elements");
     CHECK_REL(rolled.creep_ratio, uniform.creep_ratio, 5e-3, "a transient's end");
-    rb_rolling_solution_free(&aligned);
-    rb_rolling_solution_free(&fitted);
-    rb_rolling_solution_free(&lemke);
-    rb_rolling_solution_free(&uniform);
-    rb_rolling_solution_free(&rolled);
 }
 
 /* The load is carried by half-planes and layer in series: a soft layer widens the
@@ -136,10 +128,9 @@ TEST(normal_compliance_widens_the_contact)
     double before = 0.0;
     for (int k = 0; k < 4; k++) {
         rc.interlayer_normal = k * 0.5 * rc.half_width / rb_rolling_derive(&rc).modulus;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         assert_true(s.half_width > before);
         before = s.half_width;
-        rb_rolling_solution_free(&s);
     }
 }
 

@@ -12,7 +12,7 @@ TEST(each_element_has_the_coefficient_of_its_slip)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.7;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_contact_state *s = &model.state;
     int slides = 0;
     for (int i = 0; i < s->n; i++) {
@@ -30,7 +30,6 @@ TEST(each_element_has_the_coefficient_of_its_slip)
     }
     assert_true(slides > 3);
     CHECK_MAX(s->residual, 1e-10, "residual");
-    rb_rolling_model_free(&model);
 }
 
 /* The residual that is told is that with the coefficients of the state, which a loose
@@ -42,13 +41,12 @@ TEST(the_residual_is_that_of_the_law)
         rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
         rc.creep_ratio = 0.2 + 0.15 * k;
         rc.contact.tol = 1e-3;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         rb_contact_violation v;
         CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &v), RB_OK);
         CHECK_ABS(model.state.residual, v.scaled, 1e-13, "residual");
         CHECK_MAX(v.scaled, 1e-3, "residual");
         largest = fmax(largest, v.scaled);
-        rb_rolling_model_free(&model);
     }
     CHECK_MAX(1e-8, largest, "that a loose tolerance leaves");
 }
@@ -64,7 +62,7 @@ TEST(warm_elements_have_another_coefficient)
     rc.friction.heat = -0.1;
     rc.friction.heat_from = 20.5;
     rc.friction.heat_range = 200.0;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     for (int i = 0; i < s.n; i++) {
         const double part = fmin(1.0, fmax(0.0, (s.temperature[i] - 20.5) / 200.0));
         if (s.zone[i] != RB_ZONE_SEPARATED)
@@ -72,7 +70,6 @@ TEST(warm_elements_have_another_coefficient)
     }
     assert_true(s.max_temperature > 21.0);
     CHECK_MAX(s.residual, 1e-10, "residual");
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Uniqueness -------------------------------------------------------------------- */
@@ -83,8 +80,8 @@ TEST(kappa_is_slope_times_answer)
 {
     for (int steady = 0; steady < 2; steady++) {
         rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
-        rb_rolling_model model;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_solution) s;
         rc.creep_ratio = 0.5;
         CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
         const int n = model.problem.n;
@@ -109,8 +106,6 @@ TEST(kappa_is_slope_times_answer)
         CHECK_REL(kappa, slope * largest / model.problem.e_T[0], steady ? 1e-12 : 1e-6,
                   "steady %d", steady);
         CHECK_ABS(s.kappa, kappa, 0.0, "of the solution");
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -120,9 +115,8 @@ static double force_at(rb_rolling_case rc, double creepage)
 {
     rc.force = rc.force_ratio = NAN;
     rc.creep = creepage;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double Q = s.tangential_load;
-    rb_rolling_solution_free(&s);
     return Q;
 }
 
@@ -140,14 +134,13 @@ TEST(forces_are_met_in_few_solves)
             rc.force_ratio = ratios[k / 2];
         if (k % 2 && wanted == 0.0)
             continue;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.tangential_load, wanted, 1e-7, "force %d", k);
         CHECK_ABS(s.force_ratio, s.tangential_load / (0.3 * 500.0), 1e-9, "ratio %d", k);
         CHECK_MAX(s.residual, 1e-10, "force %d", k);
         CHECK_MAX(s.iterations, 400, "solves for force %d", k);
         if (k % 2 == 0)
             CHECK_ABS(force_at(rc, s.creepage), wanted, 1e-6, "at its creepage, %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -159,12 +152,11 @@ TEST(forces_are_met_to_a_tenth_of_the_tolerance)
         rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
         rc.contact.tol = 1e-2;
         rc.force = -5.0 * (k + 0.5);
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         const double capacity = rb_contact_capacity(&model.problem, &model.state);
         const double off = fabs(rb_rolling_model_force(&model) - rc.force);
         CHECK_MAX(off, 0.1 * rc.contact.tol * capacity, "force %g", rc.force);
         worst = fmax(worst, off / (rc.contact.tol * capacity));
-        rb_rolling_model_free(&model);
     }
     CHECK_MAX(0.05, worst, "and not to much less");
 }
@@ -206,10 +198,9 @@ TEST(a_free_axle_has_no_moment)
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
     rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
     rc.free_axle = 1;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_ABS(s.tangential_load, -s.resistance_moment / 50.0, 1e-7, "Q = -M/R");
     assert_true(s.resistance_moment > 0.0);
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Steep laws -------------------------------------------------------------------- */
@@ -225,11 +216,10 @@ TEST(steep_laws_are_solved_in_few_steps)
                 falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
             rc.creep_ratio = 0.6;
             rc.steps = steady ? 0 : 3;
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             print_message("# kappa %g: %d iterations\n", s.kappa, s.iterations);
             CHECK_MAX(s.residual, 1e-10, "scale %g", scale[k]);
             CHECK_MAX(s.iterations, 150, "scale %g", scale[k]);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -249,14 +239,13 @@ TEST(newtons_method_needs_few_contact_problems)
         rc.creep = -0.002;
         rc.contact_elements = 60;
         rc.mesh = RB_MESH_FITTED;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         double kappa;
         CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
         print_message("# kappa %g: %d iterations\n", kappa, model.iterations);
         assert_true(kappa > 2.0);
         CHECK_MAX(model.state.residual, 1e-10, "kappa %g", kappa);
         CHECK_MAX(model.iterations, k == 1 ? 1300 : 800, "kappa %g", kappa);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -269,7 +258,7 @@ TEST(all_solutions_of_one_are_one)
     rb_message why = {""};
     rc.contact_elements = 12;
     rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     int touch = 0;
     for (int i = 0; i < model.state.n; i++)
         touch += model.state.p[i] > 0.0;
@@ -288,35 +277,32 @@ TEST(all_solutions_of_one_are_one)
         CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "all solutions: only for steady rolling with"));
     }
-    rb_rolling_model_free(&model);
 }
 
 /* Starts that lead to no state within the tolerance are counted, and the others stay. */
 TEST(starts_that_fail_are_counted)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
-    rb_rolling_solutions all;
+    OWNED(rb_rolling_solutions) all;
     rb_message why = {""};
     rc.contact_elements = 6;
     rc.creep_ratio = 0.5;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     case_of(&model)->contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
     CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
     assert_int_equal(all.n, 1);
     assert_true(all.starts > 1);
     assert_int_equal(all.failed, all.starts);
-    rb_rolling_solutions_free(&all);
-    rb_rolling_model_free(&model);
 }
 
 /* Each differs from the others, the largest force first, and is proven. */
 TEST(several_solutions_are_told_apart)
 {
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 0.2);
-    rb_rolling_solutions all;
+    OWNED(rb_rolling_solutions) all;
     rc.creep_ratio = 0.3;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_find_solutions(&model, &all, NULL), RB_OK);
     assert_true(all.n >= 2);
     for (int k = 0; k < all.n; k++) {
@@ -331,8 +317,6 @@ TEST(several_solutions_are_told_apart)
             assert_true(difference > 1e-6 * 0.4 * model.problem.stress);
         }
     }
-    rb_rolling_solutions_free(&all);
-    rb_rolling_model_free(&model);
 }
 
 /* Friction that grows with the speed to twice its value at rest: the last of it would
@@ -341,7 +325,7 @@ TEST(several_solutions_are_told_apart)
 TEST(forces_that_only_great_speed_reaches_are_refused)
 {
     rb_rolling_case rc = falling(RB_STEADY, -0.1, 40.0);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     double told = 0.0, at = 0.0;
     rc.friction.law = RB_FRICTION_rational;
@@ -354,7 +338,6 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
     CHECK_MAX(1e3, at, "creepage");
     CHECK_REL(told, -500.0 * (0.2 - 0.1 / (1.0 + at * rc.speed / 40.0)), 1e-6,
               "everything slides at that speed");
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Newton's method by itself ----------------------------------------------------- */
@@ -365,7 +348,7 @@ TEST(the_way_to_a_force_may_have_no_memory)
     int refused = 0;
     for (int count = 40; count < 8000; count = count * 6 / 5) {
         rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.contact_elements = 8;
         rc.force = -199.0;
         alloc_fail_after(count);
@@ -374,7 +357,6 @@ TEST(the_way_to_a_force_may_have_no_memory)
         alloc_succeed();
         CHECK_STATUS(status, failed ? RB_ENOMEM : RB_EINVAL);
         refused += failed;
-        rb_rolling_solution_free(&s);
     }
     assert_true(refused > 10);
 }
@@ -382,16 +364,14 @@ TEST(the_way_to_a_force_may_have_no_memory)
 TEST(kappa_of_no_pressure_is_nothing)
 {
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 20.0);
-    rb_rolling_model model;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
     double kappa;
     rc.creep_ratio = 0.5;
     CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
     memset(model.state.p, 0, (size_t)model.state.n * sizeof *model.state.p);
     CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
     CHECK_ABS(kappa, 0.0, 0.0, "kappa");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* Where there is one solution, it does not depend on the start. */
@@ -401,12 +381,10 @@ TEST(transients_may_start_elsewhere)
     const rb_rolling_table start = {2, x, y};
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.1, 200.0);
     rc.creep_ratio = 0.5;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     rc.friction.start = &start;
-    rb_rolling_solution t = solved(&rc);
+    OWNED(rb_rolling_solution) t = solved(&rc);
     CHECK_REL(t.tangential_load, s.tangential_load, 1e-8, "Q");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&t);
 }
 
 /* Where there are several, it does: little friction to begin with stays less. */
@@ -417,14 +395,12 @@ TEST(a_transient_finds_the_solution_of_its_start)
     rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 0.05);
     rc.creep_ratio = 2.0;
     rc.steps = 1;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     rc.friction.start = &start;
-    rb_rolling_solution t = solved(&rc);
+    OWNED(rb_rolling_solution) t = solved(&rc);
     CHECK_MAX(s.residual, 1e-10, "from rest");
     CHECK_MAX(t.residual, 1e-10, "from little friction");
     CHECK_MAX(-t.tangential_load, -0.995 * s.tangential_load, "-Q");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&t);
 }
 
 RUN_TESTS(NULL, NULL)

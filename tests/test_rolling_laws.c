@@ -32,9 +32,8 @@ static rb_rolling_case rail(double slip_scale)
 
 static double ratio_of(const rb_rolling_case *rc)
 {
-    rb_rolling_model model = solved_model(rc);
+    OWNED(rb_rolling_model) model = solved_model(rc);
     const double ratio = rb_rolling_force_ratio(&model);
-    rb_rolling_model_free(&model);
     return ratio;
 }
 
@@ -114,11 +113,10 @@ TEST(coefficients_follow_from_the_slip)
                 rc.contact_elements = mesh == 3 ? 1501 : 60;
                 if (mesh == 3 && (k > 0 || memory))
                     continue;
-                rb_rolling_model model = solved_model(&rc);
+                OWNED(rb_rolling_model) model = solved_model(&rc);
                 snprintf(what, sizeof what, "law %d, mesh %d, memory %d", k, mesh,
                          memory);
                 check_state(&model, NULL, what);
-                rb_rolling_model_free(&model);
             }
 }
 
@@ -126,7 +124,7 @@ TEST(coefficients_follow_from_the_slip)
 TEST(ratios_refer_to_the_largest_coefficient)
 {
     rb_rolling_case rc = rail(100.0);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     CHECK_REL(s.force_ratio, s.tangential_load / (0.3 * s.normal_load), 1e-12, "ratio");
     CHECK_REL(s.creep_ratio, rc.creep * 460.0 / (0.3 * s.hertz_half_width), 1e-12,
@@ -134,7 +132,6 @@ TEST(ratios_refer_to_the_largest_coefficient)
     CHECK_REL(s.mu[s.n - 1], 0.3, 1e-14, "mu at rest");
     const double slope = 0.12 * log(2.0) / 100.0;
     CHECK_REL(s.kappa, 45000.0 * slope * 495.0 * 1.0491 / 113889.0, 5e-3, "kappa");
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Figures of theory.md 4.11 ----------------------------------------------------- */
@@ -146,7 +143,7 @@ TEST(the_rail_case_is_met)
                         want[] = {0.59433, 0.59814, 0.60199, 0.61158, 0.61996};
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = rail(100.0);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.friction.memory = memory[k];
         rc.friction.memory_slip = 1.0;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
@@ -157,7 +154,6 @@ TEST(the_rail_case_is_met)
             assert_int_equal(s.stick, 45);
             assert_int_equal(s.slipping, 36);
         }
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -169,10 +165,10 @@ TEST(steep_laws_have_two_solutions)
     static const double scale[] = {100.0, 50.0, 20.0, 15.5, 10.0, 5.0, 2.0};
     for (int k = 0; k < 7; k++) {
         rb_rolling_case rc = rail(scale[k]);
-        rb_rolling_model rest = solved_model(&rc);
+        OWNED(rb_rolling_model) rest = solved_model(&rc);
         double kappa;
         rc.friction.start = &sliding;
-        rb_rolling_model fast = solved_model(&rc);
+        OWNED(rb_rolling_model) fast = solved_model(&rc);
         check_state(&rest, NULL, "from rest");
         check_state(&fast, NULL, "from sliding");
         CHECK_STATUS(rb_rolling_law_kappa(&rest, &kappa), RB_OK);
@@ -183,8 +179,6 @@ TEST(steep_laws_have_two_solutions)
             CHECK_MAX(difference, 1e-9, "kappa = %g", kappa);
         else
             assert_true(difference > 1e-4);
-        rb_rolling_model_free(&rest);
-        rb_rolling_model_free(&fast);
     }
 }
 
@@ -196,7 +190,7 @@ TEST(curves_have_two_branches)
     static const double scale[] = {100.0, 50.0, 20.0, 10.0, 5.0, 2.0};
     for (int k = 0; k < 12; k++) {
         rb_rolling_case rc = rail(scale[k % 6]);
-        rb_rolling_curve c;
+        OWNED(rb_rolling_curve) c;
         rb_message why = {""};
         double widest = 0.0;
         if (k >= 6) {
@@ -221,7 +215,6 @@ TEST(curves_have_two_branches)
             CHECK_MAX(widest, 1e-8, "kappa = %g", c.kappa[0]);
         else
             assert_true(widest > 3e-4);
-        rb_rolling_curve_free(&c);
     }
 }
 
@@ -235,12 +228,12 @@ TEST(one_element_more_may_stick)
     /* 186 elements show the same once more */
     for (int k = 0; k < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); k++) {
         rb_rolling_case rc = rail(17.6); /* kappa = 0.97 */
-        rb_rolling_solutions found;
+        OWNED(rb_rolling_solutions) found;
         rb_message why = {""};
         rc.contact_elements = 93 * (k + 1);
         rc.creep = creep[k];
         rc.contact.tol = 1e-12;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         rb_contact_violation middle;
         CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);
         assert_int_equal(found.n, 2);
@@ -255,8 +248,6 @@ TEST(one_element_more_may_stick)
         }
         CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &middle), RB_OK);
         assert_true(middle.scaled > 1e-5);
-        rb_rolling_solutions_free(&found);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -276,12 +267,11 @@ TEST(steep_laws_are_solved)
         rc.mesh = RB_MESH_FITTED;
         rc.contact_elements = 60;
         rc.creep = -0.002;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
         assert_true(kappa > 1.5);
         snprintf(what, sizeof what, "law %d, kappa = %g", k / 3, kappa);
         check_state(&model, NULL, what);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -290,8 +280,8 @@ TEST(steep_laws_are_solved)
 TEST(short_steps_are_solved)
 {
     rb_rolling_case rc = rail(500.0);
-    rb_rolling_model model;
-    rb_rolling_history h;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) h;
     rb_message why = {""};
     rc.load = 12500.0;
     rc.a.young = rc.b.young = 210000.0;
@@ -311,8 +301,6 @@ TEST(short_steps_are_solved)
         CHECK_MAX(h.residual[k], 1e-10, "step %d", k);
         CHECK_ABS(h.force_ratio[k], -0.5, 1e-9, "step %d", k);
     }
-    rb_rolling_model_free(&model);
-    rb_rolling_history_free(&h);
 }
 
 /* The contact of dissimilar bodies moves with the creepage: meshes are fitted again, and
@@ -320,7 +308,7 @@ TEST(short_steps_are_solved)
 TEST(branches_outlive_their_mesh)
 {
     rb_rolling_case rc = rail(2.0);
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     rb_message why = {""};
     double widest = 0.0;
     rc.elastic_b = 0;
@@ -337,7 +325,6 @@ TEST(branches_outlive_their_mesh)
         widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));
     }
     assert_true(widest > 3e-3 && widest < 0.05);
-    rb_rolling_curve_free(&c);
 }
 
 /* All solutions of the rail case; each is one by the formula. */
@@ -353,8 +340,8 @@ TEST(all_solutions_are_found)
                {5.0, 3, {0.527508, 0.526808, 0.526376}}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_rolling_case rc = rail(all[k].scale);
-        rb_rolling_model model = solved_model(&rc);
-        rb_rolling_solutions found;
+        OWNED(rb_rolling_model) model = solved_model(&rc);
+        OWNED(rb_rolling_solutions) found;
         rb_message why = {""};
         CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);
         assert_int_equal(found.n, all[k].n);
@@ -371,19 +358,15 @@ TEST(all_solutions_are_found)
             memcpy(model.problem.bound, s->mu, (size_t)s->n * sizeof(double));
             check_state(&model, NULL, "one of all");
         }
-        rb_rolling_solutions_free(&found);
-        rb_rolling_model_free(&model);
     }
     rb_rolling_case rc = rail(10.0);
-    rb_rolling_solutions none;
+    OWNED(rb_rolling_solutions) none;
     rb_message why = {""};
     rc.creep = NAN;
     rc.force_ratio = -0.2;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_find_solutions(&model, &none, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "at a given creepage"));
-    rb_rolling_solutions_free(&none);
-    rb_rolling_model_free(&model);
 }
 
 /* ---- A given force ----------------------------------------------------------------- */
@@ -392,7 +375,7 @@ TEST(a_force_is_met_on_the_rising_branch)
 {
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = rail(100.0);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.creep = NAN;
         rc.force_ratio = k < 2 ? -0.7 : NAN;
         rc.force = k == 2 ? 600.0 : k == 3 ? -750.0 : NAN;
@@ -415,7 +398,6 @@ TEST(a_force_is_met_on_the_rising_branch)
         rc.free_axle = 0;
         rc.creep = s.creepage;
         CHECK_ABS(ratio_of(&rc), s.force_ratio, 1e-8, "the same by its creepage, %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -490,12 +472,11 @@ TEST(the_largest_force_is_told)
 {
     rb_rolling_case rc = rail(100.0);
     rb_message why = {""};
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     double force, at;
     rc.creep = NAN;
     rc.force = -800.0;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
-    rb_rolling_model_free(&model);
     const char *largest = strstr(why.text, "the largest is ");
     assert_non_null(largest);
     assert_int_equal(
@@ -572,8 +553,8 @@ TEST(steps_remember_their_friction)
     for (int memory = 0; memory < 2; memory++) {
         rb_rolling_case rc = rail(100.0);
         rb_message why = {""};
-        rb_rolling_model model;
-        rb_rolling_history history;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) history;
         double room[200];
         steps_seen seen = {room, 200};
         rc.contact_elements = 47;
@@ -589,8 +570,6 @@ TEST(steps_remember_their_friction)
                      RB_OK);
         if (memory) /* without it the steps jump between solutions */
             CHECK_ABS(history.force_ratio[history.n - 1], steady, 2e-3, "steady at last");
-        rb_rolling_model_free(&model);
-        rb_rolling_history_free(&history);
     }
 }
 
@@ -763,7 +742,7 @@ TEST(friction_that_has_changed_becomes_steady)
     for (int falls = 0; falls < 2; falls++) {
         rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
         const rb_rolling_program program = {.n = 4, .distance = distance, .mu = mu};
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         rc.creep = 0.0008;
         if (falls)
             rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
@@ -771,20 +750,17 @@ TEST(friction_that_has_changed_becomes_steady)
                                                 .slip_scale = {100.0, 1.0},
                                                 .memory = 0.003,
                                                 .memory_slip = 1.0};
-        rb_rolling_history h = run_of(&rc, &program, NULL, NULL, &model);
+        OWNED(rb_rolling_history) h = run_of(&rc, &program, NULL, NULL, &model);
         rc.mu = 0.15;
         rc.formulation = RB_STEADY;
         rc.mesh = RB_MESH_UNIFORM;
         rc.zone = model.mesh.ends[model.mesh.n];
         rc.contact_elements = model.mesh.n;
-        rb_rolling_solution steady = solved(&rc);
+        OWNED(rb_rolling_solution) steady = solved(&rc);
         CHECK_REL(h.tangential_load[h.n - 1], steady.tangential_load, 1e-3, "force");
         CHECK_REL(h.force_ratio[h.n - 1], steady.force_ratio, 1e-3, "ratio");
         assert_true(fabs(h.tangential_load[0]) < 1e-6 * fabs(steady.tangential_load));
         assert_int_equal(h.stick[h.n - 1], steady.stick);
-        rb_rolling_solution_free(&steady);
-        rb_rolling_model_free(&model);
-        rb_rolling_history_free(&h);
     }
 }
 
@@ -831,9 +807,9 @@ TEST(a_step_has_two_starts)
     double ratio[2];
     for (int start = 0; start < 2; start++) {
         rb_rolling_case rc = rail(100.0);
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         const int n = model.mesh.n, m = n + 1;
-        double *w = rb_alloc(2 * (size_t)m, 1), *before = rb_alloc((size_t)n, 1);
+        SCRATCH double *w = rb_alloc(2 * (size_t)m, 1), *before = rb_alloc((size_t)n, 1);
         rb_message why = {""};
         assert_true(w && before);
         CHECK_STATUS(
@@ -862,9 +838,6 @@ TEST(a_step_has_two_starts)
             CHECK_ABS(ratio[0], 0.5977, 5e-4, "CONTACT");
             assert_int_equal(stick, 77);
         }
-        free(w);
-        free(before);
-        rb_rolling_model_free(&model);
     }
     assert_true(ratio[0] - ratio[1] > 1e-3);
 }
@@ -896,7 +869,7 @@ TEST(warm_surfaces_have_another_friction)
     static const double ratio[] = {0.5, 2.0, 8.0};
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = warm(ratio[k % 3]);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         if (k >= 3)
             rc.friction.heat = 0.2;
@@ -911,7 +884,6 @@ TEST(warm_surfaces_have_another_friction)
         }
         if (k % 3 == 2) /* full sliding */
             assert_true(k < 3 ? s.force_ratio > -0.95 : s.force_ratio < -0.6);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -943,7 +915,7 @@ TEST(heat_changes_no_force_at_rest)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = warm(NAN);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.formulation = RB_STATIC;
         rc.mesh = RB_MESH_UNIFORM;
         rc.heat_a.conductivity = rc.heat_b.conductivity = 0.0;
@@ -953,7 +925,6 @@ TEST(heat_changes_no_force_at_rest)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_REL(s.tangential_load, k == 0 ? 500.0 : 0.4 * 0.3 * s.normal_load, 1e-9,
                   "force, case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 

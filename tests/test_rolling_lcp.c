@@ -56,7 +56,7 @@ static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
     const int n = p->n;
     const double o = lcp->mirrored ? -1.0 : 1.0;
     double *gap = rb_alloc((size_t)n, 2), *slip = gap + n;
-    rb_contact_state s;
+    OWNED(rb_contact_state) s;
 
     CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
     rb_contact_lcp_recover(p, lcp, z, &s);
@@ -82,14 +82,13 @@ static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
         }
     }
     check_controls(p, lcp, &s, w);
-    rb_contact_state_free(&s);
     free(gap);
 }
 
 static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
                        int mirrored)
 {
-    rb_contact_lcp lcp;
+    OWNED(rb_contact_lcp) lcp;
     CHECK_STATUS(rb_contact_lcp_create(&model->problem, form, mirrored,
                                        mirrored ? 1e-3 : -1e-3, &lcp, NULL),
                  RB_OK);
@@ -99,18 +98,16 @@ static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
     rb_lcp_residual(&(rb_lcp_problem){lcp.size, lcp.M, lcp.size, lcp.b}, z, w);
     check_rows(&model->problem, &lcp, z, w);
     free(z);
-    rb_contact_lcp_free(&lcp);
 }
 
 TEST(every_row_is_its_equation)
 {
     srand(8);
     for (int control = 0; control < 4; control++) {
-        rb_rolling_model model = dissimilar_model(control & 1, control & 2);
+        OWNED(rb_rolling_model) model = dissimilar_model(control & 1, control & 2);
         check_form(&model, RB_LCP_PIVOTED, 0);
         check_form(&model, RB_LCP_PIVOTED, 1);
         check_form(&model, RB_LCP_KWAK, 0);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -118,10 +115,9 @@ TEST(every_row_is_its_equation)
 TEST(lemke_needs_its_first_attempt_only)
 {
     for (int control = 0; control < 4; control++) {
-        rb_rolling_model model = dissimilar_model(control & 1, control & 2);
+        OWNED(rb_rolling_model) model = dissimilar_model(control & 1, control & 2);
         assert_int_equal(model.state.solver, RB_SOLVER_LEMKE);
         assert_int_equal(model.state.lcp_form, RB_LCP_PIVOTED);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -134,7 +130,7 @@ static void keep_attempt(const rb_lcp_pivot *pivot, void *context)
 TEST(pivots_tell_their_attempt)
 {
     for (int kwak = 0; kwak < 2; kwak++) {
-        rb_rolling_model model = dissimilar_model(0, 0), again;
+        OWNED(rb_rolling_model) model = dissimilar_model(0, 0), again;
         rb_rolling_case rc = *model.rc;
         int attempt = -1;
         rc.contact.solver = RB_SOLVER_LEMKE;
@@ -143,8 +139,6 @@ TEST(pivots_tell_their_attempt)
         rc.contact.trace_context = &attempt;
         CHECK_STATUS(rb_rolling_model_create(&rc, &again, NULL), RB_OK);
         assert_int_equal(attempt, kwak ? 2 : 0);
-        rb_rolling_model_free(&again);
-        rb_rolling_model_free(&model);
     }
 }
 

@@ -66,7 +66,7 @@ TEST(hunters_solution_is_met)
 {
     for (int k = 0; k < 8; k++) {
         const double *row = rows[k];
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rb_rolling_case rc = hunter(row[0], row[1], 200);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
@@ -77,7 +77,6 @@ TEST(hunters_solution_is_met)
         CHECK_REL(s.max_pressure, row[4] * E / 200.0, 2e-3, "row %d: p_max", k);
         CHECK_ABS(moment_of(&s) / s.normal_load, row[5], 1e-4, "row %d: M/P", k);
         check_energy(&rc, &s, 1e-3, "Hunter");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -92,12 +91,11 @@ TEST(the_moment_is_of_second_order)
         const double *want = rows[k / 2];
         double error[2];
         for (int j = 0; j < 2; j++) {
-            rb_rolling_solution s;
+            OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = hunter(want[0], want[1], coarse[k / 2] << 2 * j);
             rc.mesh = k % 2 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
             CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
             error[j] = fabs(s.resistance_moment / s.normal_load - want[5]);
-            rb_rolling_solution_free(&s);
         }
         CHECK_ABS(error[1], 0.0, error[0] / 16.0 + 6e-8, "row %d, mesh %d", k / 2, k % 2);
     }
@@ -122,7 +120,7 @@ TEST(a_free_axle_is_turned_by_friction)
 {
     double xi[5];
     for (int k = 0; k < 5; k++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rb_rolling_case rc = hunter(2.0, 0.8, 60);
         rc.mu = 0.3;
@@ -136,7 +134,6 @@ TEST(a_free_axle_is_turned_by_friction)
             check_energy(&rc, &s, 1e-3, "free axle");
         assert_true(s.residual < 1e-9);
         xi[k] = s.creepage;
-        rb_rolling_solution_free(&s);
     }
     CHECK_REL(xi[1], xi[0], 1e-9, "Kwak's form");
     CHECK_REL(xi[2], xi[0], 1e-9, "Newton");
@@ -148,8 +145,8 @@ TEST(a_free_axle_is_turned_by_friction)
 TEST(only_the_axle_of_a_is_free)
 {
     for (int k = 0; k < 4; k++) {
-        rb_rolling_solution s;
-        rb_rolling_curve c;
+        OWNED(rb_rolling_solution) s;
+        OWNED(rb_rolling_curve) c;
         rb_message why = {""};
         rb_rolling_case rc = hunter(2.0, 0.8, 60);
         const double R = k % 2 ? 20.0 : 500.0;
@@ -171,8 +168,6 @@ TEST(only_the_axle_of_a_is_free)
         CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_OK);
         CHECK_ABS(c.torque_a[0], 0.0, 1e-10 * s.normal_load * rc.a.radius, "curve");
         CHECK_REL(c.torque_b[0], s.torque_b, 1e-6, "case %d: curve", k);
-        rb_rolling_curve_free(&c);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -213,7 +208,7 @@ TEST(speed_has_its_limits)
 {
     const double f = 3.0;
     for (int fast = 0; fast < 2; fast++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = hunter(f, fast ? 1e5 : 1e-5, 100);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         const double wide = fast ? 1.0 : sqrt(1.0 + f);
@@ -224,7 +219,6 @@ TEST(speed_has_its_limits)
                      moment = fast ? f / (2.0 * L) * (log(2.0 * L) + 0.25 - M_EULER)
                                    : f * L / (1.0 + f);
         CHECK_REL(moment_of(&s) / s.normal_load, moment, 2e-2, "fast %d", fast);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -266,9 +260,9 @@ TEST(contacts_figures_are_met)
         if (isinf(want[k].tau)) /* its elastic case */
             rc.a.memory.n = rc.b.memory.n = 0;
         rb_rolling_mesh mesh;
-        rb_rolling_bodies bodies;
-        rb_contact_problem problem;
-        rb_contact_state s;
+        OWNED(rb_rolling_bodies) bodies;
+        OWNED(rb_contact_problem) problem;
+        OWNED(rb_contact_state) s;
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -8.0, 7.84, &mesh, NULL), RB_OK);
         rb_rolling_mesh_free(&mesh);
         rb_rolling_case grid = rc;
@@ -297,9 +291,6 @@ TEST(contacts_figures_are_met)
                       want[k].tau);
         assert_int_equal(contact, want[k].contact);
         assert_int_equal(stick, want[k].stick);
-        rb_contact_state_free(&s);
-        rb_contact_problem_free(&problem);
-        rb_rolling_bodies_free(&bodies);
         rb_rolling_mesh_free(&mesh);
     }
 }
@@ -322,7 +313,7 @@ TEST(thick_layers_have_their_series)
     for (int k = 0; k < 2; k++)
         for (int j = 1; j <= 2; j++) {
             const double ratio = 0.1 * j;
-            rb_rolling_solution s;
+            OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = layered(1.0 / ratio, nu[k], 200);
             CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
             const double a = s.half_width, d = rc.a.layer,
@@ -330,7 +321,6 @@ TEST(thick_layers_have_their_series)
                          hertz = M_PI * E * a * a / (4.0 * rc.a.radius);
             CHECK_REL(s.normal_load * (1.0 - c1[k] * a * a / (d * d)), hertz,
                       2.0 * gsl_pow_4(ratio) + 2e-4, "nu %g, a/d %g", nu[k], ratio);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -340,7 +330,7 @@ TEST(thin_layers_are_mattresses)
     static const double want[3] = {0.99701, 0.99910, 0.99973};
     for (int k = 0; k < 3; k++) {
         const double nu = 0.3, d = 1.0 / (5 << k);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(d, nu, 200);
         rc.half_width = NAN;
         rc.approach = 1.0 / (2.0 * rc.a.radius);
@@ -349,7 +339,6 @@ TEST(thin_layers_are_mattresses)
         const double ratio = s.normal_load / (2.0 * M / (3.0 * rc.a.radius * d));
         CHECK_REL(ratio, want[k], 1e-3, "a/d = %d", 5 << k);
         CHECK_ABS(ratio, 1.0, k == 2 ? 1e-3 : 5e-3, "a/d = %d: mattress", 5 << k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -362,7 +351,7 @@ TEST(thin_incompressible_layers_have_their_limit)
     double before = INFINITY;
     for (int k = 0; k < 4; k++) {
         const double d = 1.0 / (5 << k);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(d, 0.5, 200);
         rc.half_width = NAN;
         rc.approach = 1.0 / (6.0 * rc.a.radius);
@@ -372,7 +361,6 @@ TEST(thin_incompressible_layers_have_their_limit)
         CHECK_MAX(off, 1.5 * deviation[k], "a/d = %d", 5 << k);
         CHECK_MAX(off, 0.5 * before, "a/d = %d", 5 << k);
         before = off;
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -422,7 +410,7 @@ TEST(layers_must_be_resolved)
 TEST(hopeless_layers_are_refused)
 {
     rb_rolling_case rc = layered(3e-4, 0.5, 20);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.a.radius = 50.0;
     rc.a.young = 94500.0;
@@ -435,7 +423,6 @@ TEST(hopeless_layers_are_refused)
     rc.zone = 0.4;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "may not be longer than the thickness"));
-    rb_rolling_solution_free(&s);
 }
 
 /* Free rolling of a covered roll, docs/physics: xi R/c at nu = 0.5, c/d = 1. */
@@ -443,7 +430,7 @@ TEST(incompressible_covers_stretch_in_the_nip)
 {
     static const double mu[2] = {0.1, 0.3}, want[2] = {0.16692, 0.16488};
     for (int k = 0; k < 2; k++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(2.0, 0.5, 100);
         rc.half_width = 2.0;
         rc.mu = mu[k];
@@ -452,7 +439,6 @@ TEST(incompressible_covers_stretch_in_the_nip)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_ABS(s.creepage * rc.a.radius / 2.0, want[k], 4e-3 * want[k] + 4e-4,
                   "mu = %g", mu[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -485,7 +471,7 @@ TEST(all_solvers_agree)
     for (int kind = 0; kind < 2; kind++) {
         double Q[5], M[5];
         for (int k = 0; k < 5; k++) {
-            rb_rolling_solution s;
+            OWNED(rb_rolling_solution) s;
             rb_message why = {""};
             rb_rolling_case rc = kind ? layered(1.5, 0.45, 60) : hunter(2.0, 0.8, 60);
             rc.mu = 0.3;
@@ -496,7 +482,6 @@ TEST(all_solvers_agree)
             assert_int_equal(s.large, k == 3);
             Q[k] = s.tangential_load;
             M[k] = moment_of(&s);
-            rb_rolling_solution_free(&s);
         }
         for (int k = 1; k < 3; k++)
             CHECK_REL(Q[k], Q[0], 1e-9, "kind %d, solver %d", kind, k);
@@ -513,7 +498,7 @@ TEST(bad_axles_are_refused)
                                         "excludes"};
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = hunter(2.0, 0.8, 40);
-        rb_rolling_solution s = {0};
+        OWNED(rb_rolling_solution) s = {0};
         rb_message why = {""};
         rc.mu = k == 2 ? 0.0 : k == 0 ? 1e-3 : 0.3;
         rc.creep = k == 3 ? 0.001 : NAN;
@@ -526,7 +511,6 @@ TEST(bad_axles_are_refused)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
         if (!strstr(why.text, word[k]))
             fail_msg("'%s' does not say '%s'", why.text, word[k]);
-        rb_rolling_solution_free(&s);
     }
 }
 

@@ -67,7 +67,7 @@ TEST(meshes_stay_on_the_lower_half)
 TEST(fitted_elements_meet_both_edges)
 {
     const rb_rolling_case rc = half_plane(RB_STATIC, 20);
-    rb_rolling_mesh mesh;
+    OWNED(rb_rolling_mesh) mesh;
     CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 3.0, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 20 + 6 + 6);
     for (int i = 0; i <= 20; i++)
@@ -82,19 +82,17 @@ TEST(fitted_elements_meet_both_edges)
         CHECK_REL(mesh.gap[i],
                   rb_rolling_initial_gap(&rc, 0.5 * (mesh.ends[i] + mesh.ends[i + 1])),
                   1e-14, "gap %d", i);
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* A single element of more than half of what is left of the wheel has but half of it. */
 TEST(the_element_before_the_mesh_stays_on_the_wheel)
 {
     const rb_rolling_case rc = half_plane(RB_STATIC, 4);
-    rb_rolling_mesh mesh;
+    OWNED(rb_rolling_mesh) mesh;
     CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -30.0, 47.0, &mesh, NULL), RB_OK);
     CHECK_REL(length(&mesh, mesh.n), fmin(1.5 * length(&mesh, mesh.n - 1), 1.25), 1e-12,
               "of 2.5 mm");
     CHECK_MAX(mesh.ends[mesh.n + 1], 50.0, "on the wheel");
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* ---- Several patches --------------------------------------------------------------- */
@@ -105,7 +103,7 @@ TEST(a_result_has_the_elements_of_its_mesh)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = half_plane(RB_STATIC, 20);
-        rb_rolling_mesh mesh, again;
+        OWNED(rb_rolling_mesh) mesh, again;
         double x[32], h[32];
         rc.a.support = k % 2 ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         if (k < 2)
@@ -129,8 +127,6 @@ TEST(a_result_has_the_elements_of_its_mesh)
             CHECK_ABS(again.ends[i], mesh.ends[i], 1e-11, "mesh %d, end %d", k, i);
         for (int i = 0; i < mesh.n; i++)
             CHECK_ABS(again.gap[i], mesh.gap[i], 1e-11, "mesh %d, gap %d", k, i);
-        rb_rolling_mesh_free(&again);
-        rb_rolling_mesh_free(&mesh);
     }
 }
 
@@ -141,12 +137,11 @@ TEST(a_result_may_have_other_elements_than_its_case)
     for (int equal = 0; equal < 2; equal++) {
         const rb_rolling_case rc = half_plane(RB_STATIC, 20);
         const rb_rolling_elements elements = {.n = 3, .x = x, .h = h, .are_equal = equal};
-        rb_rolling_mesh mesh;
+        OWNED(rb_rolling_mesh) mesh;
         CHECK_STATUS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, NULL), RB_OK);
         assert_int_equal(mesh.n, 3);
         for (int i = 0; i <= 3; i++)
             CHECK_ABS(mesh.ends[i], i - 1.5, 1e-14, "end %d", i);
-        rb_rolling_mesh_free(&mesh);
     }
 }
 

@@ -16,7 +16,7 @@ TEST(elements_are_fitted_to_every_patch)
     table *t = bumps(3, x, height);
     t->rc.mesh = RB_MESH_FITTED;
     t->rc.mu = 0.0;
-    rb_rolling_solution s = solved(&t->rc);
+    OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 3);
     assert_int_equal(s.equal_instead, 0);
     for (int k = 0; k < 3; k++) {
@@ -27,7 +27,6 @@ TEST(elements_are_fitted_to_every_patch)
     }
     assert_true(s.patch[0].normal_load > s.patch[1].normal_load &&
                 s.patch[1].normal_load > s.patch[2].normal_load);
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 
@@ -41,11 +40,10 @@ TEST(too_many_patches_have_equal_elements)
     t->rc.mesh = RB_MESH_FITTED;
     t->rc.load = 60.0;
     t->rc.contact_elements = 100;
-    rb_rolling_solution s = solved(&t->rc);
+    OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 17);
     assert_int_equal(s.equal_instead, 1);
     CHECK_REL(s.h[0], s.h[s.n - 1], 1e-9, "equal elements");
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 
@@ -54,12 +52,11 @@ TEST(several_patches_cannot_be_aligned)
 {
     static const double x[] = {-2.0, 2.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     t->rc.mesh = RB_MESH_ALIGNED;
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "the contact has several patches"));
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 
@@ -73,18 +70,16 @@ TEST(patches_side_by_side_are_fitted_as_one)
         t->rc.load = 1300.0 + 80.0 * k;
         t->rc.mesh = RB_MESH_FITTED;
         t->rc.contact_elements = 40;
-        rb_rolling_solution s = solved(&t->rc);
+        OWNED(rb_rolling_solution) s = solved(&t->rc);
         t->rc.mesh = RB_MESH_UNIFORM;
         t->rc.contact_elements = 200;
-        rb_rolling_solution fine = solved(&t->rc);
+        OWNED(rb_rolling_solution) fine = solved(&t->rc);
         CHECK_REL(s.normal_load, t->rc.load, 1e-9, "load %d", k);
         CHECK_MAX(s.residual, 1e-10, "residual %d", k);
         CHECK_ABS(s.contact_from, fine.contact_from, 0.02, "left edge %d", k);
         CHECK_ABS(s.contact_to, fine.contact_to, 0.02, "right edge %d", k);
         CHECK_REL(s.approach, fine.approach, 2e-3, "approach %d", k);
         assert_int_equal(s.equal_instead, 0);
-        rb_rolling_solution_free(&fine);
-        rb_rolling_solution_free(&s);
     }
     bumps_free(t);
 }
@@ -110,13 +105,12 @@ TEST(a_narrow_groove_is_fitted_over)
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 200;
     rc.load = 1800.0;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double a = sqrt(4.0 * 1800.0 * 50.0 * 0.99 / (M_PI * 94500.0));
     assert_int_equal(s.patches, 2);
     assert_int_equal(s.equal_instead, 0);
     CHECK_REL(-s.contact_from, a, 2e-3, "left edge");
     CHECK_REL(s.contact_to, a, 2e-3, "right edge");
-    rb_rolling_solution_free(&s);
     rb_rolling_profile_free(profile);
 }
 
@@ -237,7 +231,7 @@ TEST(patches_too_far_apart_need_fitted_elements)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     t->rc.load = 1.0;
     t->rc.formulation = RB_STEADY;
@@ -245,7 +239,6 @@ TEST(patches_too_far_apart_need_fitted_elements)
     t->rc.contact.solver = RB_SOLVER_LEMKE; /* not without a matrix */
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "equal elements would be needed"));
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 
@@ -254,7 +247,7 @@ TEST(patches_too_far_apart_need_fitted_elements)
 TEST(a_contact_as_wide_as_the_wheel_is_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.a.support = RB_BEM_HALFPLANE;
     rc.mu = 0.0;
@@ -263,7 +256,6 @@ TEST(a_contact_as_wide_as_the_wheel_is_refused)
     rc.contact_elements = 20;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "the contact does not end within"));
-    rb_rolling_solution_free(&s);
 }
 
 /* A given zone and the widest one fail alike: so much more than the given one is said. */
@@ -271,13 +263,12 @@ TEST(a_zone_without_an_end_is_told_a_third_more)
 {
     static const double x[] = {0.0}, height[] = {0.0};
     table *t = bumps(1, x, height);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     t->rc.load = 1e6;
     t->rc.zone = 0.5;
     CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "half-width 0.5 mm; widen it to 0.65 mm"));
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 
@@ -298,14 +289,12 @@ TEST(places_beyond_the_wheel_are_not_looked_at)
     rc.distance = 0.5;
     rc.contact_elements = 16;
     rc.zone = 0.8;
-    rb_rolling_solution even = solved(&rc);
+    OWNED(rb_rolling_solution) even = solved(&rc);
     rc.irregularity = (rb_rolling_table){ROWS, x, y};
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_int_equal(s.n, even.n);
     for (int i = 0; i < s.n; i++)
         CHECK_ABS(s.p[i], even.p[i], 1e-9 * even.max_pressure, "element %d", i);
-    rb_rolling_solution_free(&even);
-    rb_rolling_solution_free(&s);
 }
 
 /* On half-planes products do for so many elements. */
@@ -315,12 +304,11 @@ TEST(half_planes_have_elements_for_patches_far_apart)
     table *t = bumps(2, x, height);
     t->rc.load = 1.0;
     t->rc.mu = 0.0;
-    rb_rolling_solution s = solved(&t->rc);
+    OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 2);
     assert_int_equal(s.large, 1);
     CHECK_MAX(3000, s.n, "elements");
     CHECK_REL(s.patch[0].normal_load, 0.5, 1e-3, "half of the load");
-    rb_rolling_solution_free(&s);
     bumps_free(t);
 }
 

@@ -42,7 +42,7 @@ static rb_rolling_case thin_disc(rb_bem_support support)
 static void check_equivalent(const rb_rolling_case *rc, const char *name)
 {
     const rb_rolling_case strain = in_plane_strain(*rc);
-    rb_rolling_solution one = solved(rc), other = solved(&strain);
+    OWNED(rb_rolling_solution) one = solved(rc), other = solved(&strain);
     assert_int_equal(one.n, other.n);
     CHECK_REL(one.normal_load, other.normal_load, 1e-12, "%s: load", name);
     for (int i = 0; i < one.n; i++) {
@@ -53,8 +53,6 @@ static void check_equivalent(const rb_rolling_case *rc, const char *name)
         CHECK_ABS(one.un[i] / one.approach, other.un[i] / one.approach, 1e-9,
                   "%s: un of element %d", name, i);
     }
-    rb_rolling_solution_free(&one);
-    rb_rolling_solution_free(&other);
 }
 
 TEST(every_body_has_the_constants_of_plane_stress)
@@ -100,7 +98,7 @@ TEST(nothing_presses_a_thin_disc_from_its_side)
     for (int plane = 0; plane < 2; plane++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
         rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
-        rb_rolling_model model = solved_model(&rc);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         const double xy[] = {0.0, 0.3, 0.4, 0.2};
         rb_rolling_stress at[2];
         CHECK_STATUS(rb_rolling_stress_at(&model, 2, xy, at, NULL), RB_OK);
@@ -114,7 +112,6 @@ TEST(nothing_presses_a_thin_disc_from_its_side)
                            3.0 * at[k].sxy * at[k].sxy),
                       1e-12, "von Mises of point %d", k);
         }
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -131,7 +128,7 @@ TEST(a_thin_disc_shakes_down_below_two_k)
         rc.creep = k ? -1.0 : 0.0;
         for (int plane = 0; plane < 2; plane++) {
             rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
-            rb_rolling_model model = solved_model(&rc);
+            OWNED(rb_rolling_model) model = solved_model(&rc);
             CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit[plane], NULL), RB_OK);
             rb_rolling_shakedown again = limit[plane];
             again.shear_yield = NAN;
@@ -142,7 +139,6 @@ TEST(a_thin_disc_shakes_down_below_two_k)
                           "p0/2");
                 CHECK_ABS(limit[1].y, 0.0, 1e-12, "at the surface");
             }
-            rb_rolling_model_free(&model);
         }
         assert_true(limit[1].shear_yield / rb_rolling_derive(&rc).stress > 0.49);
     }

@@ -74,8 +74,8 @@ TEST(rows_have_what_is_asked_for)
         const rb_rolling_row row = row_of(pool, 0);
         pool->stop(pool);
         CHECK_STATUS(make(0, &rc, NULL), RB_OK);
-        rb_rolling_model model;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_solution) s;
         CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &stress, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, &stress, &errors, NULL), RB_OK);
@@ -102,8 +102,6 @@ TEST(rows_have_what_is_asked_for)
                       1e-9, "bar of Mises");
         else
             assert_true(isnan(row.errors.stress.von_mises.value));
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
     }
 }
 

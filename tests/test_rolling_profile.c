@@ -43,12 +43,11 @@ static int tabulate(double from, double to, double step, double noise, unsigned 
 
 static double peak(const rb_rolling_case *rc)
 {
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     if (rb_rolling_solve(rc, &s, &why) != RB_OK)
         fail_msg("%s", why.text);
     const double p0 = s.max_pressure;
-    rb_rolling_solution_free(&s);
     return p0;
 }
 
@@ -85,7 +84,7 @@ TEST(a_table_of_a_parabola_has_its_zone)
 {
     double ends[2][2];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = rail();
         rb_rolling_profile *profile =
             profile_of(tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap), x, gap, 0.0);
@@ -97,7 +96,6 @@ TEST(a_table_of_a_parabola_has_its_zone)
         ends[k][0] = s.x[0] - 0.5 * s.h[0];
         ends[k][1] = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
         CHECK_REL(ends[k][1], 1.3 * rb_rolling_derive(&rc).half_width, 1e-3, "zone");
-        rb_rolling_solution_free(&s);
         rb_rolling_profile_free(profile);
     }
     CHECK_REL(ends[1][0], ends[0][0], 1e-3, "left end");
@@ -231,7 +229,7 @@ TEST(contact_beyond_the_table_is_no_result)
     const int n = tabulate(-5.0, 5.0, 0.5, 0.0, 1, x, gap);
     rb_rolling_profile *profile = profile_of(n, x, gap, 0.0);
     for (int k = 0; k < 16; k++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rb_rolling_case rc = rail();
         rc.gap = RB_GAP_TABLE;
@@ -252,7 +250,6 @@ TEST(contact_beyond_the_table_is_no_result)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
         if (!strstr(why.text, "from -5 to 5"))
             fail_msg("case %d: '%s'", k, why.text);
-        rb_rolling_solution_free(&s);
     }
     rb_rolling_profile_free(profile);
 }

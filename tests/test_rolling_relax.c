@@ -34,7 +34,7 @@ static double modulus(const rb_rolling_case *rc)
  */
 static void check_laws(const rb_rolling_case *rc, const rb_rolling_model *model)
 {
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     CHECK_STATUS(rb_rolling_model_solution(model, &s, NULL), RB_OK);
     const double length = rb_rolling_derive(rc).half_width * s.max_pressure / modulus(rc);
     for (int i = 0; i < s.n; i++) {
@@ -46,14 +46,13 @@ static void check_laws(const rb_rolling_case *rc, const rb_rolling_model *model)
         CHECK_MAX(fabs(s.q[i]), rc->mu * s.p[i] + 1e-8 * s.max_pressure, "bound %d", i);
         CHECK_MAX(s.shift[i] * s.q[i], 1e-8 * length * s.max_pressure, "against %d", i);
     }
-    rb_rolling_solution_free(&s);
 }
 
 /* Returns the length of an element. */
 static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
                   rb_rolling_history *h)
 {
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_message why = {""};
     if (rb_rolling_history_run(rc, program, NULL, &model, h, &why) != RB_OK)
         fail_msg("%s", why.text);
@@ -62,7 +61,6 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
     if (rc->elastic_b == 0)
         check_laws(rc, &model);
     const double element = model.mesh.ends[1] - model.mesh.ends[0];
-    rb_rolling_model_free(&model);
     return element;
 }
 
@@ -113,7 +111,7 @@ TEST(a_held_approach_relaxes)
     for (size_t c = 0; c < sizeof held / sizeof *held; c++) {
         double error[2];
         for (int j = 0; j < 2; j++) {
-            rb_rolling_history h;
+            OWNED(rb_rolling_history) h;
             rb_rolling_case rc = relaxing(24);
             rc.a.support = held[c].support;
             rc.a.layer = held[c].layer;
@@ -140,7 +138,6 @@ TEST(a_held_approach_relaxes)
                 CHECK_ABS(h.contact_to[k], h.contact_to[0], element, "%s: edge",
                           held[c].name);
             }
-            rb_rolling_history_free(&h);
         }
         CHECK_MAX(error[1], 4.0 * held[c].bound, "%s: P(t)", held[c].name);
         CHECK_MAX(error[1], error[0] / 3.6, "%s: second order in time", held[c].name);
@@ -189,7 +186,7 @@ TEST(a_held_load_creeps)
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
     for (int j = 0; j < 2; j++) {
         const int n = 60 << j;
-        rb_rolling_history h;
+        OWNED(rb_rolling_history) h;
         rb_rolling_case rc = relaxing(n);
         rc.time_step = 0.05;
         const double element = run(&rc, &program, &h);
@@ -213,7 +210,6 @@ TEST(a_held_load_creeps)
             100.0 / (M_PI * modulus(&rc)) *
                 (2.0 * log(4.0 * 50.0 / M_E / held_width(modulus(&rc), 100, 0)) + 1),
             1e-3, "approach at once");
-        rb_rolling_history_free(&h);
     }
 }
 
@@ -271,7 +267,7 @@ TEST(an_unloaded_contact_shrinks)
     assert_true(widest > 1.01 && widest < 1.9);
     for (int j = 0; j < 2; j++) {
         const int n = 100 << j;
-        rb_rolling_history h;
+        OWNED(rb_rolling_history) h;
         rb_rolling_case rc = relaxing(n);
         const double scale = 4.0 * 50.0 * 100.0 / (M_PI * modulus(&rc)),
                      a = sqrt(scale * grown(widest));
@@ -288,7 +284,6 @@ TEST(an_unloaded_contact_shrinks)
         assert_true(h.lost_work[h.n - 1] > 0.0);
         for (int k = 1; k < h.n; k++)
             CHECK_MAX(h.lost_work[k - 1] - h.lost_work[k], 0.0, "lost at step %d", k);
-        rb_rolling_history_free(&h);
     }
 }
 
@@ -398,9 +393,9 @@ TEST(rolling_becomes_steady)
         double error[2];
         for (int j = 0; j < 2; j++) {
             rb_rolling_case rc = roller(40 << j);
-            rb_rolling_model model;
-            rb_rolling_history h;
-            rb_rolling_solution s;
+            OWNED(rb_rolling_model) model;
+            OWNED(rb_rolling_history) h;
+            OWNED(rb_rolling_solution) s;
             rb_message why = {""};
             *(control ? &rc.force_ratio : &rc.creep_ratio) = control ? -0.4 : 0.5;
             if (rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why) != RB_OK)
@@ -425,9 +420,6 @@ TEST(rolling_becomes_steady)
             CHECK_REL(h.approach[last], s.approach, 4e-4 / (1 << 2 * j), "approach");
             CHECK_REL((h.lost_work[last] - h.lost_work[last - 1]) / h.step, s.hysteresis,
                       8e-3 / (1 << 2 * j), "hysteresis");
-            rb_rolling_solution_free(&s);
-            rb_rolling_model_free(&model);
-            rb_rolling_history_free(&h);
         }
         CHECK_MAX(error[0], 2e-3, "M");
         CHECK_MAX(error[1], error[0] / 2.8, "M is of order 3/2");
@@ -438,7 +430,7 @@ TEST(rolling_becomes_steady)
 TEST(rolling_from_rest_ends_at_hunters_moment)
 {
     rb_rolling_case rc = relaxing(100);
-    rb_rolling_history h;
+    OWNED(rb_rolling_history) h;
     rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
     rc.half_width = rc.speed = 1.0;
     rc.formulation = RB_TRANSIENT;
@@ -449,7 +441,6 @@ TEST(rolling_from_rest_ends_at_hunters_moment)
     CHECK_ABS(h.moment[h.n - 1] / h.normal_load[h.n - 1], 0.2621595, 1e-4, "M/(P a_g)");
     CHECK_ABS(h.contact_to[h.n - 1], 1.3698037, 1e-2, "leading edge");
     CHECK_ABS(h.contact_from[h.n - 1], -1.0148946, 1e-2, "trailing edge");
-    rb_rolling_history_free(&h);
 }
 
 /* A ratio of 0 is an elastic body, step by step. */
@@ -517,8 +508,8 @@ TEST(bad_programs_are_refused)
         rb_rolling_case rc = relaxing(24);
         rb_rolling_program program = {
             .n = 3, .time = bad[k].time, .distance = bad[k].distance, .load = load};
-        rb_rolling_model model;
-        rb_rolling_history h;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
         rb_message why = {""};
         rc.formulation = bad[k].formulation;
         rc.speed = bad[k].formulation == RB_TRANSIENT ? 10.0 : 0.0;
@@ -535,8 +526,6 @@ TEST(bad_programs_are_refused)
                      RB_EINVAL);
         if (!strstr(why.text, bad[k].word))
             fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
-        rb_rolling_model_free(&model);
-        rb_rolling_history_free(&h);
     }
 }
 
@@ -545,13 +534,12 @@ TEST(one_static_solve_is_refused)
 {
     rb_rolling_case rc = relaxing(24);
     rb_rolling_solution s;
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_message why = {""};
     rc.load = 100.0;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "history"));
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
-    rb_rolling_model_free(&model);
     CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &why), RB_EINVAL);
     rc.increments = 3;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
@@ -572,8 +560,8 @@ TEST(every_failing_allocation_is_noticed)
             rc.load = rc.creep = NAN;
         }
         for (int count = 0; refused; count++) {
-            rb_rolling_model model;
-            rb_rolling_history h;
+            OWNED(rb_rolling_model) model;
+            OWNED(rb_rolling_history) h;
             alloc_fail_after(count);
             const rb_status s = rb_rolling_history_run(&rc, rolls ? NULL : &program, NULL,
                                                        &model, &h, NULL);
@@ -583,8 +571,6 @@ TEST(every_failing_allocation_is_noticed)
                 fail_msg("allocation %d failed unnoticed", count);
             if (!refused)
                 CHECK_STATUS(s, RB_OK);
-            rb_rolling_history_free(&h);
-            rb_rolling_model_free(&model);
         }
     }
 }
@@ -630,9 +616,9 @@ TEST(a_step_that_relaxes_too_much_is_said)
 
     for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
         rb_rolling_case rc = relaxing(20);
-        rb_rolling_model model;
-        rb_rolling_history h;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
+        OWNED(rb_rolling_solution) s;
         const int rolls = steps[k].formulation == RB_TRANSIENT;
         rc.formulation = steps[k].formulation;
         rc.approach = 0.5;
@@ -656,9 +642,6 @@ TEST(a_step_that_relaxes_too_much_is_said)
             fail_msg("%d: %d notes: %s", (int)k, list.n, list.n ? list.text[0] : "");
         if (steps[k].remedy ? !(left < 1.0 / 11.0) : !(left > 1.0 / 11.0))
             fail_msg("%d: %g left", (int)k, left);
-        rb_rolling_solution_free(&s);
-        rb_rolling_history_free(&h);
-        rb_rolling_model_free(&model);
     }
 }
 

@@ -24,7 +24,7 @@ static double carter(double s)
 TEST(a_creep_curve_is_carters)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     rc.contact_elements = 100;
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL),
@@ -39,7 +39,6 @@ TEST(a_creep_curve_is_carters)
         CHECK_MAX(c.residual[k], 1e-10, "s = %g", s);
     }
     CHECK_ABS(c.free_creepage, 0.0, 1e-15, "free rolling");
-    rb_rolling_curve_free(&c);
 }
 
 /* On a cosine mesh elements are not lengths: Carter's stick at s = 0.1 is 0.90 of the
@@ -47,14 +46,13 @@ TEST(a_creep_curve_is_carters)
 TEST(the_stick_ratio_is_one_of_lengths)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
-    rb_rolling_curve c;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_curve) c;
+    OWNED(rb_rolling_solution) s;
     rc.contact_elements = 100;
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL),
         RB_OK);
     CHECK_ABS(c.stick_ratio[0], 0.9, 0.01, "s = 0.1");
-    rb_rolling_curve_free(&c);
     rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.1;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
@@ -63,30 +61,27 @@ TEST(the_stick_ratio_is_one_of_lengths)
         stuck += s.zone[i] == RB_ZONE_STICK ? s.h[i] : 0.0;
     CHECK_REL(s.stick_length, stuck, 1e-14, "sum over the table");
     CHECK_REL(s.stick_length, s.stick_to - s.stick_from, 1e-9, "one strip");
-    rb_rolling_solution_free(&s);
 }
 
 /* Each point of a curve is what the same case says alone, dissimilar bodies included. */
 TEST(a_curve_agrees_with_single_solves)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     rc.mesh = RB_MESH_UNIFORM;
     rc.zone = 1.6 * rc.half_width;
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL),
         RB_OK);
     for (int k = 0; k < c.n; k++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.formulation = RB_STEADY;
         rc.creep = c.creepage[k];
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_ABS(c.force_ratio[k], s.force_ratio, 1e-10, "xi = %g", c.creepage[k]);
         CHECK_ABS(c.dissipation[k], s.dissipation, 1e-10 * s.normal_load, "xi = %g",
                   c.creepage[k]);
-        rb_rolling_solution_free(&s);
     }
-    rb_rolling_curve_free(&c);
 }
 
 TEST(bad_curves_are_refused)
@@ -118,7 +113,7 @@ static void check_extremum(const char *name, rb_rolling_extremum got, double val
 TEST(hertz_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
     rc.mu = 0.0;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
@@ -127,14 +122,13 @@ TEST(hertz_below_the_surface)
     check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
     check_extremum("von Mises", m.von_mises, 0.55752, 0.0, 0.70429, p0, a);
     check_extremum("orthogonal shear", m.orthogonal_shear, 0.25, 0.866, 0.5, p0, a);
-    rb_rolling_model_free(&model);
 }
 
 /* Full sliding, friction on A towards +x (xi < 0). */
 TEST(full_sliding_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
     rc.b = rc.a;
     rc.b.radius = INFINITY;
@@ -147,14 +141,13 @@ TEST(full_sliding_below_the_surface)
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
     check_extremum("max shear", m.max_shear, 0.31899, 0.625, 0.601, p0, a);
     assert_true(m.max_shear.x > 0.0);
-    rb_rolling_model_free(&model);
 }
 
 /* The wheel's own boundary elements see the same stress as the half-plane, up to a/R. */
 TEST(a_wheel_has_the_stress_of_the_half_plane)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
     rc.a.support = RB_BEM_HUB;
     rc.half_width = 1e-3 * rc.a.radius;
@@ -164,7 +157,6 @@ TEST(a_wheel_has_the_stress_of_the_half_plane)
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
     check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
     check_extremum("von Mises", m.von_mises, 0.55752, 0.0, 0.70429, p0, a);
-    rb_rolling_model_free(&model);
 }
 
 /* Where friction pulls, at the edge on the very surface, the elements' ends leave no
@@ -174,7 +166,7 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
     double tension[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         rb_rolling_stress_maxima m;
         rc.a.support = k ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         rc.b = rc.a;
@@ -186,7 +178,6 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
         CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
         tension[k] = m.tension.value;
-        rb_rolling_model_free(&model);
     }
     CHECK_REL(tension[1], tension[0], 2e-2, "largest principal stress");
 }
@@ -195,7 +186,7 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
 TEST(the_surface_carries_the_tractions)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.5;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
@@ -211,7 +202,6 @@ TEST(the_surface_carries_the_tractions)
     const double above[] = {0.0, -1e-3};
     rb_rolling_stress s;
     CHECK_STATUS(rb_rolling_stress_at(&model, 1, above, &s, NULL), RB_EINVAL);
-    rb_rolling_model_free(&model);
 }
 
 /* Of points outside the body the first is named, on every support by the same number. */
@@ -221,7 +211,7 @@ TEST(a_point_outside_has_its_index)
     const double xy[] = {0.0, 1.0, 0.1, 1.0, 0.0, -1.0, 0.0, -2.0};
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
-        rb_rolling_model model;
+        OWNED(rb_rolling_model) model;
         rb_rolling_stress s[4];
         rb_message why = {""};
         rc.a.support = supports[k];
@@ -230,7 +220,6 @@ TEST(a_point_outside_has_its_index)
         CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, s, &why), RB_EINVAL);
         if (!strstr(why.text, "point 2 at (0, -1) lies outside the body"))
             fail_msg("support %d: '%s'", k, why.text);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -241,7 +230,7 @@ TEST(dissipation_is_the_work_of_the_forces)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel_on_plane(k & 1 ? 0.3 : 0.5);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.contact_elements = 200;
         rc.formulation = RB_STEADY;
         rc.creep_ratio = k & 2 ? -0.6 : 0.6;
@@ -251,7 +240,6 @@ TEST(dissipation_is_the_work_of_the_forces)
             moment += s.x[i] * s.p[i] * s.h[i];
         const double work = -s.creepage * s.tangential_load + moment / rc.a.radius;
         CHECK_REL(s.dissipation, work, 1e-3, "case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -268,7 +256,7 @@ static void count_random_case(int fitted, tally *t)
     rb_rolling_case rc = wheel_on_plane(0.5);
     const int kind = rand() % 3;
     const double s = uniform(0.05, 0.95);
-    rb_rolling_solution so;
+    OWNED(rb_rolling_solution) so;
     rb_rolling_errors e;
 
     rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
@@ -290,7 +278,6 @@ static void count_random_case(int fitted, tally *t)
                     e.scalar.creepage);
     if (kind == 2)
         tally_count(t, so.stick_to - a * sqrt(1.0 - s), e.scalar.stick_to);
-    rb_rolling_solution_free(&so);
 }
 
 TEST(error_bars_hold_the_truth)
@@ -310,7 +297,7 @@ TEST(error_bars_of_curves_hold_the_truth)
 {
     for (int fitted = 0; fitted < 2; fitted++) {
         rb_rolling_case rc = wheel_on_plane(0.5);
-        rb_rolling_curve c, e;
+        OWNED(rb_rolling_curve) c, e;
         tally t = {.wide = fitted ? 20.0 : 10.0};
         rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.contact_elements = 80;
@@ -326,8 +313,6 @@ TEST(error_bars_of_curves_hold_the_truth)
             CHECK_ABS(c.stick_ratio[k], 1.0 - c.creep_ratio[k], e.stick_ratio[k],
                       "stick at s = %g", c.creep_ratio[k]);
         tally_check(&t, fitted ? "fitted" : "uniform");
-        rb_rolling_curve_free(&c);
-        rb_rolling_curve_free(&e);
     }
 }
 
@@ -384,7 +369,7 @@ TEST(every_result_stands_once)
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima maxima;
     int refused = 1;
     rc.contact_elements = 12;
@@ -397,10 +382,9 @@ TEST(every_failed_allocation_is_reported)
         if (refused && s == RB_OK)
             fail_msg("allocation %d failed unnoticed", count);
     }
-    rb_rolling_model_free(&model);
     refused = 1;
     for (int count = 0; refused; count++) {
-        rb_rolling_curve c, e;
+        OWNED(rb_rolling_curve) c, e;
         alloc_fail_after(count);
         const rb_status s = rb_rolling_curve_with_errors(
             &rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, NULL, NULL, &c, &e, NULL);
@@ -408,8 +392,6 @@ TEST(every_failed_allocation_is_reported)
         alloc_succeed();
         if (refused && s == RB_OK)
             fail_msg("allocation %d of a curve failed unnoticed", count);
-        rb_rolling_curve_free(&c);
-        rb_rolling_curve_free(&e);
     }
 }
 
@@ -483,7 +465,7 @@ TEST(no_result_knows_its_unit)
             const double length = units[u][0], stress = units[u][1];
             const rb_rolling_case rc = case_of_any_kind(k),
                                   other = in_units(rc, length, stress);
-            rb_rolling_solution s, t;
+            OWNED(rb_rolling_solution) s, t;
             rb_message why = {""};
             if (rb_rolling_solve(&rc, &s, &why) != RB_OK ||
                 rb_rolling_solve(&other, &t, &why) != RB_OK)
@@ -514,8 +496,6 @@ TEST(no_result_knows_its_unit)
                 CHECK_ABS(t.slip[i], s.slip[i], 1e-10, "%d: slip of %d", k, i);
                 assert_int_equal(t.zone[i], s.zone[i]);
             }
-            rb_rolling_solution_free(&s);
-            rb_rolling_solution_free(&t);
         }
 }
 

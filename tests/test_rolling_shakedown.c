@@ -61,14 +61,12 @@ static rb_rolling_case sliding(double mu)
 static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit,
                           double *p0, rb_message *why)
 {
-    rb_rolling_model model;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
     rb_status status = rb_rolling_solve_model(rc, &model, &s, why);
     *p0 = 2.0 * s.normal_load / (acos(-1.0) * s.hertz_half_width);
     if (status == RB_OK)
         status = rb_rolling_shakedown_find(&model, limit, why);
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
     return status;
 }
 

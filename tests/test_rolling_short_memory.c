@@ -57,9 +57,8 @@ static rb_rolling_case relaxing(rb_rolling_formulation formulation)
 static rb_status solve(void *context)
 {
     task *t = context;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     const rb_status status = rb_rolling_solve(&t->rc, &s, &t->why);
-    rb_rolling_solution_free(&s);
     return status;
 }
 
@@ -90,10 +89,9 @@ static rb_status curve_of_speeds(void *context)
 static rb_status history(void *context)
 {
     task *t = context;
-    rb_rolling_history h;
+    OWNED(rb_rolling_history) h;
     const rb_status s =
         rb_rolling_history_with_errors(&t->rc, NULL, NULL, &t->model, &h, &t->why);
-    rb_rolling_history_free(&h);
     rb_rolling_model_free(&t->model);
     return s;
 }
@@ -103,21 +101,18 @@ static rb_status history_in_time(void *context)
     static const double time[] = {0.0, 1e-3}, load[] = {300.0, 500.0};
     static const rb_rolling_program program = {.n = 2, .time = time, .load = load};
     task *t = context;
-    rb_rolling_history h;
+    OWNED(rb_rolling_history) h;
     const rb_status s =
         rb_rolling_history_run(&t->rc, &program, NULL, &t->model, &h, &t->why);
-    rb_rolling_history_free(&h);
     rb_rolling_model_free(&t->model);
     return s;
 }
 
 static rb_status wear_by(const rb_rolling_wear *wear, task *t)
 {
-    rb_rolling_wear_history h;
-    rb_rolling_solution last;
+    OWNED(rb_rolling_wear_history) h;
+    OWNED(rb_rolling_solution) last;
     const rb_status s = rb_rolling_wear_run(&t->rc, wear, NULL, &h, &last, &t->why);
-    rb_rolling_wear_history_free(&h);
-    rb_rolling_solution_free(&last);
     return s;
 }
 
@@ -153,9 +148,8 @@ static rb_status with_model(task *t, rb_status (*use)(task *t))
 
 static rb_status use_solutions(task *t)
 {
-    rb_rolling_solutions all;
+    OWNED(rb_rolling_solutions) all;
     const rb_status s = rb_rolling_find_solutions(&t->model, &all, &t->why);
-    rb_rolling_solutions_free(&all);
     return s;
 }
 
@@ -209,12 +203,11 @@ static rb_status again(void *context)
 static rb_status to_accuracy(void *context)
 {
     task *t = context;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors errors;
     int elements;
     const rb_status status =
         rb_rolling_solve_to_accuracy(&t->rc, 0.4, &s, &errors, &elements, &t->why);
-    rb_rolling_solution_free(&s);
     return status;
 }
 

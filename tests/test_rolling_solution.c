@@ -34,8 +34,8 @@ TEST(sums_are_those_of_the_tractions)
         rb_rolling_case rc = rolled_plane(k ? RB_STEADY : RB_STATIC);
         if (!k)
             rc.force_ratio = 0.5;
-        rb_rolling_model model = solved_model(&rc);
-        rb_rolling_solution s = solution_of(&model);
+        OWNED(rb_rolling_model) model = solved_model(&rc);
+        OWNED(rb_rolling_solution) s = solution_of(&model);
         double P = 0.0, Q = 0.0, M = 0.0;
         for (int i = 0; i < s.n; i++) {
             P += s.p[i] * s.h[i];
@@ -63,8 +63,6 @@ TEST(sums_are_those_of_the_tractions)
                         isnan(s.hysteresis) && isnan(s.dissipation));
             CHECK_REL(s.tangential_shift, model.state.xi, 1e-15, "the shift");
         }
-        rb_rolling_solution_free(&s);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -74,32 +72,29 @@ TEST(shift_and_creepage_at_rest)
 {
     rb_rolling_case rc = rolled_plane(RB_STATIC);
     rc.shift = 0.001;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int k = 0; k < 3; k++) {
         model.shift = 0.01 * k;
         case_of(&model)->creep = k == 1 ? 0.02 : NAN;
         case_of(&model)->creep_ratio = k == 2 ? 0.5 : NAN;
-        rb_rolling_solution s = solution_of(&model);
+        OWNED(rb_rolling_solution) s = solution_of(&model);
         CHECK_REL(s.tangential_shift, 0.001 + 0.01 * k, 1e-12, "shift %d", k);
         CHECK_ABS(s.creepage,
                   k == 0   ? 0.0
                   : k == 1 ? 0.02
                            : 0.5 * 0.3 * s.hertz_half_width / 50.0,
                   1e-15, "creepage %d", k);
-        rb_rolling_solution_free(&s);
     }
     model.problem.load_given = 0;
-    rb_rolling_solution s = solution_of(&model);
+    OWNED(rb_rolling_solution) s = solution_of(&model);
     assert_true(isnan(s.load_error));
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* Slip against the zone is counted, of each zone; as small as rounding it is none. */
 TEST(slip_that_pushes_is_a_violation)
 {
     const rb_rolling_case rc = rolled_plane(RB_STEADY);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     static const int zones[] = {RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
                                 RB_ZONE_SLIP_POSITIVE,  RB_ZONE_YIELD_NEGATIVE,
                                 RB_ZONE_YIELD_POSITIVE, RB_ZONE_SEPARATED};
@@ -116,11 +111,9 @@ TEST(slip_that_pushes_is_a_violation)
             model.state.lambda[5] = sign * 1e-6 * length;
             model.state.zone[7] = RB_ZONE_STICK;
             model.state.lambda[7] = 1e-11 * length;
-            rb_rolling_solution s = solution_of(&model);
+            OWNED(rb_rolling_solution) s = solution_of(&model);
             assert_int_equal(s.slip_violations, counts[k][sign + 1]);
-            rb_rolling_solution_free(&s);
         }
-    rb_rolling_model_free(&model);
 }
 
 /* Two thousand boundary elements have no dense matrix. */
@@ -130,12 +123,10 @@ TEST(many_boundary_elements_are_called_hierarchical)
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 1500;
     rc.contact_elements = 12;
-    rb_rolling_model model = solved_model(&rc);
-    rb_rolling_solution s = solution_of(&model);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    OWNED(rb_rolling_solution) s = solution_of(&model);
     assert_true(s.boundary_elements > 2000);
     assert_int_equal(s.hierarchical, 1);
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 /* Solved again with another load: as from the start, whatever the model held. */
@@ -143,7 +134,7 @@ TEST(a_model_solves_the_next_case_as_the_first)
 {
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = rolled_plane(RB_STEADY), next;
-        rb_rolling_model model = {0};
+        OWNED(rb_rolling_model) model = {0};
         rc.mesh = k == 1 || k == 4 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         next = rc;
         next.mesh = k == 2 ? RB_MESH_FITTED : k == 4 ? RB_MESH_UNIFORM : rc.mesh;
@@ -152,15 +143,13 @@ TEST(a_model_solves_the_next_case_as_the_first)
         if (k != 3)
             model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_model_reuse(&next, &model, NULL), RB_OK);
-        rb_rolling_model fresh = solved_model(&next);
+        OWNED(rb_rolling_model) fresh = solved_model(&next);
         assert_int_equal(model.state.n, fresh.state.n);
         for (int i = 0; i < fresh.state.n; i++) {
             CHECK_ABS(model.state.p[i], fresh.state.p[i], 0.0, "%d: p %d", k, i);
             CHECK_ABS(model.state.q[i], fresh.state.q[i], 0.0, "%d: q %d", k, i);
         }
         assert_int_equal(model.same_bodies, 0);
-        rb_rolling_model_free(&fresh);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -170,13 +159,12 @@ TEST(a_ratio_is_met_under_an_approach)
     rb_rolling_case rc = rolled_plane(RB_STEADY);
     rc.load = NAN;
     rc.approach = 0.05;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creep_ratio, 0.5, 1e-10, "xi R/(mu a)");
     CHECK_REL(s.creepage,
               0.5 * 0.3 * rb_rolling_hertz_half_width(&rc, s.normal_load) / 50.0, 1e-10,
               "of the load that was found");
     CHECK_ABS(s.approach, 0.05, 0.0, "the approach");
-    rb_rolling_solution_free(&s);
 }
 
 /* On elements between given places; where they do not hold the contact, that is said. */
@@ -208,9 +196,8 @@ TEST(few_elements_do_not_tell_the_edges)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = rolled_plane(RB_STEADY);
         rc.contact_elements = k ? 40 : 5;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         assert_int_equal(s.edges_bounded, !k);
-        rb_rolling_solution_free(&s);
     }
 }
 

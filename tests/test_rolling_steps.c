@@ -121,13 +121,12 @@ TEST(shifts_add_up)
         const rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model;
         rb_rolling_history h;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         run(&rc, &program, &model, &h);
         CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
         for (int i = 0; i < 3; i++)
             CHECK_REL(h.shift[i], shift[i], 1e-12, "kind %d, row %d", k, i + 1);
         CHECK_REL(s.tangential_shift, shift[2], 1e-12, "kind %d", k);
-        rb_rolling_solution_free(&s);
         release(&model, &h);
     }
 }
@@ -192,7 +191,7 @@ static double stick_under_a_flat_punch(int elements)
 {
     const rb_rolling_case rc = spence(elements);
     rb_rolling_mesh mesh;
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
 
     CHECK_STATUS(rb_rolling_model_begin(&rc, NULL, &model, NULL), RB_OK);
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.1, 0.1, &mesh, NULL), RB_OK);
@@ -206,7 +205,6 @@ static double stick_under_a_flat_punch(int elements)
     CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL),
                  RB_OK);
     const double part = stick_part(&model);
-    rb_rolling_model_free(&model);
     return part;
 }
 
@@ -241,7 +239,7 @@ TEST(increments_end_where_the_case_says)
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
             rb_rolling_case rc = kind_of_case(k);
-            rb_rolling_solution s;
+            OWNED(rb_rolling_solution) s;
             rc.increments = 4;
             rc.zone = 0.0;
             rc.shift = by_force ? NAN : 2e-3;
@@ -256,7 +254,6 @@ TEST(increments_end_where_the_case_says)
             else
                 CHECK_REL(s.tangential_shift, 2e-3, 1e-12, "kind %d: shift", k);
             assert_int_equal(s.formulation, RB_STATIC);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -275,7 +272,7 @@ static int count_steps(const rb_rolling_model *model, const rb_rolling_history *
 TEST(similar_bodies_press_at_once)
 {
     rb_rolling_case rc = spence(40);
-    rb_rolling_solution one, many;
+    OWNED(rb_rolling_solution) one, many;
     rb_rolling_model model;
     rb_rolling_history h;
     int at_rest = 0;
@@ -289,8 +286,6 @@ TEST(similar_bodies_press_at_once)
     solve(&rc, &many);
     for (int i = 0; i < one.n; i++)
         CHECK_ABS(many.q[i], one.q[i], 1e-9 * one.max_pressure, "q, element %d", i);
-    rb_rolling_solution_free(&one);
-    rb_rolling_solution_free(&many);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 0.5;
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
@@ -367,14 +362,13 @@ TEST(ratios_refer_to_the_load_of_the_step)
         rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model;
         rb_rolling_history h;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rc.formulation = RB_TRANSIENT;
         rc.creep_ratio = 0.4;
         rc.distance = 0.3;
         run(&rc, NULL, &model, &h);
         CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
         CHECK_REL(s.creep_ratio, 0.4, 1e-9, "kind %d", k);
-        rb_rolling_solution_free(&s);
         release(&model, &h);
     }
 }
@@ -387,7 +381,7 @@ TEST(columns_are_those_of_the_solution)
         rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model;
         rb_rolling_history h;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         double moment = 0.0;
         rc.formulation = RB_TRANSIENT;
         rc.creep = 2e-3;
@@ -404,7 +398,6 @@ TEST(columns_are_those_of_the_solution)
         CHECK_REL(h.dissipation[last], s.dissipation, 1e-12, "kind %d: power", k);
         assert_true(h.dissipation[0] == 0.0 && h.creepage[0] == 0.0);
         release(&model, &h);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -474,11 +467,10 @@ TEST(nothing_passes_unnoticed)
             CHECK_ABS(h[1].tangential_load[i], h[0].tangential_load[i],
                       1e-9 * h[0].normal_load[i], "kind %d, step %d", k, i);
         if (k == 2) {
-            rb_rolling_solution steady;
+            OWNED(rb_rolling_solution) steady;
             rc.formulation = RB_STEADY;
             solve(&rc, &steady);
             CHECK_REL(h[1].force_ratio[h[1].n - 1], steady.force_ratio, 3e-3, "steady");
-            rb_rolling_solution_free(&steady);
         }
         release(&model[0], &h[0]);
         release(&model[1], &h[1]);

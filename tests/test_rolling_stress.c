@@ -47,7 +47,7 @@ static void check_parts(const rb_rolling_stress *s, double nu)
 TEST(the_axis_has_its_closed_form)
 {
     const rb_rolling_case rc = hertz(200);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const double p0 = rb_rolling_derive(&rc).stress;
     for (int k = 1; k <= 8; k++) {
         const double y = 0.25 * k, root = sqrt(1.0 + y * y);
@@ -60,7 +60,6 @@ TEST(the_axis_has_its_closed_form)
         const rb_rolling_stress off = at(&model, 0.3 * k, y);
         check_parts(&off, 0.3);
     }
-    rb_rolling_model_free(&model);
 }
 
 /* Flamant's point load from far away: srr = -2 P cos(angle)/(pi r), on either side of the
@@ -68,7 +67,7 @@ TEST(the_axis_has_its_closed_form)
 TEST(far_away_it_is_a_point_load)
 {
     const rb_rolling_case rc = hertz(60);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const double P = rb_rolling_derive(&rc).load;
     const double width = model.mesh.ends[60] - model.mesh.ends[0];
     for (double far = 15.0; far < 1e7; far *= far < 100.0 ? 1.3 : 30.0) {
@@ -89,7 +88,6 @@ TEST(far_away_it_is_a_point_load)
         CHECK_ABS(all[k].syy, s.syy, 0.0, "syy of point %d", k);
         CHECK_ABS(all[k].sxy, s.sxy, 0.0, "sxy of point %d", k);
     }
-    rb_rolling_model_free(&model);
 }
 
 TEST(places_outside_are_named)
@@ -98,7 +96,7 @@ TEST(places_outside_are_named)
     rb_rolling_stress s[3];
     rb_message why = {""};
     const rb_rolling_case rc = hertz(20);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     int inside[3];
     CHECK_STATUS(rb_rolling_stress_at(&model, 0, xy, s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "0 points"));
@@ -108,7 +106,6 @@ TEST(places_outside_are_named)
     CHECK_STATUS(rb_rolling_inside(&model, 3, xy, inside), RB_OK);
     assert_true(inside[0] && inside[1] && !inside[2]);
     CHECK_ABS(rb_rolling_surface(&rc, 0.4), 0.0, 0.0, "flat");
-    rb_rolling_model_free(&model);
 }
 
 /* p0: 0.300 at 0.786 a; Mises of nu = 0.3: 0.558 at 0.704 a; sxy: 1/4 at 0.866 a, a/2; no
@@ -116,7 +113,7 @@ TEST(places_outside_are_named)
 TEST(maxima_are_hertzs)
 {
     const rb_rolling_case rc = hertz(100);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_rolling_stress_maxima m;
     const double p0 = rb_rolling_derive(&rc).stress;
     CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
@@ -135,7 +132,6 @@ TEST(maxima_are_hertzs)
     CHECK_ABS(m.max_shear.y, 0.3, 1e-6, "the deepest place that is looked at");
     CHECK_ABS(m.von_mises.y, 0.3, 1e-6, "the deepest place that is looked at");
     assert_true(m.orthogonal_shear.y <= 0.3 + 1e-12);
-    rb_rolling_model_free(&model);
 }
 
 /* Stuck under large friction, elements graded: sxx has a sharp peak behind each edge. */
@@ -156,7 +152,7 @@ static rb_rolling_case stuck(void)
 TEST(the_highest_of_several_peaks_is_found)
 {
     const rb_rolling_case rc = stuck();
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_rolling_stress_maxima m, again;
     double tension = 0.0, mises = 0.0;
     CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
@@ -176,7 +172,6 @@ TEST(the_highest_of_several_peaks_is_found)
     CHECK_REL(again.max_shear.value, m.max_shear.value, 1e-12, "at its own place");
     again.orthogonal_shear.y = -0.1;
     CHECK_STATUS(rb_rolling_stress_maxima_at(&model, &again, NULL), RB_EINVAL);
-    rb_rolling_model_free(&model);
 }
 
 /* At the ends of a wheel's elements, which are its corners, as next to them. */
@@ -189,7 +184,7 @@ TEST(ends_of_elements_are_not_seen)
     rc.mu = 0.3;
     rc.formulation = RB_STEADY;
     rc.creep = 2e-3;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
     const double p0 = rb_rolling_derive(&rc).stress;
     for (int c = 1; c < mesh->contact_n; c++) {
@@ -202,14 +197,13 @@ TEST(ends_of_elements_are_not_seen)
             CHECK_ABS(there, next, 5e-3 * p0, "end %d", c);
         }
     }
-    rb_rolling_model_free(&model);
 }
 
 /* A half-width beyond either edge, evenly down to 2.5 half-widths. */
 TEST(a_grid_lies_under_the_contact)
 {
     const rb_rolling_case rc = hertz(60);
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_rolling_stress_grid grid;
     double from, to;
     rb_message why = {""};
@@ -243,7 +237,6 @@ TEST(a_grid_lies_under_the_contact)
     CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, &why), RB_NO_CONTACT);
     CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_NO_CONTACT);
     assert_non_null(strstr(why.text, "no contact, no stress"));
-    rb_rolling_model_free(&model);
 }
 
 /* The wheel is a polygon: between it and its circle there is stress, outside the circle
@@ -253,7 +246,7 @@ TEST(a_wheel_has_stress_up_to_its_circle)
     rb_rolling_case rc = hertz(16);
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
     rb_rolling_stress s;
     rb_message why;
@@ -283,7 +276,6 @@ TEST(a_wheel_has_stress_up_to_its_circle)
     assert_int_equal(inside, 0);
     CHECK_STATUS(rb_rolling_inside(&model, 1, deep, &inside), RB_OK);
     assert_int_equal(inside, 1);
-    rb_rolling_model_free(&model);
 }
 
 /* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
@@ -294,8 +286,8 @@ TEST(a_wide_grid_stays_on_the_lower_half)
     rc.outer_elements = 40;
     rc.half_width = 25.0;
     rc.gap = RB_GAP_EXACT;
-    rb_rolling_model model = solved_model(&rc);
-    rb_rolling_stress_grid grid;
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    OWNED(rb_rolling_stress_grid) grid;
     int outside = 0;
     CHECK_STATUS(rb_rolling_stress_on_grid(&model, 9, 7, 60.0, &grid, NULL), RB_OK);
     for (int k = 0; k < 63; k++) {
@@ -306,8 +298,6 @@ TEST(a_wide_grid_stays_on_the_lower_half)
         assert_true(isfinite(grid.at[k].y));
     }
     assert_in_range(outside, 5, 40);
-    rb_rolling_stress_grid_free(&grid);
-    rb_rolling_model_free(&model);
 }
 
 /* ---- Shakedown --------------------------------------------------------------------- */
@@ -358,7 +348,7 @@ TEST(a_rigid_base_has_no_stress)
     rb_rolling_shakedown limit;
     rc.a.layer = 0.4 * rc.half_width;
     const double xy[] = {0.0, 1.01 * rc.a.layer};
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_stress_at(&model, 1, xy, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "lies outside the body"));
     CHECK_STATUS(rb_rolling_stress_on_grid(&model, 3, 3, 0.0, &grid, &why), RB_OK);
@@ -375,7 +365,6 @@ TEST(a_rigid_base_has_no_stress)
     CHECK_MAX(m.max_shear.y, rc.a.layer, "the largest shear lies in the layer");
     CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "shakedown: of one material"));
-    rb_rolling_model_free(&model);
 }
 
 TEST(a_cover_that_relaxes_on_an_elastic_core_is_refused)

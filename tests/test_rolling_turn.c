@@ -80,7 +80,7 @@ TEST(the_kernel_is_the_sum_of_its_waves)
                                     .hub = kind == 2 ? 4.0 : 0.0,
                                     .core = {5.0, 0.25}};
             double ends[N + 2], before[4 * M * N], after[4 * M * N], worst = 0.0;
-            rb_bem_flexibility f;
+            OWNED(rb_bem_flexibility) f;
             const rb_bem_surface any = rb_bem_halfplane(w.material, 1.0);
             for (int i = 0; i < N + 2; i++)
                 ends[i] = w.radius * sin(0.05 * i * (1.0 + 0.1 * i) - 0.2);
@@ -109,7 +109,6 @@ TEST(the_kernel_is_the_sum_of_its_waves)
                 }
             CHECK_MAX(worst, 3e-6, "kind %d, lengths %g and %g", kind, lengths[l][0],
                       lengths[l][1]);
-            rb_bem_flexibility_free(&f);
         }
     free(memory);
 }
@@ -125,7 +124,7 @@ TEST(bad_wheels_are_refused)
                                   {1.0, 0.5, steel, 1, ratio, none, 0.0, steel}};
     static const double ends[4] = {-0.1, 0.0, 0.1, 0.2};
     for (size_t k = 0; k < sizeof wheel / sizeof *wheel; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         rb_message why = {""};
         const rb_bem_surface any = rb_bem_halfplane(steel, 1.0);
         CHECK_STATUS(rb_bem_flexibility_surface(2, ends, &any, &f, NULL), RB_OK);
@@ -133,7 +132,6 @@ TEST(bad_wheels_are_refused)
                                                    ends, &f, &why),
                      RB_EINVAL);
         assert_true(strlen(why.text) > 0);
-        rb_bem_flexibility_free(&f);
     }
 }
 
@@ -149,7 +147,7 @@ TEST(memory_is_added_to_any_flexibility)
     for (int i = 0; i < n + 2; i++)
         ends[i] = sin(0.05 * (i - n / 2));
     for (int k = 0; k < 2; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         const rb_bem_surface plane = rb_bem_halfplane(steel, 1.0);
         if (k == 0)
             CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){1.0, steel},
@@ -164,7 +162,6 @@ TEST(memory_is_added_to_any_flexibility)
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[k], 2 * m), RB_OK);
         for (int i = 0; i < 2 * m * 2 * n; i++)
             F[k][i] -= F[2][i];
-        rb_bem_flexibility_free(&f);
     }
     const double size = rb_norm_inf(2 * m * 2 * n, F[1]);
     assert_true(size > 0.0);
@@ -198,12 +195,11 @@ static rb_rolling_case wheel(int n)
 /* M/(P a), p0 a/P and xi R/a of the case. */
 static void figures(const rb_rolling_case *rc, double value[3])
 {
-    rb_rolling_solution s = solved(rc);
+    OWNED(rb_rolling_solution) s = solved(rc);
     assert_true(s.residual < 1e-9);
     value[0] = s.resistance_moment / s.normal_load;
     value[1] = s.max_pressure / s.normal_load;
     value[2] = s.creepage * rc->a.radius;
-    rb_rolling_solution_free(&s);
 }
 
 /* The nip is 2 mm wide and the wheels grow: deviations from the half-plane fall like 1/R.
@@ -363,7 +359,7 @@ TEST(the_energy_balances)
             rc.b.memory.n = k % 2;
             rc.b.radius = 80.0;
         }
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double R = 1.0 / (1.0 / rc.a.radius + 1.0 / rc.b.radius);
         double M = 0.0;
         for (int i = 0; i < s.n; i++)
@@ -379,7 +375,6 @@ TEST(the_energy_balances)
         if (rc.free_axle)
             CHECK_ABS(s.tangential_load, -M / rc.a.radius, 1e-9 * s.normal_load,
                       "Q = -M/R_A");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -391,7 +386,7 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
     double fed = 0.0;
     rc.half_width = a;
     rc.a.memory.time[0] = a / rc.speed;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     if (rc.normals == RB_BEM_NORMALS_OBSTACLE)
         fed = s.resistance_moment / R - s.creepage * s.tangential_load + levers(&s, R);
     for (int i = 1; i + 1 < s.n && rc.normals == RB_BEM_NORMALS_SURFACE; i++)
@@ -399,7 +394,6 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
                s.creepage * s.q[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]);
     const double lost = s.dissipation + s.hysteresis;
     *per_radius = s.half_width / R;
-    rb_rolling_solution_free(&s);
     return fabs(fed - lost) / lost;
 }
 
@@ -442,7 +436,7 @@ TEST(surface_normals_feed_by_their_own_tractions)
         rc.half_width = 4.0;
         rc.force = NAN;
         rc.creep_ratio = -0.4;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double R = rc.a.radius, xi = s.creepage;
         double fed = 0.0, load = 0.0, turned = 0.0;
         for (int i = 1; i + 1 < s.n; i++) {
@@ -462,7 +456,6 @@ TEST(surface_normals_feed_by_their_own_tractions)
         CHECK_ABS(forces - fed - load, turned, (k ? 5e-4 : 2e-3) * load,
                   "missed by forces");
         CHECK_MAX(0.05 * load, fabs(turned), "which is no small part");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -495,7 +488,7 @@ TEST(either_body_may_relax)
  */
 TEST(resistance_has_a_maximum_over_the_speed)
 {
-    rb_rolling_curve c;
+    OWNED(rb_rolling_curve) c;
     rb_message why = {""};
     rb_rolling_case rc = wheel(24);
     double value[3];
@@ -513,7 +506,6 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rc.speed = c.speed[2];
     figures(&rc, value);
     CHECK_REL(c.resistance_moment[2] / c.normal_load[2], value[0], 1e-6, "point");
-    rb_rolling_curve_free(&c);
 }
 
 TEST(what_does_not_turn_is_refused)

@@ -343,14 +343,12 @@ TEST(shares_lie_between_0_and_1)
     static const double shares[] = {-0.1, 1.1, NAN};
     const rb_rolling_case rc = cylinder(60, 3.0);
     for (int k = 0; k < 3; k++) {
-        rb_rolling_wear_history h;
-        rb_rolling_solution last;
+        OWNED(rb_rolling_wear_history) h;
+        OWNED(rb_rolling_solution) last;
         rb_message why = {""};
         const rb_rolling_wear wear = shared(sliding(&rc, 0.1, 1), shares[k]);
         CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "wear share: expected 0 ... 1"));
-        rb_rolling_wear_history_free(&h);
-        rb_rolling_solution_free(&last);
     }
 }
 

@@ -64,12 +64,10 @@ static distance between(const rb_rolling_case *rc, const rb_rolling_solution *s,
 static distance from_halfplane(rb_rolling_case rc)
 {
     rc.zone = 1.3 * rc.half_width;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     rc.a.support = RB_BEM_HALFPLANE;
-    rb_rolling_solution want = valid(&rc);
+    OWNED(rb_rolling_solution) want = valid(&rc);
     const distance d = between(&rc, &s, &want);
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&want);
     return d;
 }
 
@@ -128,12 +126,11 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
     rc.mu = 10.0;
     rc.creep_ratio = NAN;
     rc.force = 0.0;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     const double modulus = rb_rolling_derive(&rc).modulus, R = rb_rolling_radius(&rc);
     const rb_closed_bentall_johnson want = rb_closed_bentall_johnson_stick(
         rb_rolling_derive(&rc).dundurs, rc.half_width, R, modulus);
     const double error = fabs(s.creepage + want.creepage) / want.creepage;
-    rb_rolling_solution_free(&s);
     return error;
 }
 
@@ -163,13 +160,12 @@ TEST(the_exact_near_field_spares_the_small_elements)
 /* delta = P (1 - nu^2)/(pi E) [2 ln(4R/a) - 1 + k]: k belongs to the support alone. */
 static double support_constant(const rb_rolling_case *rc)
 {
-    rb_rolling_solution s = valid(rc);
+    OWNED(rb_rolling_solution) s = valid(rc);
     const double modulus = rb_rolling_derive(rc).modulus;
     const double k =
         (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
                                                        modulus, rc->half_width)) *
         M_PI * modulus / s.normal_load;
-    rb_rolling_solution_free(&s);
     return k;
 }
 
@@ -195,7 +191,7 @@ TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
         rb_rolling_case rc = wheel(wheels[k], 1e-8);
         rc.mesh = RB_MESH_FITTED;
         rc.contact_elements = 50;
-        rb_rolling_solution s = valid(&rc);
+        OWNED(rb_rolling_solution) s = valid(&rc);
         CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 3e-4, "Carter, %s",
                   name_of(wheels[k]));
         CHECK_REL(s.max_pressure,
@@ -204,7 +200,6 @@ TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
         CHECK_REL(s.half_width, rc.half_width, 1e-3, "half-width, %s",
                   name_of(wheels[k]));
         CHECK_MAX(s.load_error, 1e-10, "load, %s", name_of(wheels[k]));
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -212,11 +207,10 @@ static double creepage_of_force(rb_rolling_case rc, double ratio, double *approa
 {
     rc.creep_ratio = NAN;
     rc.force_ratio = ratio;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     const double creepage = s.creepage;
     CHECK_ABS(s.force_ratio, ratio, 1e-10, "given force");
     *approach = s.approach;
-    rb_rolling_solution_free(&s);
     return creepage;
 }
 
@@ -246,9 +240,8 @@ TEST(the_two_signs_mirror_up_to_delta_over_R)
 
 static double free_creepage(rb_rolling_case rc)
 {
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     const double creepage = s.free_creepage;
-    rb_rolling_solution_free(&s);
     return creepage;
 }
 
@@ -268,7 +261,7 @@ TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-3);
-        rb_rolling_solution flat, round;
+        OWNED(rb_rolling_solution) flat, round;
         rc.contact_elements = 100;
         rc.mu = 0.4;
         flat = valid(&rc);
@@ -278,8 +271,6 @@ TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
                   0.25, "%s", name_of(wheels[k]));
         CHECK_ABS(-flat.force_ratio, 0.644, 3e-3, "obstacle, %s", name_of(wheels[k]));
         CHECK_ABS(-round.force_ratio, 0.630, 3e-3, "surface, %s", name_of(wheels[k]));
-        rb_rolling_solution_free(&flat);
-        rb_rolling_solution_free(&round);
     }
 }
 
@@ -288,7 +279,7 @@ TEST(normals_of_the_surface_share_the_forces)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.1);
     rc.normals = RB_BEM_NORMALS_SURFACE;
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     double p = 0.0;
     for (int i = 0; i < s.n; i++)
         p += s.p[i] * s.h[i];
@@ -296,16 +287,14 @@ TEST(normals_of_the_surface_share_the_forces)
     assert_int_equal(s.patches, 1);
     CHECK_REL(s.patch[0].normal_load, s.normal_load, 1e-12, "P of the one patch");
     CHECK_REL(s.patch[0].tangential_load, s.tangential_load, 1e-12, "its Q");
-    rb_rolling_solution_free(&s);
 }
 
 static double support_balance(rb_rolling_case rc, int outer, int fine)
 {
     rc.contact_elements = 30 * fine;
     rc.outer_elements = outer * fine;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     const double balance = fabs(s.support_balance);
-    rb_rolling_solution_free(&s);
     return balance;
 }
 
@@ -357,7 +346,7 @@ TEST(the_case_of_addi)
         rc.mu = want[k].mu;
         rc.normals = want[k].normals;
         rc.contact_elements = 120;
-        rb_rolling_solution s = valid(&rc);
+        OWNED(rb_rolling_solution) s = valid(&rc);
         const double R = rc.a.radius, element = 1.5 * s.h[0] / R;
         CHECK_ABS(s.contact_from / R, want[k].contact_from, element, "case %zu", k);
         CHECK_ABS(s.contact_to / R, want[k].contact_to, element, "case %zu", k);
@@ -368,7 +357,6 @@ TEST(the_case_of_addi)
             CHECK_ABS(s.stick_from / R, want[k].stick_from, element, "case %zu", k);
             CHECK_ABS(s.stick_to / R, want[k].stick_to, element, "case %zu", k);
         }
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -391,14 +379,13 @@ TEST(a_symmetric_case_has_a_symmetric_answer)
         }
         rc.approach = k & 8 ? 0.02 : 5.0;
         rc.shift = 0.0;
-        rb_rolling_solution s = valid(&rc);
+        OWNED(rb_rolling_solution) s = valid(&rc);
         const double bound = 1e-9 * s.max_pressure;
         for (int i = 0, j = s.n - 1; i < s.n; i++, j--) {
             CHECK_ABS(s.p[i], s.p[j], bound, "case %d: p of %d and %d", k, i, j);
             CHECK_ABS(s.q[i], -s.q[j], bound, "case %d: q of %d and %d", k, i, j);
             assert_int_equal(s.zone[i], mirrored[s.zone[j]]);
         }
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -427,16 +414,14 @@ TEST(an_incompressible_wheel_on_a_hub)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.01);
     rc.zone = 1.3 * rc.half_width;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     rc.a.poisson = 0.5 - 1e-7;
-    rb_rolling_solution limit = valid(&rc);
+    OWNED(rb_rolling_solution) limit = valid(&rc);
     const distance d = between(&rc, &s, &limit);
     CHECK_MAX(d.p, 1e-6, "p");
     CHECK_MAX(d.q, 1e-5, "q");
     CHECK_REL(s.approach, limit.approach, 1e-6, "approach");
     CHECK_MAX(fabs(s.support_balance), 1e-3, "support");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&limit);
 }
 
 TEST(every_failed_allocation_is_reported)
@@ -447,7 +432,7 @@ TEST(every_failed_allocation_is_reported)
     rc.zone = 1.5 * rc.half_width;
     int refused = 1;
     for (int count = 0; refused; count++) {
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         alloc_fail_after(count);
         const rb_status status = rb_rolling_solve(&rc, &s, NULL);
         refused = alloc_failed();
@@ -456,7 +441,6 @@ TEST(every_failed_allocation_is_reported)
             fail_msg("allocation %d failed unnoticed", count);
         if (!refused)
             CHECK_STATUS(status, RB_OK);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -465,8 +449,8 @@ TEST(every_failed_allocation_is_reported)
 TEST(many_outer_elements_fit_their_own_contact)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.02);
-    rb_rolling_model model;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
     rc.a.poisson = 0.28;
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 40;
@@ -478,8 +462,6 @@ TEST(many_outer_elements_fit_their_own_contact)
     assert_int_equal(model.rc->outer_elements, 610);
     CHECK_ABS(s.contact_from, ends[0], 0.5 * h, "left edge");
     CHECK_ABS(s.contact_to, ends[rc.contact_elements], 0.5 * h, "right edge");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -106,7 +106,7 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
 {
     const rb_rolling_elements at = {last->n, last->x, last->h, 1};
     rb_rolling_case worn = *rc;
-    rb_rolling_model model = {0};
+    OWNED(rb_rolling_model) model = {0};
     rb_contact_violation violation;
     worn.worn = (rb_rolling_table){last->n, last->x, last->worn};
     worn.force_ratio = -1.0;
@@ -118,7 +118,6 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
     model.state.delta = last->approach;
     model.state.xi = last->creepage;
     CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &violation), RB_OK);
-    rb_rolling_model_free(&model);
     return violation.gap / last->approach;
 }
 

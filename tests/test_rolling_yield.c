@@ -67,13 +67,12 @@ TEST(contact_program_is_met)
             rc.contact_elements = carter_plast[k].n;
             rc.zone = 0.5 * carter_plast[k].n * carter_plast[k].h;
             rc.contact.solver = by[j];
-            rb_rolling_solution s = valid(&rc);
+            OWNED(rb_rolling_solution) s = valid(&rc);
             CHECK_ABS(s.force_ratio, carter_plast[k].ratio, 1e-4, "case %zu", k + 1);
             assert_int_equal(s.solver, by[j]);
             assert_int_equal(s.stick, carter_plast[k].stick);
             assert_int_equal(s.slipping - s.yielding, carter_plast[k].slip);
             assert_int_equal(s.yielding, carter_plast[k].yield);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -98,9 +97,9 @@ TEST(rolling_from_a_shift_is_met)
     } want[] = {{0.6, 14, 8, 4},    {0.6051, 17, 4, 5}, {0.6100, 16, 4, 6},
                 {0.6146, 14, 4, 8}, {0.6189, 13, 4, 9}, {0.6230, 12, 4, 10}};
     rb_rolling_case rc = plastic_example(123000.0);
-    rb_rolling_mesh mesh;
-    rb_rolling_bodies bodies;
-    rb_contact_state x;
+    OWNED(rb_rolling_mesh) mesh;
+    OWNED(rb_rolling_bodies) bodies;
+    OWNED(rb_contact_state) x;
     rb_message why = {""};
     enum { N = 30 };
     double r[2 * N], w[2 * (N + 1)], w_T[N], yielded[N + 1] = {0}, own[N];
@@ -111,7 +110,7 @@ TEST(rolling_from_a_shift_is_met)
     CHECK_STATUS(rb_contact_state_alloc(N, &x), RB_OK);
     for (int step = 0; step < 6; step++) {
         const rb_rolling_past past = {w_T, yielded, 0.08};
-        rb_contact_problem p;
+        OWNED(rb_contact_problem) p;
         int stick, slip, yield;
         rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
         rc.creep = step ? -0.0004 : NAN;
@@ -135,11 +134,7 @@ TEST(rolling_from_a_shift_is_met)
         rb_contact_yielded(&p, x.plastic, own);
         for (int i = 0; i < N; i++)
             yielded[i] = i + 1 < N ? yielded[i + 1] + own[i + 1] : 0.0;
-        rb_contact_problem_free(&p);
     }
-    rb_contact_state_free(&x);
-    rb_rolling_bodies_free(&bodies);
-    rb_rolling_mesh_free(&mesh);
 }
 
 /* Rigid bodies between which the layer alone gives way: from the leading edge q grows by
@@ -184,13 +179,12 @@ TEST(brushes_converge_to_second_order)
             rc.mesh = RB_MESH_ALIGNED;
             rc.slip_operator = RB_SLIP_SECOND;
             rc.contact_elements = n[j];
-            rb_rolling_solution s = valid(&rc);
+            OWNED(rb_rolling_solution) s = valid(&rc);
             assert_true(s.stick > 0 && s.yielding > 0 && s.slipping > s.yielding);
             const double want = brush_force(&rc, s.half_width);
             error[j] = fabs(-s.tangential_load - want) / (rc.mu * rc.load);
             CHECK_MAX(error[j], 1.3e-3 * gsl_pow_2(50.0 / n[j]), "k = %g, n = %d",
                       hardening[k], n[j]);
-            rb_rolling_solution_free(&s);
         }
     }
 }
@@ -318,10 +312,10 @@ TEST(large_yield_stress_is_elastic)
         rc.shift = k == 0 ? 1e-3 : NAN;
         rc.creep = k == 0 ? NAN : rc.creep;
         rc.distance = k == 2 ? 1.0 : 0.0;
-        rb_rolling_solution elastic = valid(&rc);
+        OWNED(rb_rolling_solution) elastic = valid(&rc);
         rc.yield_stress = 1e4;
         rc.hardening = 1e5;
-        rb_rolling_solution layer = valid(&rc);
+        OWNED(rb_rolling_solution) layer = valid(&rc);
         assert_int_equal(layer.yielding, 0);
         for (int i = 0; i < elastic.n; i++) {
             CHECK_ABS(layer.q[i], elastic.q[i],
@@ -329,8 +323,6 @@ TEST(large_yield_stress_is_elastic)
                       "formulation %d, q of element %d", k, i);
             assert_true(layer.plastic[i] == 0.0);
         }
-        rb_rolling_solution_free(&layer);
-        rb_rolling_solution_free(&elastic);
     }
 }
 
@@ -343,11 +335,10 @@ TEST(small_yield_stress_is_a_bound)
     rc.contact_elements = 60;
     rc.creep = -0.01;
     rc.yield_stress = 0.5;
-    rb_rolling_solution s = valid(&rc);
+    OWNED(rb_rolling_solution) s = valid(&rc);
     for (int i = 0; i < s.n; i++)
         CHECK_ABS(s.q[i], fmin(rc.mu * s.p[i], rc.yield_stress), 1e-9, "element %d", i);
     CHECK_REL(s.tangential_load, 2.0 * s.half_width * rc.yield_stress, 1e-3, "Q");
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Histories --------------------------------------------------------------------- */
@@ -370,7 +361,7 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
         c->n = p->n;
         c->before = calloc((size_t)p->n, sizeof *c->before);
     }
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why;
     CHECK_STATUS(rb_rolling_model_solution(m, &s, &why), RB_OK);
     for (int i = 0; i < p->n; i++) {
@@ -388,7 +379,6 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
         c->before[i] = s.plastic[i];
     }
     c->steps++;
-    rb_rolling_solution_free(&s);
     return 0;
 }
 
@@ -398,8 +388,8 @@ TEST(shift_to_and_fro_hardens)
     static const double shift[] = {1e-3, 2e-3, 3e-3, 1e-3, -1e-3, -3e-3, 0.0, 3e-3};
     rb_rolling_case rc = plastic_example(5000.0);
     rb_rolling_program program = {.n = 8, .shift = shift};
-    rb_rolling_model model;
-    rb_rolling_history history;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) history;
     rb_message why = {""};
     seen c = {0};
 
@@ -412,8 +402,6 @@ TEST(shift_to_and_fro_hardens)
                  RB_OK);
     assert_int_equal(c.steps, 8);
     assert_true(c.yields > 40);
-    rb_rolling_history_free(&history);
-    rb_rolling_model_free(&model);
     free(c.before);
 }
 
@@ -425,10 +413,10 @@ TEST(a_transient_becomes_steady)
     rc.zone = 1.25;
     rc.creep = NAN;
     rc.force_ratio = 0.6;
-    rb_rolling_solution steady = valid(&rc);
+    OWNED(rb_rolling_solution) steady = valid(&rc);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 5.0;
-    rb_rolling_solution end = valid(&rc);
+    OWNED(rb_rolling_solution) end = valid(&rc);
     CHECK_REL(end.creepage, steady.creepage, 5e-3, "xi");
     assert_true(abs(end.yielding - steady.yielding) <= 1);
     double most = 0.0, most_steady = 0.0;
@@ -437,8 +425,6 @@ TEST(a_transient_becomes_steady)
     for (int i = 0; i < steady.n; i++)
         most_steady = fmax(most_steady, steady.plastic[i]);
     CHECK_REL(most, most_steady, 5e-2, "the most that has yielded");
-    rb_rolling_solution_free(&end);
-    rb_rolling_solution_free(&steady);
 }
 
 /* ---- A given force, and what is refused -------------------------------------------- */
@@ -454,25 +440,22 @@ TEST(forces_find_their_creepage)
             rc.zone = 1.25;
             rc.creep = NAN;
             rc.force_ratio = j ? 0.5 : 0.2;
-            rb_rolling_solution s = valid(&rc);
+            OWNED(rb_rolling_solution) s = valid(&rc);
             CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "k = %g", hardening[k]);
             rc.creep = s.creepage;
             rc.force_ratio = NAN;
-            rb_rolling_solution again = valid(&rc);
+            OWNED(rb_rolling_solution) again = valid(&rc);
             CHECK_ABS(again.force_ratio, s.force_ratio, 1e-10, "k = %g", hardening[k]);
-            rb_rolling_solution_free(&again);
-            rb_rolling_solution_free(&s);
         }
 }
 
 static void refused(rb_rolling_case rc, const char *words)
 {
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     if (!strstr(why.text, words))
         fail_msg("'%s' does not say '%s'", why.text, words);
-    rb_rolling_solution_free(&s);
 }
 
 TEST(bad_layers_are_refused)

@@ -57,7 +57,7 @@ TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
             rc.half_width = 2.0;
             rc.creep_ratio = 4.0;
             rc.contact.solver = RB_SOLVER_NEWTON;
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             check_ends(&s, "sliding");
             assert_int_equal(s.stick, 0);
             if (n == 400) {
@@ -67,7 +67,6 @@ TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
             CHECK_ABS(s.contact_from, edge[0], 0.2 * s.h[n / 2], "left, case %d, %d", k,
                       n);
             CHECK_ABS(s.contact_to, edge[1], s.h[n / 2], "right, case %d, %d", k, n);
-            rb_rolling_solution_free(&s);
         }
     }
 }
@@ -87,11 +86,10 @@ TEST(few_elements_see_the_contact)
             else
                 rc.half_width = 1.0;
             const double a = rb_rolling_derive(&rc).half_width;
-            rb_rolling_solution s = solved(&rc);
+            OWNED(rb_rolling_solution) s = solved(&rc);
             check_ends(&s, "few elements");
             CHECK_ABS(s.half_width, a, 1.01 * s.h[0], "%d elements, case %d", n, k);
             CHECK_MAX(s.x[s.n - 1], 3.0 * a, "%d elements, case %d: zone", n, k);
-            rb_rolling_solution_free(&s);
         }
 }
 
@@ -121,7 +119,7 @@ TEST(fitted_elements_hold_the_contact)
         rc.mesh = RB_MESH_FITTED;
         rc.load = cases[k].load;
         rc.creep_ratio = cases[k].creep_ratio;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "fitted");
         assert_int_equal(s.equal_instead, 0);
         CHECK_REL(sum(s.n, s.p, s.h), rc.load, 1e-9, "load, case %zu", k);
@@ -137,7 +135,6 @@ TEST(fitted_elements_hold_the_contact)
         }
         CHECK_REL(s.max_pressure, p0, 1e-3, "p0, case %zu", k);
         CHECK_ABS(s.force_ratio, force_ratio, 2e-3, "Q, case %zu", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -155,7 +152,7 @@ TEST(fitted_and_equal_elements_agree)
         rb_rolling_case fine = rc;
         rc.mesh = RB_MESH_FITTED;
         fine.contact_elements = 600;
-        rb_rolling_solution s = solved(&rc), f = solved(&fine);
+        OWNED(rb_rolling_solution) s = solved(&rc), f = solved(&fine);
         check_ends(&s, "fitted");
         check_ends(&f, "equal");
         CHECK_REL(s.approach, f.approach, 1e-3, "approach, case %d", k);
@@ -163,8 +160,6 @@ TEST(fitted_and_equal_elements_agree)
         CHECK_ABS(s.force_ratio, f.force_ratio, 1e-2, "Q, case %d", k);
         CHECK_ABS(s.contact_from, f.contact_from, 1e-2 * s.half_width, "left, %d", k);
         CHECK_ABS(s.contact_to, f.contact_to, 1e-2 * s.half_width, "right, %d", k);
-        rb_rolling_solution_free(&f);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -187,15 +182,13 @@ TEST(exchanged_bodies_have_the_same_pressure)
         swapped.a = rc.b;
         swapped.b = rc.a;
         swapped.creep_ratio = -rc.creep_ratio;
-        rb_rolling_solution s = solved(&rc), t = solved(&swapped);
+        OWNED(rb_rolling_solution) s = solved(&rc), t = solved(&swapped);
         assert_int_equal(s.n, t.n);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(t.x[i], s.x[i], 1e-9 * s.half_width, "x, case %d at %d", k, i);
             CHECK_ABS(t.p[i], s.p[i], 1e-6 * s.max_pressure, "p, case %d at %d", k, i);
             CHECK_ABS(t.q[i], -s.q[i], 1e-6 * s.max_pressure, "q, case %d at %d", k, i);
         }
-        rb_rolling_solution_free(&t);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -240,11 +233,10 @@ TEST(a_worn_flat_is_held_by_the_potential_contact)
         rc.mesh = k == 0 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
         rc.formulation = k == 2 ? RB_STATIC : RB_STEADY;
         set_table(&rc, 10.0, 2.0);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "flat");
         CHECK_MAX(2.0, s.half_width, "the flat is in contact");
         CHECK_MAX(s.half_width, 2.3, "and little more");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -278,7 +270,7 @@ TEST(every_patch_is_found)
         rc.load = 4.0;
         rc.creep = 0.001;
         set_lobes(&rc, c, 0.004, 1);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "lobes");
         assert_int_equal(s.patches, 2);
         double load = 0.0, force = 0.0;
@@ -301,7 +293,6 @@ TEST(every_patch_is_found)
         }
         CHECK_REL(load, s.normal_load, 1e-9, "load, case %d", k);
         CHECK_REL(force, s.tangential_load, 1e-9, "force, case %d", k);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -315,17 +306,15 @@ TEST(a_mirrored_profile_has_mirrored_patches)
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         set_lobes(&rc, 3.0, 0.004, 1);
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         set_lobes(&rc, 3.0, 0.004, -1);
-        rb_rolling_solution t = solved(&rc);
+        OWNED(rb_rolling_solution) t = solved(&rc);
         assert_int_equal(s.patches, 2);
         assert_int_equal(t.patches, 2);
         for (int i = 0; i < 2; i++) {
             CHECK_REL(t.patch[1 - i].normal_load, s.patch[i].normal_load, 1e-3, "load");
             CHECK_ABS(t.patch[1 - i].from, -s.patch[i].to, 0.02, "edge");
         }
-        rb_rolling_solution_free(&t);
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -340,21 +329,20 @@ TEST(a_wavy_surface_gets_equal_elements)
     for (int i = 0; i < POINTS; i++)
         table_gap[i] += 0.01 * (1.0 - cos(2.0 * M_PI * table_x[i] / 0.2));
     take_table(&rc);
-    rb_rolling_solution s = solved(&rc);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     check_ends(&s, "waves");
     CHECK_MAX(17.0, s.patches, "patches");
     assert_int_equal(s.equal_instead, 1);
     for (int i = 1; i < s.n; i++)
         CHECK_REL(s.h[i], s.h[0], 1e-9, "equal elements");
-    rb_rolling_solution_free(&s);
 }
 
 /* Below patches that lie far apart in comparison with their widths. */
 TEST(stress_is_looked_for_below_every_patch)
 {
     rb_rolling_case rc = halfplane(0.3, 0.0, 80);
-    rb_rolling_model model;
-    rb_rolling_solution s;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_stress_maxima maxima;
     rb_message why = {""};
     rc.mesh = RB_MESH_FITTED;
@@ -369,14 +357,12 @@ TEST(stress_is_looked_for_below_every_patch)
     CHECK_REL(maxima.max_shear.value, 0.30028 * p->max_pressure, 5e-3, "max shear");
     CHECK_ABS(maxima.max_shear.x, -25.0, 0.05 * a, "its place");
     CHECK_REL(maxima.max_shear.y, 0.78615 * a, 2e-2, "its depth");
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
 }
 
 TEST(a_given_zone_must_hold_every_patch)
 {
     rb_rolling_case rc = halfplane(0.3, 0.3, 40);
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     rc.load = 4.0;
     rc.creep = 0.001;
@@ -387,7 +373,6 @@ TEST(a_given_zone_must_hold_every_patch)
     rc.zone = 1.0;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "widen it"));
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
@@ -413,8 +398,8 @@ TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     rb_rolling_curve curve;
-    rb_rolling_model model;
-    rb_rolling_history history;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) history;
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
@@ -428,8 +413,6 @@ TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why),
                  RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
-    rb_rolling_history_free(&history);
-    rb_rolling_model_free(&model);
     rc.zone = 0.0;
     CHECK_STATUS(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
@@ -447,7 +430,7 @@ TEST(a_zone_ends_with_three_separated_elements)
         rc.mu = 0.0;
         rc.load = rb_rolling_hertz_load(&rc, 1.0);
         rc.half_width = NAN;
-        rb_rolling_solution first, s = solved(&rc);
+        OWNED(rb_rolling_solution) first, s = solved(&rc);
         CHECK_STATUS(rb_rolling_solve_between(&rc, -1.3, 1.3, &first, NULL), RB_OK);
         int left = 0, right = 0;
         while (first.zone[left] == RB_ZONE_SEPARATED)
@@ -462,8 +445,6 @@ TEST(a_zone_ends_with_three_separated_elements)
             CHECK_REL(end, 1.3 * 1.3, 1e-12, "%d elements", n);
         kept += left == 3;
         grown += left < 3;
-        rb_rolling_solution_free(&first);
-        rb_rolling_solution_free(&s);
     }
     assert_true(kept > 0 && grown > 0);
 }
@@ -480,10 +461,9 @@ TEST(a_soft_interlayer_has_the_zone_of_its_own_contact)
             rc.load = 2.0 * a * a * a / (3.0 * R * L);
         else
             rc.approach = 0.5 * a * a / R;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(s.x[39] + 0.5 * s.h[39], 1.3 * a, 1e-12, "zone");
         CHECK_ABS(s.contact_to, a, s.h[0], "contact, to an element");
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -501,12 +481,11 @@ TEST(a_contact_has_the_same_zone_in_every_unit)
         rc.load = 300.0 * unit;
         rc.half_width = NAN;
         rc.creep_ratio = 0.4;
-        rb_rolling_solution s = solved(&rc);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         ends[k] = (s.x[s.n - 1] + 0.5 * s.h[s.n - 1]) / unit;
         width[k] = s.half_width / unit;
         CHECK_MAX(ends[k], 0.9 * 1.3 * rb_rolling_derive(&rc).half_width / unit,
                   "tightened");
-        rb_rolling_solution_free(&s);
     }
     CHECK_REL(ends[1], ends[0], 1e-9, "the end of the zone");
     CHECK_REL(width[1], width[0], 1e-9, "the half-width");
@@ -520,14 +499,13 @@ TEST(free_rolling_undoes_what_displaces)
     double creepage;
     rc.half_width = 1.0;
     rc.creep_ratio = 0.4;
-    rb_rolling_model model = solved_model(&rc);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_OK);
     CHECK_ABS(creepage, 0.0, 0.0, "nothing displaces");
     for (int i = 0; i < model.problem.n; i++)
         model.problem.d_T[i] = 1e-3 * model.problem.e_T[i];
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_OK);
     CHECK_REL(creepage, -1e-3, 1e-9, "d_T");
-    rb_rolling_model_free(&model);
 }
 
 /* Sliding towards one side the contact fits elements that end before the contact that
@@ -535,13 +513,13 @@ TEST(free_rolling_undoes_what_displaces)
 TEST(free_rolling_may_need_other_elements)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 80);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     rb_rolling_mesh mesh;
     rb_message why = {""};
     double creepage;
     rc.half_width = 1.0;
     rc.force_ratio = 0.0;
-    rb_rolling_solution freely = solved(&rc);
+    OWNED(rb_rolling_solution) freely = solved(&rc);
     rc.force_ratio = NAN;
     rc.creep_ratio = 3.0;
     CHECK_STATUS(rb_rolling_model_begin(&rc, NULL, &model, &why), RB_OK);
@@ -551,8 +529,6 @@ TEST(free_rolling_may_need_other_elements)
     CHECK_REL(creepage, freely.creepage, 1e-9, "on its own elements");
     case_of(&model)->zone = 1.6; /* a given zone stays */
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_ZONE);
-    rb_rolling_solution_free(&freely);
-    rb_rolling_model_free(&model);
 }
 
 TEST(every_failed_allocation_is_reported)
@@ -565,13 +541,12 @@ TEST(every_failed_allocation_is_reported)
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         set_lobes(&rc, 1.0, 0.004, 1);
         for (int count = 0; refused; count += k ? 61 : 11) {
-            rb_rolling_solution s;
+            OWNED(rb_rolling_solution) s;
             alloc_fail_after(count);
             const rb_status status = rb_rolling_solve(&rc, &s, NULL);
             refused = alloc_failed();
             alloc_succeed();
             CHECK_STATUS(status, refused ? RB_ENOMEM : RB_OK);
-            rb_rolling_solution_free(&s);
         }
     }
 }
@@ -581,8 +556,8 @@ TEST(every_failed_allocation_is_reported)
 TEST(a_history_grows_its_zone_to_the_end_of_the_table)
 {
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
-    rb_rolling_model model;
-    rb_rolling_history history;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) history;
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.formulation = RB_TRANSIENT;
@@ -593,8 +568,6 @@ TEST(a_history_grows_its_zone_to_the_end_of_the_table)
                  RB_ZONE);
     assert_non_null(strstr(why.text, "table"));
     CHECK_ABS(model.mesh.ends[model.mesh.n], 1.25, 1e-2, "the widest zone");
-    rb_rolling_history_free(&history);
-    rb_rolling_model_free(&model);
 }
 
 /* An incompressible layer carries by waves as short as it is thick: so long an element
@@ -603,7 +576,7 @@ TEST(elements_are_as_long_as_the_layer_at_most)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.0, 20);
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         rb_message why = {""};
         rc.mu = 0.0;
         rc.half_width = 0.5;
@@ -612,7 +585,6 @@ TEST(elements_are_as_long_as_the_layer_at_most)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), k ? RB_EINVAL : RB_OK);
         if (k)
             assert_non_null(strstr(why.text, "layer thickness: with nu = 0.5"));
-        rb_rolling_solution_free(&s);
     }
 }
 

@@ -20,7 +20,7 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
 {
     unsigned seed = 17u + (unsigned)(rows * cols);
     memset(dense, 0, (size_t)(rows * cols) * sizeof *dense);
-    rb_triplets t = {.rows = rows, .cols = cols};
+    OWNED(rb_triplets) t = {.rows = rows, .cols = cols};
     for (int k = 0; k < rows * cols; k++) {
         if (next_random(&seed) + 0.5 > share)
             continue;
@@ -35,7 +35,6 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
         dense[t.row[k] + t.col[k] * rows] += 0.25;
     }
     CHECK_STATUS(rb_sparse_from_triplets(&t, a), RB_OK);
-    rb_triplets_free(&t);
 }
 
 TEST(products_agree_with_the_dense_matrix)
@@ -121,7 +120,7 @@ TEST(places_outside_are_refused)
 {
     int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
     double x[] = {1.0, 2.0};
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     CHECK_STATUS(
         rb_sparse_from_triplets(
             &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = row, .col = col, .x = x},
@@ -140,14 +139,13 @@ TEST(places_outside_are_refused)
     CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = -1, .cols = 3}, &a),
                  RB_EINVAL);
     CHECK_STATUS(rb_sparse_from_dense(3, 1, x, 2, &a), RB_EINVAL);
-    rb_sparse_free(&a);
     rb_sparse_free(NULL);
 }
 
 /* Second differences on n points; free ends when `held` is 0 (null vector: ones). */
 static void chain(int n, int held, rb_sparse *k)
 {
-    rb_triplets t = {.rows = n, .cols = n};
+    OWNED(rb_triplets) t = {.rows = n, .cols = n};
     for (int i = 0; i < n; i++) {
         rb_triplets_add(&t, i, i, (i > 0) + (i < n - 1) + held * (i == 0));
         if (i + 1 < n) {
@@ -156,7 +154,6 @@ static void chain(int n, int held, rb_sparse *k)
         }
     }
     CHECK_STATUS(rb_sparse_from_triplets(&t, k), RB_OK);
-    rb_triplets_free(&t);
 }
 
 TEST(ranks_are_seen)
@@ -177,7 +174,7 @@ TEST(lu_solves_and_names_singular_matrices)
 {
     enum { N = 40 };
     double dense[N * N], x[N], b[N], y[N], flops = 0.0;
-    rb_sparse a, k;
+    OWNED(rb_sparse) a, k;
     rb_sparse_lu *lu;
     random_pair(N, N, 0.2, &a, dense);
     for (int i = 0; i < N; i++)
@@ -198,7 +195,6 @@ TEST(lu_solves_and_names_singular_matrices)
     }
     assert_true(flops > 0.0);
     rb_sparse_lu_free(lu);
-    rb_sparse_free(&a);
 
     chain(N, 0, &k);
     CHECK_STATUS(rb_sparse_lu_create(&k, &lu), RB_OK);
@@ -208,7 +204,6 @@ TEST(lu_solves_and_names_singular_matrices)
     rb_sparse_lu_free(NULL);
     k.rows--;
     CHECK_STATUS(rb_sparse_lu_create(&k, &lu), RB_EINVAL);
-    rb_sparse_free(&k);
 }
 
 TEST(cholesky_solves_condenses_and_refuses)
@@ -287,7 +282,7 @@ static rb_status build_and_factor(void)
 {
     int row[] = {0, 1, 1}, col[] = {0, 0, 1};
     double v[] = {2.0, 1.0, 3.0}, dense[] = {1.0, 0.0, 0.0, 1.0};
-    rb_sparse a = {0}, b = {0}, t = {0}, d = {0}, w = {0};
+    OWNED(rb_sparse) a = {0}, b = {0}, t = {0}, d = {0}, w = {0};
     rb_sparse_lu *lu = NULL;
     rb_sparse_cholesky *f = NULL;
     rb_status s = rb_sparse_from_triplets(
@@ -307,11 +302,6 @@ static rb_status build_and_factor(void)
         s = rb_sparse_cholesky_congruence(f, &a, &w);
     rb_sparse_cholesky_free(f);
     rb_sparse_lu_free(lu);
-    rb_sparse_free(&w);
-    rb_sparse_free(&d);
-    rb_sparse_free(&t);
-    rb_sparse_free(&b);
-    rb_sparse_free(&a);
     return s;
 }
 
@@ -353,7 +343,7 @@ TEST(suitesparse_without_memory_is_reported)
 {
     const double dense[] = {2.0, 1.0, 1.0, 3.0};
     const struct SuiteSparse_config_struct as_it_was = SuiteSparse_config;
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_sparse_lu *lu = NULL, *early = NULL;
     rb_sparse_cholesky *f = NULL, *none = NULL;
     double b[] = {1.0, 2.0}, x[2], flops;
@@ -379,7 +369,6 @@ TEST(suitesparse_without_memory_is_reported)
     CHECK_REL(x[1], 0.6, 1e-15, "x_1");
     rb_sparse_lu_free(lu);
     rb_sparse_cholesky_free(f);
-    rb_sparse_free(&a);
 }
 
 /* Each of the numbers that make a matrix, wrong in turn. */
@@ -416,7 +405,7 @@ TEST(impossible_sizes_are_refused)
 /* There is no room: an entry that is missing must not go unseen. */
 TEST(triplets_without_room_stay_refused)
 {
-    rb_triplets t = {.rows = 2, .cols = 2};
+    OWNED(rb_triplets) t = {.rows = 2, .cols = 2};
     rb_sparse a;
     rb_triplets_add(&t, 0, 0, 1.0);
     CHECK_STATUS(rb_triplets_reserve(&t, (size_t)INT_MAX), RB_ENOMEM);
@@ -425,7 +414,6 @@ TEST(triplets_without_room_stay_refused)
     for (int k = 0; k < 40; k++)
         rb_triplets_add(&t, 1, 1, 1.0);
     CHECK_STATUS(rb_sparse_from_triplets(&t, &a), RB_ENOMEM);
-    rb_triplets_free(&t);
 }
 
 /* As many entries as columns, and yet not diagonal. */
@@ -460,7 +448,7 @@ TEST(units_of_the_unknowns_do_not_matter)
 {
     const double k[] = {1e-12, 0.5, 0.5, 1e12}, b[] = {1e-6, 1e6};
     double x[2]; /* times the roots of the diagonal: [1 .5; .5 1] (2/3, 2/3) = (1, 1) */
-    rb_sparse a;
+    OWNED(rb_sparse) a;
     rb_sparse_cholesky *f;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, k, 2, &a), RB_OK);
     CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
@@ -468,7 +456,6 @@ TEST(units_of_the_unknowns_do_not_matter)
     CHECK_REL(x[0], 2e6 / 3.0, 1e-14, "x_0");
     CHECK_REL(x[1], 2e-6 / 3.0, 1e-14, "x_1");
     rb_sparse_cholesky_free(f);
-    rb_sparse_free(&a);
 }
 
 TEST(only_square_matrices_have_components)
@@ -490,7 +477,7 @@ TEST(a_factor_without_numbers_solves_nothing)
     const double dense[] = {2.0, 0.0, 0.0, 4.0}, zero[] = {0.0, 0.0, 0.0, 0.0};
     const double b[] = {2.0, 4.0};
     double x[2];
-    rb_sparse a, none;
+    OWNED(rb_sparse) a, none;
     rb_sparse_lu *lu;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
     CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
@@ -504,10 +491,8 @@ TEST(a_factor_without_numbers_solves_nothing)
         a.x[k] = 0.0;
     CHECK_STATUS(rb_sparse_lu_factor(lu, &a, NULL), RB_SINGULAR);
     rb_sparse_lu_free(lu);
-    rb_sparse_free(&a);
     CHECK_STATUS(rb_sparse_from_dense(2, 2, zero, 2, &none), RB_OK);
     assert_int_equal(none.p[2], 0);
-    rb_sparse_free(&none);
 }
 
 RUN_TESTS(NULL, NULL)

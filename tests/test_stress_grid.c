@@ -22,8 +22,8 @@ TEST(grid_holds_the_stress_of_its_points)
     static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_ARC};
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case rc = pressed(supports[k]);
-        rb_rolling_model model;
-        rb_rolling_stress_grid grid;
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_stress_grid) grid;
         assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
         assert_int_equal(rb_rolling_stress_on_grid(&model, 9, 4, 6.0, &grid, NULL),
                          RB_OK);
@@ -38,8 +38,6 @@ TEST(grid_holds_the_stress_of_its_points)
             CHECK_ABS(at->von_mises, alone.von_mises, 1e-9 * model.problem.stress,
                       "point %d", i);
         }
-        rb_rolling_stress_grid_free(&grid);
-        rb_rolling_model_free(&model);
     }
 }
 
@@ -47,7 +45,7 @@ TEST(grid_holds_the_stress_of_its_points)
 TEST(inside_is_where_there_is_stress)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
-    rb_rolling_model model;
+    OWNED(rb_rolling_model) model;
     int count = 0;
     assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     for (int k = 0; k < 400; k++) {
@@ -61,7 +59,6 @@ TEST(inside_is_where_there_is_stress)
     }
     /* area of the ring over that of a cell */
     CHECK_REL(count, M_PI * (50.0 * 50.0 - 15.0 * 15.0) / (6.03 * 6.07), 0.05, "count");
-    rb_rolling_model_free(&model);
 }
 
 /* A roof of pressure and friction against a thousand constant strips. */
@@ -138,8 +135,8 @@ TEST(bad_linear_tractions_are_refused)
 TEST(bad_grids_are_refused)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
-    rb_rolling_model model;
-    rb_rolling_stress_grid grid;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_stress_grid) grid;
     rb_message why = {""};
     assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     assert_int_equal(rb_rolling_stress_on_grid(&model, 1, 4, 0.0, &grid, &why),
@@ -147,21 +144,19 @@ TEST(bad_grids_are_refused)
     assert_non_null(strstr(why.text, "got 1 x 4"));
     assert_int_equal(
         rb_rolling_stress_on_grid(&model, 1 << 20, 1 << 20, 0.0, &grid, NULL), RB_EINVAL);
-    rb_rolling_stress_grid_free(&grid);
-    rb_rolling_model_free(&model);
 }
 
 /* Grid and maxima, then the ParaView file, on each failing allocation. */
 TEST(stress_without_memory)
 {
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
-    rb_rolling_model model;
-    rb_rolling_solution solution;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) solution;
     rb_rolling_stress_maxima maxima;
     int refused = 1, refusals = 0;
     assert_int_equal(rb_rolling_solve_model(&rc, &model, &solution, NULL), RB_OK);
     for (int k = 0; refused; k++) {
-        rb_rolling_stress_grid grid = {0};
+        OWNED(rb_rolling_stress_grid) grid = {0};
         FILE *file = fopen("/dev/null", "w");
         assert_non_null(file);
         alloc_fail_after(k);
@@ -180,12 +175,9 @@ TEST(stress_without_memory)
         alloc_succeed();
         refusals += refused;
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
-        rb_rolling_stress_grid_free(&grid);
         fclose(file);
     }
     assert_true(refusals > 10);
-    rb_rolling_solution_free(&solution);
-    rb_rolling_model_free(&model);
 }
 
 TEST(full_disc_is_told)

@@ -57,7 +57,7 @@ TEST(rows_are_those_of_single_solutions)
     assert_int_equal(r.seen, CASES);
     for (int i = 0; i < CASES; i++) {
         rb_rolling_case rc;
-        rb_rolling_solution s;
+        OWNED(rb_rolling_solution) s;
         CHECK_STATUS(make(2 + i, &rc, &r), RB_OK);
         assert_int_equal(r.row[i].status, rb_rolling_solve(&rc, &s, NULL));
         if (2 + i == 5) {
@@ -68,7 +68,6 @@ TEST(rows_are_those_of_single_solutions)
             CHECK_ABS(r.row[i].free_creepage, s.free_creepage, 0.0, "xi0 of %d", i);
             assert_int_equal(r.row[i].stick, s.stick);
         }
-        rb_rolling_solution_free(&s);
     }
 }
 
@@ -153,7 +152,7 @@ TEST(bad_studies_are_refused)
 /* A grid from a file, times a table: every combination, the last varying fastest. */
 TEST(grid_times_table)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     write_file("study.ini",
                "support = halfplane\nformulation = steady\n[normal]\nload = 500\n"
                "[sweep]\ncases = cases\nvary-1 = creep-ratio 0:1:3\n");
@@ -172,7 +171,6 @@ TEST(grid_times_table)
         CHECK_ABS(young[i], i < 3 ? 2e5 : 1e5, 0.0, "young");
         CHECK_ABS(ratio[i], 0.5 * (i % 3), 0.0, "creep ratio");
     }
-    rb_io_table_free(&t);
 }
 
 /* The whole file at once, and cut off in the middle of a row and gone on with. */
@@ -454,7 +452,7 @@ static int begins_like_a_picture(const char *name, const char *begin)
 /* The map has the numbers of the table, every x in the rows of every y. */
 TEST(a_map_shows_the_table)
 {
-    rb_io_table t;
+    OWNED(rb_io_table) t;
     double at[20][3];
     assert_int_equal(rollbem(GRID "--show dissipation --map m.svg --plot-script m.gp "
                                   "--output m.tsv"),
@@ -478,7 +476,6 @@ TEST(a_map_shows_the_table)
         CHECK_REL(at[i][1], load[i], 1e-8, "y of %d", i);
         CHECK_ABS(at[i][2] * unit, power[i], 1e-8 * largest, "dissipation of %d", i);
     }
-    rb_io_table_free(&t);
 }
 
 /* A table of cases is a grid in whatever order its rows come. */

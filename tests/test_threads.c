@@ -39,7 +39,7 @@ static const char *const words[CASES][16] = {
 static void solve(job *j)
 {
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    rb_case_result r = {0};
+    OWNED(rb_case_result) r = {0};
     rb_message why = {""};
 
     rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
@@ -57,7 +57,6 @@ static void solve(job *j)
         s->normal_load, s->tangential_load, s->max_pressure, s->half_width,
         s->creepage,    s->approach,        s->stick_length, (double)s->iterations};
     memcpy(j->number, number, sizeof number);
-    rb_case_result_free(&r);
     rb_case_free(c);
 }
 

@@ -24,7 +24,7 @@ static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.5},
 static rb_bem_flexibility built(make *by, int n, rb_bem_material a,
                                 const rb_bem_material *b, double datum)
 {
-    double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
+    SCRATCH double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
     rb_bem_flexibility f, of_a, of_b;
     rb_message why;
     CHECK_STATUS(by(n, ends, HALFPLANE(a, datum), &of_a, &why), RB_OK);
@@ -33,7 +33,6 @@ static rb_bem_flexibility built(make *by, int n, rb_bem_material a,
         CHECK_STATUS(by(n, ends, HALFPLANE(*b, 2.0 * datum), &of_b, &why), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_pair(&of_a, &of_b, &f, &why), RB_OK);
     }
-    free(ends);
     return f;
 }
 
@@ -45,12 +44,12 @@ static double largest(size_t n, const double *x)
 /* Entries, products with random tractions, points: relative to the largest entry. */
 static void compare(int n, rb_bem_material a, const rb_bem_material *b, double datum)
 {
-    rb_bem_flexibility dense = built(rb_bem_flexibility_surface, n, a, b, datum);
-    rb_bem_flexibility fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum);
+    OWNED(rb_bem_flexibility) dense = built(rb_bem_flexibility_surface, n, a, b, datum);
+    OWNED(rb_bem_flexibility) fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum);
     const int m = dense.m, ld = 2 * m + 3;
-    double *F = rb_alloc((size_t)ld, 2 * (size_t)n),
-           *T = rb_alloc((size_t)ld, 2 * (size_t)n);
-    double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(4 * (size_t)m, 1);
+    SCRATCH double *F = rb_alloc((size_t)ld, 2 * (size_t)n),
+                   *T = rb_alloc((size_t)ld, 2 * (size_t)n);
+    SCRATCH double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(4 * (size_t)m, 1);
 
     assert_true(F && T && r && w);
     assert_int_equal(fast.n, n);
@@ -73,12 +72,6 @@ static void compare(int n, rb_bem_material a, const rb_bem_material *b, double d
     rb_bem_flexibility_apply(&fast, r, w + 2 * m);
     for (int i = 0; i < 2 * m; i++)
         CHECK_ABS(w[2 * m + i], w[i], 1e-14 * scale * sum, "n = %d, row %d", n, i);
-    free(F);
-    free(T);
-    free(r);
-    free(w);
-    rb_bem_flexibility_free(&dense);
-    rb_bem_flexibility_free(&fast);
 }
 
 TEST(equals_the_dense_matrix)
@@ -130,8 +123,10 @@ TEST(pairs_of_any_kind_agree)
 TEST(keeps_differences_under_a_deep_datum)
 {
     enum { n = 500 };
-    rb_bem_flexibility near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
-    rb_bem_flexibility deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12);
+    OWNED(rb_bem_flexibility)
+    near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
+    OWNED(rb_bem_flexibility)
+    deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12);
     double r[2 * n] = {0}, w[4 * (n + 1)];
     for (int j = 0; j < n; j++)
         r[j] = j % 2 ? 1.0 : -1.0;
@@ -140,14 +135,13 @@ TEST(keeps_differences_under_a_deep_datum)
     const double scale = largest(n, w);
     for (int i = 0; i < n; i++)
         CHECK_ABS(w[2 * (n + 1) + i], w[i], 1e-12 * scale, "row %d", i);
-    rb_bem_flexibility_free(&near);
-    rb_bem_flexibility_free(&deep);
 }
 
 TEST(long_lines_work)
 {
     enum { n = 200000 };
-    rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
+    OWNED(rb_bem_flexibility)
+    f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
     double *r = rb_alloc(2 * n, 1), *w = rb_alloc(2 * (size_t)f.m, 1), one[2];
     const double ends[2] = {-1.3e-3 + 1000 * 2.4e-3 / n, -1.3e-3 + 1001 * 2.4e-3 / n};
     double W[8];
@@ -166,20 +160,18 @@ TEST(long_lines_work)
     }
     free(r);
     free(w);
-    rb_bem_flexibility_free(&f);
 }
 
 static void refuse(int n, const double *ends, rb_bem_material material, double datum,
                    const char *word)
 {
-    rb_bem_flexibility f;
+    OWNED(rb_bem_flexibility) f;
     rb_message why;
     CHECK_STATUS(
         rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &why),
         RB_EINVAL);
     assert_non_null(strstr(why.text, word));
     assert_null(f.x);
-    rb_bem_flexibility_free(&f);
 }
 
 /* ---- The disc ---------------------------------------------------------------------- */
@@ -195,13 +187,12 @@ static double *equal_arcs(int n, double radius, double from, double to)
 static rb_bem_flexibility disc(int n, double radius, double from, double to,
                                rb_bem_normals normals)
 {
-    double *ends = equal_arcs(n, radius, from, to);
+    SCRATCH double *ends = equal_arcs(n, radius, from, to);
     rb_bem_flexibility f;
     rb_message why;
     CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals,
                                          &f, &why),
                  RB_OK);
-    free(ends);
     return f;
 }
 
@@ -211,7 +202,7 @@ TEST(the_disc_is_symmetric)
     enum { n = 90, m = n + 1 };
     static double F[2 * m * 2 * n], r[2 * n], w[2 * m];
     for (int normals = 0; normals < 2; normals++) {
-        rb_bem_flexibility f = disc(n, 40.0, -1.2, 0.7, (rb_bem_normals)normals);
+        OWNED(rb_bem_flexibility) f = disc(n, 40.0, -1.2, 0.7, (rb_bem_normals)normals);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
         const double scale = largest(sizeof F / sizeof *F, F);
         for (int i = 0; i < 2 * n; i++) {
@@ -229,7 +220,6 @@ TEST(the_disc_is_symmetric)
                 sum += F[i + j * 2 * m] * r[j];
             CHECK_ABS(w[i], sum, 1e-12 * scale, "row %d", i);
         }
-        rb_bem_flexibility_free(&f);
     }
 }
 
@@ -249,9 +239,8 @@ TEST(the_obstacles_frame_is_turned_by_the_angle)
     static double F[2][2 * m * 2 * n];
     const double from = -1.2, h = (0.7 - from) / n;
     for (int normals = 0; normals < 2; normals++) {
-        rb_bem_flexibility f = disc(n, 40.0, from, 0.7, (rb_bem_normals)normals);
+        OWNED(rb_bem_flexibility) f = disc(n, 40.0, from, 0.7, (rb_bem_normals)normals);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[normals], 2 * m), RB_OK);
-        rb_bem_flexibility_free(&f);
     }
     const double *own = F[RB_BEM_NORMALS_SURFACE], *turned = F[RB_BEM_NORMALS_OBSTACLE];
     const double scale = largest(sizeof F[0] / sizeof F[0][0], own);
@@ -277,7 +266,7 @@ TEST(the_disc_is_the_reference_but_for_a_translation)
     enum { n = 40, m = n + 1, j = 13 };
     static double r[2 * n], w[2 * m];
     const double radius = 40.0, h = 2.0 / n;
-    rb_bem_flexibility f = disc(n, radius, -1.1, 0.9, RB_BEM_NORMALS_SURFACE);
+    OWNED(rb_bem_flexibility) f = disc(n, radius, -1.1, 0.9, RB_BEM_NORMALS_SURFACE);
     r[j] = -0.6; /* p_r = 0.6, p_t = 1.3 */
     r[n + j] = 1.3;
     rb_bem_flexibility_apply(&f, r, w);
@@ -298,7 +287,6 @@ TEST(the_disc_is_the_reference_but_for_a_translation)
         CHECK_ABS(dx, first[0], 1e-13 * fabs(u[0]) + 1e-18, "x of point %d", i);
         CHECK_ABS(dy, first[1], 1e-13 * fabs(u[0]) + 1e-18, "y of point %d", i);
     }
-    rb_bem_flexibility_free(&f);
 }
 
 /* Near its load the disc answers like a half-plane, to the order of the angle. */
@@ -306,8 +294,9 @@ TEST(a_short_arc_is_a_half_plane)
 {
     enum { n = 50, m = n + 1 };
     static double r[2 * n], w[2 * m], v[2 * m];
-    double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
-    rb_bem_flexibility half, f = disc(n, 1e4, -1e-7, 1e-7, RB_BEM_NORMALS_OBSTACLE);
+    SCRATCH double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
+    OWNED(rb_bem_flexibility)
+    half, f = disc(n, 1e4, -1e-7, 1e-7, RB_BEM_NORMALS_OBSTACLE);
     CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 1.0), &half, NULL),
                  RB_OK);
     for (int i = 0; i < n; i++) {
@@ -321,9 +310,6 @@ TEST(a_short_arc_is_a_half_plane)
         CHECK_ABS(w[m + i] - w[m], v[m + i] - v[m], 1e-5 * fabs(v[n / 2] - v[0]),
                   "T of %d", i);
     }
-    free(ends);
-    rb_bem_flexibility_free(&half);
-    rb_bem_flexibility_free(&f);
 }
 
 TEST(bad_discs_are_refused)
@@ -349,7 +335,7 @@ TEST(bad_discs_are_refused)
                      RB_EINVAL);
         assert_non_null(strstr(why.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
     }
-    double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
+    SCRATCH double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
         alloc_fail_after(k);
         const rb_status s = rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
@@ -360,7 +346,6 @@ TEST(bad_discs_are_refused)
         rb_bem_flexibility_free(&f);
         assert_true(k < 40);
     }
-    free(ends);
 }
 
 /* Whether elements are equal does not depend on the unit of length, nor on where they
@@ -372,13 +357,12 @@ TEST(equal_lengths_are_those_of_any_unit)
         for (int side = -1; side <= 1; side++) {
             const double h = pow(10.0, e), far = 1e8 * side * h;
             double ends[n + 2];
-            rb_bem_flexibility f;
+            OWNED(rb_bem_flexibility) f;
             for (int i = 0; i < n + 2; i++)
                 ends[i] = far + i * h;
             CHECK_STATUS(
                 rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, h), &f, NULL),
                 RB_OK);
-            rb_bem_flexibility_free(&f);
             ends[2] += 1e-6 * h;
             refuse(n, ends, steel, h, "different lengths");
         }
@@ -396,28 +380,25 @@ TEST(bad_input)
     refuse(2, equal, (rb_bem_material){-1.0, 0.3}, 1.0, "");
     refuse(2, equal, (rb_bem_material){1.0, 0.6}, 1.0, "");
 
-    rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, 5, steel, NULL, 1.0);
+    OWNED(rb_bem_flexibility) f = built(rb_bem_flexibility_toeplitz, 5, steel, NULL, 1.0);
     double F[144];
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 11), RB_EINVAL);
-    rb_bem_flexibility_free(&f);
 }
 
 TEST(failing_allocations)
 {
-    double *ends = equal_ends(6, 0.0, 1.0);
+    SCRATCH double *ends = equal_ends(6, 0.0, 1.0);
     rb_message why;
     for (int k = 0, refused = 1; refused; k++) {
-        rb_bem_flexibility f;
+        OWNED(rb_bem_flexibility) f;
         alloc_fail_after(k);
         const rb_status s =
             rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &why);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
-        rb_bem_flexibility_free(&f);
         assert_true(k < 40);
     }
-    free(ends);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -106,7 +106,7 @@ static const char *unit_of(const char *column)
 /* Every column of b is that of a in the other system, name and numbers. */
 static void compare_tables(const char *a_path, const char *b_path, rb_units system)
 {
-    rb_io_table a, b;
+    OWNED(rb_io_table) a, b;
     rb_message why = {""};
     if (rb_io_table_read(a_path, &a, &why) != RB_OK ||
         rb_io_table_read(b_path, &b, &why) != RB_OK)
@@ -127,8 +127,6 @@ static void compare_tables(const char *a_path, const char *b_path, rb_units syst
         converted += *unit != '\0';
     }
     assert_true(converted > 0);
-    rb_io_table_free(&a);
-    rb_io_table_free(&b);
 }
 
 TEST(every_command_converts_the_same_numbers)
