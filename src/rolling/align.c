@@ -12,6 +12,9 @@ enum {
 };
 /* Edges that have come to rest, and edges that never will, in elements. */
 static const double AT_REST = 1e-4, NEAR_REST = 5e-2;
+/* Change, as a part of the one before, of an edge that keeps drifting with the mesh by a
+ * part of an element too small to matter: it would not come to rest. */
+static const double DRIFT = 0.05;
 /* Elements by which a mesh may miss its own edge on the outer side of a jump: less
  * changes the force by less than a hundredth of its error. */
 static const double MISSED = 0.25;
@@ -103,14 +106,14 @@ static rb_status align(rb_rolling_model *model, int rounds, double *off, int *re
                        rb_message *why)
 {
     const int across = model->plan.elements;
-    double from, to, moved = INFINITY;
-    int known;
+    double from, to, moved = INFINITY, before = INFINITY;
+    int known, drifts = 0;
     rb_status s = find_edges(model, &from, &to, &known, why);
     int beyond = BEYOND + (int)fmin(*off * across / (to - from), 0.25 * across);
     edge left = edge_at(-from), right = edge_at(to);
 
-    for (int round = 0; round < rounds && known && s == RB_OK && moved > AT_REST;
-         round++) {
+    for (int round = 0;
+         round < rounds && known && s == RB_OK && moved > AT_REST && !drifts; round++) {
         const double h = (right.at + left.at) / across;
         s = solve_on(model, across, beyond, -left.at, right.at, why);
         const int filled = s == RB_ZONE && round + 1 < rounds;
@@ -122,6 +125,8 @@ static rb_status align(rb_rolling_model *model, int rounds, double *off, int *re
             right = edge_at(to);
         } else if (s == RB_OK) {
             moved = fmax(refine(&left, -from, h), refine(&right, to, h));
+            drifts = moved <= NEAR_REST && fabs(moved - before) < DRIFT * before;
+            before = moved;
             *off = moved * h;
         }
     }
