@@ -75,7 +75,7 @@ TEST(norms_hold_over_all_sizes)
             apart += (x[k] - y[k]) * (x[k] - y[k]);
         }
         CHECK_REL(rb_friction_norm(n, x), sqrt(squares), 1e-15, "norm of %zu", n);
-        CHECK_ABS(rb_friction_dot(n, x, y), product, 1e-15, "product of %zu", n);
+        CHECK_ABS(rb_dot(n, x, y), product, 1e-15, "product of %zu", n);
         CHECK_REL(rb_friction_distance(n, x, y), sqrt(apart), 1e-15, "distance of %zu",
                   n);
         for (int large = 0; large < 2; large++) {
