@@ -846,7 +846,7 @@ TEST(bad_friction_laws_are_refused)
     check_refused("--formulation static --history way.txt --mu 0.3", 64,
                   "--mu: the history has a column mu");
     check_refused("--formulation static --history way.txt", 65,
-                  "way.txt:3: mu: expected >= 0, got -0.1");
+                  "way.txt:3: mu: expected a number >= 0, got -0.1");
     check_refused("--formulation static --history way.txt --friction-law mu.txt", 65,
                   "a column mu cannot be combined with a table");
     /* the command line wins over a case file */

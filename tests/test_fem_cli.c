@@ -80,6 +80,41 @@ TEST(recorded_outputs_are_todays)
     matches("examples/truss/upper-overhanging.tsv");
 }
 
+/* Each column of the table is a member of the steps in JSON, but for their number. */
+static void json_matches_the_table(const char *arguments)
+{
+    rb_io_table table;
+    rb_message why = {""};
+    char table_of[400], json_of[400];
+    snprintf(table_of, sizeof table_of, "%s >%s/out.tsv 2>/dev/null", arguments, folder);
+    snprintf(json_of, sizeof json_of, "%s --json >%s/out.json 2>/dev/null", arguments,
+             folder);
+    assert_int_equal(run("%s", table_of), 0);
+    assert_int_equal(run("%s", json_of), 0);
+    CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &table, &why), RB_OK);
+    json_t *root = json_load_file(inside("out.json"), 0, NULL);
+    const json_t *steps = json_object_get(root, "steps");
+    assert_int_equal(json_array_size(steps), table.rows);
+    for (int j = 0; j < table.columns; j++)
+        for (int i = 0; i < table.rows && strcmp(table.name[j], "step") != 0; i++) {
+            const json_t *x =
+                json_object_get(json_array_get(steps, (size_t)i), table.name[j]);
+            assert_true(json_is_number(x));
+            if (strcmp(table.name[j], "seconds") != 0)
+                CHECK_ABS(json_number_value(x), table.x[i + j * table.rows], 0.0,
+                          "%s: step %d, %s", arguments, i, table.name[j]);
+        }
+    json_decref(root);
+    rb_io_table_free(&table);
+}
+
+TEST(json_has_the_columns_of_the_table)
+{
+    json_matches_the_table("bar --solver lemke");
+    json_matches_the_table("truss --nodes 3");
+    json_matches_the_table("wall --mesh coarse --rigid --quiet");
+}
+
 TEST(json_and_picture_are_written)
 {
     assert_int_equal(run("truss --nodes 4 --json --output %s --plot %s.png",

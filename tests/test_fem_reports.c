@@ -4,7 +4,6 @@
 #include "rollbem/report_fem.h"
 #include "small_wall.h"
 
-#include <jansson.h>
 #include <string.h>
 
 static const rb_report_canvas page = {.kind = RB_REPORT_SVG, .script = 1};
@@ -280,41 +279,6 @@ TEST(wall_needs_steps_and_memory)
     }
     assert_int_equal(ftell(out), 0);
     fclose(out);
-}
-
-static double number(const json_t *object, const char *name)
-{
-    const json_t *x = json_object_get(object, name);
-    return json_is_number(x) ? json_number_value(x) : NAN;
-}
-
-TEST(wall_as_json)
-{
-    rb_fem_wall_step steps[STEPS];
-    memcpy(steps, walls[0].step, sizeof steps);
-    steps[1].residual = NAN;
-    json_t *list = rb_report_json_wall(STEPS, steps);
-    assert_int_equal(json_array_size(list), STEPS);
-    for (size_t k = 0; k < STEPS; k++) {
-        const rb_fem_wall_step *s = &steps[k];
-        const json_t *o = json_array_get(list, k);
-        const struct {
-            const char *name;
-            double value;
-        } wanted[] = {{"time_s", s->time},         {"compression_N", s->compression},
-                      {"shear_N", s->shear},       {"drift_m", s->drift},
-                      {"stick", s->stick},         {"slip", s->slip},
-                      {"separated", s->separated}, {"iterations", s->iterations},
-                      {"seconds", s->seconds}};
-        for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
-            CHECK_ABS(number(o, wanted[i].name), wanted[i].value, 0.0, "%s of step %zu",
-                      wanted[i].name, k);
-        assert_int_equal(json_object_size(o), sizeof wanted / sizeof *wanted + 1);
-        assert_int_equal(json_is_null(json_object_get(o, "residual")), k == 1);
-        if (k != 1)
-            CHECK_ABS(number(o, "residual"), s->residual, 0.0, "residual");
-    }
-    json_decref(list);
 }
 
 /* ---- Bar and truss ----------------------------------------------------------------- */

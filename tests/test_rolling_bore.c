@@ -120,8 +120,9 @@ TEST(what_does_not_fit_is_refused)
     REFUSED("a bore has no wheel's boundary", PLANE, rc.elastic_b = 1,
             rc.b.radius = -60.0, rc.b.support = RB_BEM_HUB);
     REFUSED("expected > 0, or < 0 of a bore", PLANE, rc.elastic_b = 1, rc.b.radius = 0.0);
-    REFUSED("expected > 0", PLANE, rc.elastic_b = 1, rc.b.radius = -INFINITY);
-    REFUSED("expected > 0, got -5", rc.a.radius = -5.0);
+    REFUSED("radius-b: expected a number or plane", PLANE, rc.elastic_b = 1,
+            rc.b.radius = -INFINITY);
+    REFUSED("radius: expected a number > 0, got -5", rc.a.radius = -5.0);
     REFUSED("half-width: expected less than", PLANE, rc.elastic_b = 1,
             rc.b.radius = -60.0, rc.half_width = 50.0);
     REFUSED("wider than the radius", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0,

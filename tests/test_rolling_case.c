@@ -1,6 +1,7 @@
 /* Cases that must be refused, each with its reason, and the quantities derived from good
  * ones. */
 #include "refused.h"
+#include "rollbem/options.h"
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
@@ -18,10 +19,10 @@ static const bad_value bad_values[] = {
     {"mu", FIELD(mu), -0.1},
     {"mu", FIELD(mu), NAN},
     {"mu", FIELD(mu), INFINITY},
-    {"Young's modulus: expected > 0, got 0", FIELD(a.young), 0.0},
-    {"Young", FIELD(a.young), NAN},
-    {"Poisson", FIELD(a.poisson), 0.51},
-    {"Poisson", FIELD(a.poisson), -1.0},
+    {"young: expected a number > 0, got 0", FIELD(a.young), 0.0},
+    {"young", FIELD(a.young), NAN},
+    {"poisson: expected a number in (-1, 0.5]", FIELD(a.poisson), 0.51},
+    {"poisson", FIELD(a.poisson), -1.0},
     {"radius", FIELD(a.radius), -1.0},
     {"radius", FIELD(a.radius), INFINITY},
     {"arc", FIELD(a.arc), 91.0},
@@ -45,6 +46,69 @@ TEST(bad_values_are_refused_by_name)
         if (!strstr(why.text, bad_values[k].word))
             fail_msg("'%s' does not name '%s'", why.text, bad_values[k].word);
     }
+}
+
+/* Cases in which, between them, every option of a body has a meaning. */
+static void make_bodies(int k, rb_rolling_case *rc)
+{
+    static const rb_bem_support support[] = {RB_BEM_ARC, RB_BEM_HUB, RB_BEM_HALFPLANE};
+    *rc = rb_rolling_case_defaults();
+    rc->a.support = support[k];
+    rc->a.cover = support[k] == RB_BEM_HUB ? 1.0 : 0.0;
+    rc->a.layer = support[k] == RB_BEM_HALFPLANE ? 1.0 : 0.0;
+    rc->a.core_young = rc->a.base_young = 1.0;
+    rc->b = rc->a;
+    rc->elastic_b = 1;
+    rc->heat_a = (rb_rolling_heat){.conductivity = 1.0, .heat_capacity = 1.0};
+}
+
+/* 1 if the table refuses x in this case, by the name of the option. */
+static int is_refused(const rb_option *o, size_t place, double x, rb_rolling_case rc)
+{
+    rb_message why = {""};
+    const int whole = (int)x;
+    char start[60];
+    memcpy((char *)&rc + place,
+           o->kind == RB_OPTION_INTEGER ? (const void *)&whole : (const void *)&x,
+           o->kind == RB_OPTION_INTEGER ? sizeof whole : sizeof x);
+    snprintf(start, sizeof start, "%s: expected a", o->name);
+    return rb_rolling_case_check(&rc, &why) == RB_EINVAL &&
+           strncmp(why.text, start, strlen(start)) == 0;
+}
+
+TEST(each_range_of_the_table_holds_in_a_case)
+{
+    int refused = 0;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const size_t place = o->into ? o->into : o->offset;
+        const rb_range *r = &o->range;
+        const double below = r->from_open ? r->from : r->from - 1.0,
+                     above = r->to_open ? r->to : r->to + 1.0;
+        int applies = 0;
+        if ((o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER) ||
+            place >= sizeof(rb_rolling_case))
+            continue;
+        for (int k = 0; k < 3; k++) {
+            rb_rolling_case rc;
+            make_bodies(k, &rc);
+            if (!rb_option_applies(o, &rc.a))
+                continue;
+            applies = 1;
+            /* zero and infinity may be a word of the option, or that it is not given */
+            const double beyond[] = {below == 0.0 ? -1.0 : below, above};
+            for (int j = 0; j < 2; j++) {
+                const int whole = o->kind == RB_OPTION_INTEGER;
+                if ((whole && isinf(beyond[j])) ||
+                    (o->word && beyond[j] == o->word_value))
+                    continue;
+                if (!is_refused(o, place, beyond[j], rc))
+                    fail_msg("%s = %g is not refused", o->name, beyond[j]);
+                refused++;
+            }
+        }
+        assert_true(applies);
+    }
+    assert_true(refused > 150);
 }
 
 TEST(contradictions_name_both_sides)
@@ -146,46 +210,47 @@ TEST(a_table_gap_needs_its_table)
 TEST(ranges_of_the_bodies)
 {
     ACCEPTED(rc.a.poisson = 0.5);
-    REFUSED("Young's modulus", rc.a.young = INFINITY);
+    REFUSED("young: expected a number > 0, got inf", rc.a.young = INFINITY);
     REFUSED("radius of body B", rc.elastic_b = 1; rc.b.radius = 0.0);
     REFUSED("support: there is no number 7", rc.a.support = (rb_bem_support)7);
     REFUSED("support of body B: a plane has", rc.elastic_b = 1;
             rc.b.support = RB_BEM_HUB);
     ACCEPTED(rc.a.arc = 90.0);
-    REFUSED("arc: expected in (0, 90]", rc.a.arc = 0.0);
+    REFUSED("arc: expected a number in (0, 90]", rc.a.arc = 0.0);
     ACCEPTED(HUB; rc.a.hub_ratio = 0.999);
-    REFUSED("hub ratio: expected in (0, 1), got 0", HUB; rc.a.hub_ratio = 0.0);
-    REFUSED("hub ratio: expected in (0, 1), got 1", HUB; rc.a.hub_ratio = 1.0);
+    REFUSED("hub-ratio: expected a number in (0, 1), got 0", HUB; rc.a.hub_ratio = 0.0);
+    REFUSED("hub-ratio: expected a number in (0, 1), got 1", HUB; rc.a.hub_ratio = 1.0);
     ACCEPTED(PLANE; rc.a.datum = 0.0);
-    REFUSED("datum: expected a depth", PLANE; rc.a.datum = -1.0);
-    REFUSED("datum of body B", rc.elastic_b = 1; rc.b.datum = INFINITY);
+    REFUSED("datum: expected a number > 0 or auto", PLANE; rc.a.datum = -1.0);
+    REFUSED("datum-b: expected", rc.elastic_b = 1; rc.b.datum = INFINITY);
 }
 
 TEST(ranges_of_layers_and_covers)
 {
-    ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 0.0; rc.a.base_poisson = 9.0);
+    ACCEPTED(PLANE; rc.a.base_poisson = 9.0); /* there is no layer */
+    REFUSED("base-poisson: expected", PLANE; rc.a.layer = 1.0; rc.a.base_poisson = 9.0);
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = 0.5);
-    REFUSED("layer thickness: expected > 0", PLANE; rc.a.layer = -1.0);
-    REFUSED("layer thickness: expected > 0", PLANE; rc.a.layer = INFINITY);
+    REFUSED("layer-thickness: expected a number > 0 or none", PLANE; rc.a.layer = -1.0);
+    REFUSED("layer-thickness: expected a number > 0 or none", PLANE;
+            rc.a.layer = INFINITY);
     REFUSED("for the support halfplane only", HUB; rc.a.layer = 1.0);
-    REFUSED("Young's modulus of the base: expected > 0, got -1", PLANE; rc.a.layer = 1.0;
+    REFUSED("base-young: expected a number > 0 or rigid, got -1", PLANE; rc.a.layer = 1.0;
             rc.a.base_young = -1.0);
-    REFUSED("Young's modulus of the base", PLANE; rc.a.layer = 1.0;
-            rc.a.base_young = INFINITY);
-    REFUSED("Poisson's ratio of the base: expected in (-1, 0.5], got -1", PLANE;
+    REFUSED("base-young: expected", PLANE; rc.a.layer = 1.0; rc.a.base_young = INFINITY);
+    REFUSED("base-poisson: expected a number in (-1, 0.5], got -1", PLANE;
             rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = -1.0);
-    REFUSED("Poisson's ratio of the base", PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0;
+    REFUSED("base-poisson: expected", PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0;
             rc.a.base_poisson = 0.51);
 
     ACCEPTED(HUB; rc.a.cover = 49.0; rc.a.core_young = 1.0; rc.a.poisson = 0.499);
     ACCEPTED(HUB; rc.a.cover = 49.0; rc.a.poisson = 0.5);
     REFUSED("cover thickness: its core holds the wheel", rc.a.cover = 1.0);
-    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = -1.0);
-    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = NAN);
-    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = 50.0);
+    REFUSED("cover-thickness: expected a number > 0 or none", HUB; rc.a.cover = -1.0);
+    REFUSED("cover-thickness: expected a number > 0", HUB; rc.a.cover = NAN);
+    REFUSED("cover thickness: expected less than the radius", HUB; rc.a.cover = 50.0);
     REFUSED("has to be compressible", HUB; rc.a.cover = 1.0; rc.a.core_young = 1.0;
             rc.a.poisson = 0.4991);
-    REFUSED("Poisson's ratio of the core", HUB; rc.a.cover = 1.0; rc.a.core_young = 1.0;
+    REFUSED("core-poisson: expected", HUB; rc.a.cover = 1.0; rc.a.core_young = 1.0;
             rc.a.core_poisson = 0.51);
 }
 
@@ -204,9 +269,9 @@ TEST(ranges_of_relaxation)
              rc.speed = 1.0);
     REFUSED("terms, got -1", rc.a.memory.n = -1);
     REFUSED("terms, got 17", PLANE; rc.a.memory.n = RB_ROLLING_TERMS + 1);
-    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = late);
-    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = less);
-    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = endless);
+    REFUSED("relaxation-time: expected a number > 0", PLANE; rc.a.memory = late);
+    REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = less);
+    REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = endless);
     REFUSED("steps: viscoelastic bodies", PLANE; rc.a.memory = one; TRANSIENT;
             rc.steps = 3; rc.speed = 1.0);
     REFUSED("a clamped arc cannot turn", rc.a.memory = one; STEADY; rc.speed = 1.0);
@@ -217,7 +282,7 @@ TEST(ranges_of_relaxation)
     REFUSED("must be rigid, got an elastic one", HUB; rc.a.memory = one; rc.a.cover = 1.0;
             rc.a.core_young = 1.0);
     REFUSED("relaxation: needs the speed", PLANE; rc.a.memory = one; STEADY);
-    REFUSED("relaxation: needs the speed", PLANE; rc.a.memory = one; TRANSIENT;
+    REFUSED("speed: expected a number > 0, got inf", PLANE; rc.a.memory = one; TRANSIENT;
             rc.speed = INFINITY);
     REFUSED("a computation with steps needs a parabola", PLANE; rc.a.memory = one;
             rc.gap = RB_GAP_TABLE);
@@ -225,8 +290,10 @@ TEST(ranges_of_relaxation)
             rc.worn = ((rb_rolling_table){2, x, y}));
     REFUSED("a computation with steps needs a parabola", PLANE; rc.a.memory = one;
             rc.irregularity = ((rb_rolling_table){2, x, y}));
-    REFUSED("time step: expected > 0", PLANE; rc.a.memory = one; rc.time_step = -1.0);
-    REFUSED("time step: expected > 0", PLANE; rc.a.memory = one; rc.time_step = INFINITY);
+    REFUSED("time-step: expected a number > 0 or rows", PLANE; rc.a.memory = one;
+            rc.time_step = -1.0);
+    REFUSED("time-step: expected a number > 0 or rows", PLANE; rc.a.memory = one;
+            rc.time_step = INFINITY);
     REFUSED("relaxation: needs the speed", PLANE; rc.elastic_b = 1; rc.b.memory = one;
             STEADY);
     ACCEPTED(PLANE; rc.b.memory = one; STEADY); /* B is rigid */
@@ -236,22 +303,27 @@ TEST(ranges_of_heat)
 {
     ACCEPTED(WARM);
     ACCEPTED(WARM; TRANSIENT);
-    ACCEPTED(WARM; rc.heat_a.conductivity = 0.0; rc.heat_a.heat_capacity = -1.0);
+    ACCEPTED(WARM; rc.heat_a.conductivity = 0.0; rc.heat_b.heat_capacity = -1.0);
+    REFUSED("heat-capacity: expected a number > 0 or none, got -1", WARM;
+            rc.heat_a.heat_capacity = -1.0);
     ACCEPTED(WARM; rc.heat_b.temperature = 20.0);
     ACCEPTED(WARM; rc.contact_elements = 100000);
     ACCEPTED(WARM; rc.heat_b = rc.heat_a; rc.contact_elements = 100000);
     ACCEPTED(WARM; rc.heat_b.temperature = 1.0; rc.contact_elements = 4001);
-    REFUSED("conductivity: expected >= 0, got -1", WARM; rc.heat_a.conductivity = -1.0);
-    REFUSED("conductivity: expected >= 0, got inf", WARM;
+    REFUSED("conductivity: expected a number > 0 or none, got -1", WARM;
+            rc.heat_a.conductivity = -1.0);
+    REFUSED("conductivity: expected a number > 0 or none, got inf", WARM;
             rc.heat_a.conductivity = INFINITY);
-    REFUSED("conductivity of body B: expected >= 0", WARM; rc.heat_b.conductivity = -1.0);
-    REFUSED("conductivity of body B: expected >= 0", WARM;
+    REFUSED("conductivity-b: expected a number >= 0", WARM;
+            rc.heat_b.conductivity = -1.0);
+    REFUSED("conductivity-b: expected a number >= 0", WARM;
             rc.heat_b.conductivity = INFINITY);
     REFUSED("needs the heat capacity", WARM; rc.heat_a.heat_capacity = 0.0);
     REFUSED("needs the heat capacity", WARM; rc.heat_b.conductivity = 1.0;
             rc.heat_b.heat_capacity = 0.0);
-    REFUSED("temperature: expected finite", WARM; rc.heat_a.temperature = INFINITY);
-    REFUSED("temperature: expected finite", WARM; rc.heat_b.temperature = NAN);
+    REFUSED("temperature: expected a number, got inf", WARM;
+            rc.heat_a.temperature = INFINITY);
+    REFUSED("temperature-b: expected a number, got", WARM; rc.heat_b.temperature = NAN);
     REFUSED("a layer or cover conducts differently", WARM; rc.a.layer = 1.0);
     REFUSED("a layer or cover conducts differently", WARM; rc.a.support = RB_BEM_HUB;
             rc.a.cover = 1.0);
@@ -274,11 +346,12 @@ TEST(ranges_of_heat)
 TEST(ranges_of_the_interface)
 {
     ACCEPTED(rc.yield_stress = 1.0; rc.hardening = -1.0);
-    REFUSED("expected a normal compliance", rc.interlayer_normal = -1.0);
-    REFUSED("expected a tangential compliance", rc.interlayer_tangential = INFINITY);
-    REFUSED("yield stress: expected > 0", rc.yield_stress = -1.0);
-    REFUSED("yield stress: expected > 0", rc.yield_stress = INFINITY);
-    REFUSED("hardening: expected a finite number", rc.yield_stress = 1.0;
+    REFUSED("interlayer-normal: expected a number >= 0", rc.interlayer_normal = -1.0);
+    REFUSED("interlayer-tangential: expected a number >= 0",
+            rc.interlayer_tangential = INFINITY);
+    REFUSED("yield-stress: expected a number > 0 or none", rc.yield_stress = -1.0);
+    REFUSED("yield-stress: expected a number > 0 or none", rc.yield_stress = INFINITY);
+    REFUSED("hardening: expected a number, got", rc.yield_stress = 1.0;
             rc.hardening = INFINITY);
     REFUSED("hardening: only for an interface that yields", rc.hardening = 1.0);
     REFUSED("not with a law that follows slip or heat", WARM; rc.yield_stress = 1.0;
@@ -304,8 +377,8 @@ TEST(ranges_of_the_loading)
     ACCEPTED(rc.force_ratio = 0.0; rc.mu = 0.0);
     REFUSED("has no meaning at mu = 0", rc.force_ratio = 0.1; rc.mu = 0.0);
     REFUSED("has no meaning at mu = 0", rc.creep_ratio = 0.1; rc.mu = 0.0);
-    REFUSED("creep: expected a finite", rc.creep = -INFINITY);
-    REFUSED("force-ratio: expected a finite", rc.force_ratio = INFINITY);
+    REFUSED("creep: expected a number, got -inf", rc.creep = -INFINITY);
+    REFUSED("force-ratio: expected a number, got inf", rc.force_ratio = INFINITY);
     REFUSED("shift, force and force-ratio exclude", rc.shift = 0.1; rc.force = 0.1);
     REFUSED("shift, force and force-ratio exclude", rc.force_ratio = rc.force = 0.1);
     ACCEPTED(rc.shift = rc.creep = 0.1);
@@ -322,7 +395,7 @@ TEST(ranges_of_the_loading)
     REFUSED("less than the radius of either body, 20 mm", rc.elastic_b = 1;
             rc.b.radius = 20.0; rc.half_width = 20.0);
     REFUSED("approach, load and half-width exclude", rc.half_width = rc.load = 1.0);
-    REFUSED("approach: expected > 0", rc.approach = INFINITY);
+    REFUSED("approach: expected a number > 0", rc.approach = INFINITY);
 }
 
 TEST(ranges_of_tables)
@@ -360,21 +433,21 @@ TEST(ranges_of_the_mesh)
 {
     ACCEPTED(rc.contact_elements = 3; rc.increments = 1000000);
     ACCEPTED(rc.contact_elements = 1 << 24; rc.outer_elements = 1 << 20);
-    REFUSED("contact elements: expected 3", rc.contact_elements = 2);
-    REFUSED("contact elements: expected 3 ... 16777216, got 16777217",
+    REFUSED("contact-elements: expected a whole number >= 3", rc.contact_elements = 2);
+    REFUSED("contact elements: expected at most 16777216, got 16777217",
             rc.contact_elements = (1 << 24) + 1);
-    REFUSED("outer elements: expected 0", rc.outer_elements = -1);
-    REFUSED("outer elements: expected 0 ... 1048576, got 1048577",
+    REFUSED("outer-elements: expected a whole number >= 0", rc.outer_elements = -1);
+    REFUSED("outer elements: expected at most 1048576, got 1048577",
             rc.outer_elements = (1 << 20) + 1);
     ACCEPTED(rc.outer_refinement = 1000.0);
     REFUSED("outer refinement: expected 0", rc.outer_refinement = 1001.0);
     REFUSED("outer refinement: expected 0", rc.outer_refinement = -1.0);
-    REFUSED("increments: expected 0", rc.increments = -1);
-    REFUSED("increments: expected 0", rc.increments = 1000001);
+    REFUSED("increments: expected a whole number in [1, 1e+06]", rc.increments = -1);
+    REFUSED("increments: expected a whole number in [1, 1e+06]", rc.increments = 1000001);
     ACCEPTED(STEADY; rc.increments = 1);
     REFUSED("steady rolling does not depend", STEADY; rc.increments = 2);
     ACCEPTED(rc.zone = 49.9);
-    REFUSED("zone: expected a half-width", rc.zone = INFINITY);
+    REFUSED("zone: expected a number > 0 or auto", rc.zone = INFINITY);
     REFUSED("wider than the radius, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0;
             rc.zone = 20.0);
     ACCEPTED(rc.mesh = RB_MESH_ALIGNED; rc.contact_elements = 12);
@@ -396,7 +469,7 @@ TEST(ranges_of_the_mesh)
             rc.contact.cone_solver = "newton");
     REFUSED("got 'sor'", rc.contact.solver = RB_SOLVER_CONE;
             rc.contact.cone_solvers = &by; rc.contact.cone_solver = "sor");
-    REFUSED("tol: expected > 0", rc.contact.tol = INFINITY);
+    REFUSED("tol: expected a number > 0", rc.contact.tol = INFINITY);
     ACCEPTED(rc.a.young = 1e-100);
     REFUSED("Young's modulus: expected a size", rc.a.young = 0.9e-100);
     ACCEPTED(rc.load = 1e100);

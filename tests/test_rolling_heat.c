@@ -283,9 +283,10 @@ TEST(meaningless_cases_are_refused)
     bad[5].heat_b.temperature = NAN;
     bad[6].contact_elements = 5000;
     bad[6].heat_b.conductivity = 40.0;
-    static const char *const said[] = {"--speed",     "heat capacity", "bodies that roll",
-                                       "homogeneous", "body B",        "finite",
-                                       "4000"};
+    static const char *const said[] = {
+        "--speed",     "heat capacity",  "bodies that roll",
+        "homogeneous", "conductivity-b", "temperature-b",
+        "4000"};
     for (int k = 0; k < 7; k++) {
         rb_message why = {""};
         CHECK_STATUS(rb_rolling_case_check(&bad[k], &why), RB_EINVAL);

@@ -410,7 +410,9 @@ TEST(ways_that_lead_nowhere_are_refused)
         rc.creep = 1e-4;
         rc.distance = distance[k];
         check_refused(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why), &why,
-                      k < 3 ? "distance: expected > 0" : "expected at most 1e7");
+                      k == 0  ? "distance: expected > 0, got 0"
+                      : k < 3 ? "distance: expected a number > 0"
+                              : "expected at most 1e7");
         assert_int_equal(h.n, 0);
         release(&model, &h);
     }

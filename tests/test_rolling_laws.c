@@ -774,7 +774,7 @@ TEST(bad_ways_are_refused)
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
                  RB_EINVAL);
-    assert_string_equal(why.text, "history: row 2: mu: expected >= 0, got -0.1");
+    assert_string_equal(why.text, "history: row 2: mu: expected a number >= 0, got -0.1");
     rc.friction =
         (rb_rolling_friction){.law = RB_FRICTION_table, .table = {1, &place, mu}};
     CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
@@ -944,7 +944,7 @@ TEST(bad_laws_are_refused)
     rc.friction.fall[0] = -0.2;
     refused(&rc, "expected mu >= 0 everywhere, got -0.02");
     rc = rail(-1.0);
-    refused(&rc, "a slip scale > 0 for each fall");
+    refused(&rc, "slip-scale: expected a number > 0");
     rc = rail(100.0);
     rc.speed = 0.0;
     refused(&rc, "needs the speed of rolling");

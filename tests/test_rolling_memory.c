@@ -522,8 +522,10 @@ TEST(bad_bodies_are_refused)
         rb_rolling_formulation formulation;
         const char *word;
     } bad[] = {
-        {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "times > 0"},
-        {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "ratios >= 0"},
+        {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY,
+         "relaxation-time: expected a number > 0"},
+        {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY,
+         "relaxation-ratio: expected a number >= 0"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_STEADY, "speed"},
         {1, 1, 1, 0, RB_BEM_ARC, RB_STEADY, "halfplane"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_TRANSIENT, "speed"},

@@ -462,9 +462,9 @@ TEST(bad_layers_are_refused)
 {
     rb_rolling_case rc = plastic_example(0.0);
     rc.yield_stress = -1.0;
-    refused(rc, "yield stress: expected > 0, got -1");
+    refused(rc, "yield-stress: expected a number > 0 or none, got -1");
     rc = plastic_example(NAN);
-    refused(rc, "hardening: expected a finite number");
+    refused(rc, "hardening: expected a number, got nan");
     rc = plastic_example(100.0);
     rc.yield_stress = 0.0;
     refused(rc, "--yield-stress");

@@ -1,4 +1,4 @@
-/* Pictures and JSON of the finite-element examples. */
+/* Pictures and sums of the finite-element examples. */
 #ifndef ROLLBEM_REPORT_FEM_H
 #define ROLLBEM_REPORT_FEM_H
 
@@ -25,14 +25,6 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
 rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
                                  const rb_fem_wall *wall, int steps,
                                  const rb_fem_wall_step *step, rb_message *why);
-
-/* ---- JSON: arrays with one object per step; new references, NULL: no memory -------- */
-
-struct json_t *rb_report_json_bar(const rb_fem_model *model,
-                                  const rb_fem_history *history);
-struct json_t *rb_report_json_truss(const rb_fem_model *model,
-                                    const rb_fem_history *history);
-struct json_t *rb_report_json_wall(int steps, const rb_fem_wall_step *step);
 
 /* Corner, sums and maxima of one increment. */
 typedef struct {

@@ -17,6 +17,7 @@
 #include "rollbem/io_contact.h"
 #include "rollbem/io_fclib.h"
 #include "rollbem/lcp.h"
+#include "rollbem/options.h"
 #include "rollbem/report.h"
 #include "rollbem/report_fem.h"
 #include "rollbem/rolling.h"

@@ -85,6 +85,11 @@ const char *rb_case_keep(rb_case *c, const char *text)
     return c->text[c->texts++] = copy;
 }
 
+const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO},
+                                             {"creep", RB_OVER_CREEP},
+                                             {"speed", RB_OVER_SPEED},
+                                             {NULL, 0}};
+
 /* ---- The table --------------------------------------------------------------------- */
 
 const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
@@ -321,30 +326,10 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 
 /* ---- Body B ------------------------------------------------------------------------ */
 
-/* What --similar copies from A beside its two constants, each unless B's own is given. */
-static const struct {
-    const char *of_b;
-    size_t from, to;
-} copies[] = {
-#define COPY(name, member)                                                               \
-    {                                                                                    \
-        name, offsetof(rb_rolling_case, a.member), offsetof(rb_rolling_case, b.member)   \
-    }
-    COPY("layer-thickness-b", layer),
-    COPY("base-young-b", base_young),
-    COPY("base-poisson-b", base_poisson),
-    COPY("cover-thickness-b", cover),
-    COPY("core-young-b", core_young),
-    COPY("core-poisson-b", core_poisson)
-#undef COPY
-};
-
 int rb_case_is_copied_to_b(const char *option)
 {
-    for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
-        if (strcmp(option, copies[k].of_b) == 0)
-            return 1;
-    return 0;
+    const rb_option *o = rb_case_option(option);
+    return o && o->if_similar && !o->into;
 }
 
 static rb_status resolve_body_b(rb_case *c, rb_message *why)
@@ -352,31 +337,29 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     rb_resolved_case *s = &c->resolved;
     rb_rolling_case *rc = &s->rc;
     rc->elastic_b = s->similar || !isnan(s->young_b);
-    if (!rc->elastic_b) {
+    if (!rc->elastic_b)
         s->young_b = s->poisson_b = NAN;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
+        double *to = (double *)(void *)((char *)rc + (o->into ? o->into : o->offset));
+        const double typed = *(const double *)(const void *)((char *)s + o->offset);
         /* Options of the second body mean nothing to a rigid plane. */
-        for (int i = 0; i < rb_case_table_n; i++)
-            if (c->given[i] && strcmp(rb_case_section(&rb_case_table[i]), "body-b") == 0)
-                return refuse(c, &rb_case_table[i],
-                              "body B is rigid without --similar or --young-b", why);
+        if (is_b && !rc->elastic_b && c->given[o - rb_case_table])
+            return refuse(c, o, "body B is rigid without --similar or --young-b", why);
+        if (is_b && !rc->elastic_b)
+            continue;
+        /* What is given of B lies in its place; the rest is A's, as the table says. */
+        if (o->into && !isnan(typed))
+            *to = typed;
+        else if (o->of_a && (s->similar || !o->if_similar) &&
+                 !c->given[o - rb_case_table] && (!is_b || rb_option_applies(o, &rc->b)))
+            *to = *(const double *)(const void *)((char *)rc + o->of_a);
+    }
+    if (!rc->elastic_b)
         return RB_OK;
-    }
-    if (s->similar) {
-        const rb_rolling_body *b = &c->resolved.rc.b;
-        /* a base belongs to a layer, a core to a cover: the table has these first */
-        for (size_t k = 0; k < sizeof copies / sizeof *copies; k++)
-            if (!rb_case_given(c, copies[k].of_b) &&
-                (strncmp(copies[k].of_b, "base", 4) != 0 || b->layer > 0.0) &&
-                (strncmp(copies[k].of_b, "core", 4) != 0 || b->cover > 0.0))
-                memcpy((char *)rc + copies[k].to, (char *)rc + copies[k].from,
-                       sizeof(double));
-        if (!rb_case_given(c, "relaxation-time-b") &&
-            !rb_case_given(c, "relaxation-ratio-b"))
-            c->resolved.memory_b = c->resolved.memory_a;
-    }
-    rc->b.young = s->similar ? rc->a.young : s->young_b;
-    rc->b.poisson = s->similar || isnan(s->poisson_b) ? rc->a.poisson : s->poisson_b;
-    rc->b.radius = s->radius_b;
+    if (s->similar && !rb_case_given(c, "relaxation-time-b") &&
+        !rb_case_given(c, "relaxation-ratio-b"))
+        s->memory_b = s->memory_a;
     s->young_b = rc->b.young;
     s->poisson_b = rc->b.poisson;
     return RB_OK;
@@ -449,21 +432,15 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
     return status;
 }
 
-/* B conducts like A where nothing is said. */
-static rb_status resolve_heat(rb_case *c, rb_message *why)
+static rb_status check_heat(rb_case *c, rb_message *why)
 {
     static const char *const of_heat[] = {"heat-capacity", "temperature",
                                           "conductivity-b", "heat-capacity-b",
                                           "temperature-b"};
     rb_resolved_case *s = &c->resolved;
-    const rb_rolling_heat *a = &s->rc.heat_a;
     rb_status status = RB_OK;
 
-    s->rc.heat_b = (rb_rolling_heat){
-        isnan(s->conductivity_b) ? a->conductivity : s->conductivity_b,
-        isnan(s->heat_capacity_b) ? a->heat_capacity : s->heat_capacity_b,
-        isnan(s->temperature_b) ? a->temperature : s->temperature_b};
-    if (a->conductivity > 0.0)
+    if (s->rc.heat_a.conductivity > 0.0)
         return RB_OK;
     for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
         status = rb_case_refuse_given(c, of_heat[k],
@@ -660,7 +637,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = resolve_law(c, why);
     if (s == RB_OK)
-        s = resolve_heat(c, why);
+        s = check_heat(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
     if (s == RB_OK)

@@ -5,8 +5,6 @@
 #include "rollbem/case.h"
 #include "rollbem/io.h"
 
-enum { RB_CASE_OPTIONS_MAX = 128 };
-
 /* A table read from a file that an option names. */
 typedef struct {
     rb_io_table table;
@@ -39,10 +37,6 @@ struct rb_case {
     char **text;        /* copies of values; owned */
     int texts;
 };
-
-/* The options of a case; their values go to an rb_resolved_case. */
-extern const rb_option rb_case_table[];
-extern const int rb_case_table_n;
 
 /* Bits of `excludes` that exclude each other in this formulation. */
 unsigned rb_case_alike(rb_rolling_formulation formulation);

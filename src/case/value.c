@@ -29,53 +29,6 @@ static double whole_number(const char *text, int *value)
     return *end != '\0' ? NAN : v < INT_MIN ? -1.0 : v > INT_MAX ? 1.0 : 0.0;
 }
 
-static int in_range(double v, const rb_range *r)
-{
-    const int above = r->from_open ? v > r->from : v >= r->from;
-    const int below = r->to_open ? v < r->to : v <= r->to;
-    return above && below;
-}
-
-const char *rb_option_expected(const rb_option *o, char *text, size_t size)
-{
-    char range[64];
-    if (isfinite(o->range.from) && isfinite(o->range.to))
-        rb_format(range, sizeof range, " in %c%g, %g%c", o->range.from_open ? '(' : '[',
-                  o->range.from, o->range.to, o->range.to_open ? ')' : ']');
-    else if (isfinite(o->range.from))
-        rb_format(range, sizeof range, " %s %g",
-                  o->range.from_open ? ">" : ">=", o->range.from);
-    else if (isfinite(o->range.to))
-        rb_format(range, sizeof range, " %s %g",
-                  o->range.to_open ? "<" : "<=", o->range.to);
-    else
-        range[0] = '\0';
-    switch (o->kind) {
-    case RB_OPTION_NUMBER:
-        snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
-                 o->word ? o->word : "");
-        break;
-    case RB_OPTION_INTEGER:
-        snprintf(text, size, "a whole number%s", range);
-        break;
-    case RB_OPTION_CHOICE: {
-        text[0] = '\0';
-        for (int i = 0; o->choices[i].name; i++) {
-            const char *between = i == 0 ? "" : o->choices[i + 1].name ? ", " : " or ";
-            rb_append(text, size, "%s%s", between, o->choices[i].name);
-        }
-    } break;
-    case RB_OPTION_FLAG:
-        snprintf(text, size, "yes or no");
-        break;
-    case RB_OPTION_TEXT:
-    case RB_OPTION_GROUP:
-        snprintf(text, size, "a name");
-        break;
-    }
-    return text;
-}
-
 /* What is read, and what comes of it. */
 typedef struct {
     int plain;      /* 1: a number came without a unit */
@@ -89,7 +42,7 @@ static int set_number(const rb_option *o, double *place, const char *value, read
     if (o->word && strcmp(value, o->word) == 0)
         v = o->word_value;
     else if (rb_unit_read(value, o->unit, &v, &plain, &r->why) != RB_OK ||
-             !in_range(v, &o->range))
+             !rb_option_in_range(o, v))
         return 0;
     r->plain |= plain;
     *place = v;
@@ -134,7 +87,7 @@ static int set_integer(const rb_option *o, int *place, const char *value, readin
     if (beyond > 0.0 && isinf(o->range.to))
         rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX,
                 value);
-    if (beyond != 0.0 || !in_range(v, &o->range)) /* NAN as well */
+    if (beyond != 0.0 || !rb_option_in_range(o, v)) /* NAN as well */
         return 0;
     *place = v;
     return 1;

@@ -1,6 +1,7 @@
 /* rollbem contact FILE.inp: the two-dimensional cases of an input file of CONTACT. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/rows.h"
 #include "cli/wait.h"
 #include "rollbem/case.h"
 
@@ -67,106 +68,133 @@ typedef struct {
 
 /* ---- Results in CONTACT's words ---------------------------------------------------- */
 
-enum { COLUMNS = 18 };
+/* A case: its row of the table and its object. */
+typedef struct {
+    int number;
+    const char *status, *left_out;
+    double FN, FX, FX_REL, CKSI, PEN, PMAX, FRIC_POWER, NPOT, NCON, NADH, NSLIP, P, Q,
+        line, residual, NPLAST;
+} case_row;
+
+#define ROW(name, column, kind, member)                                                  \
+    {                                                                                    \
+        name, column, CLI_ROW_##kind, offsetof(case_row, member)                         \
+    }
+#define NUMBER(name, member) ROW(name, name, NUMBER, member)
+
+static const cli_row case_rows[] = {ROW("case", "case", WHOLE, number),
+                                    ROW("status", "status", WORDS, status),
+                                    ROW("left_out", NULL, TEXT, left_out),
+                                    NUMBER("FN", FN),
+                                    NUMBER("FX", FX),
+                                    NUMBER("FX_REL", FX_REL),
+                                    NUMBER("CKSI", CKSI),
+                                    NUMBER("PEN", PEN),
+                                    NUMBER("PMAX", PMAX),
+                                    NUMBER("FRIC_POWER", FRIC_POWER),
+                                    NUMBER("NPOT", NPOT),
+                                    NUMBER("NCON", NCON),
+                                    NUMBER("NADH", NADH),
+                                    NUMBER("NSLIP", NSLIP),
+                                    NUMBER("P_N/mm", P),
+                                    NUMBER("Q_N/mm", Q),
+                                    NUMBER("line", line),
+                                    NUMBER("residual", residual),
+                                    NUMBER("NPLAST", NPLAST)};
+
+#undef ROW
+#undef NUMBER
+
+enum { CASE_ROWS = sizeof case_rows / sizeof *case_rows };
+
 static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
                               "NCON NADH NSLIP P_N/mm Q_N/mm line residual NPLAST";
+
+/* An element of a case, in the table alone. */
+typedef struct {
+    int number, zone;
+    double X, H, PN, PX, S, UPL;
+} element_row;
+
+#define COLUMN(kind, column, member)                                                     \
+    {                                                                                    \
+        NULL, column, CLI_ROW_##kind, offsetof(element_row, member)                      \
+    }
+
+static const cli_row element_rows[] = {
+    COLUMN(WHOLE, "case", number), COLUMN(NUMBER, "X", X),    COLUMN(NUMBER, "H", H),
+    COLUMN(NUMBER, "PN", PN),      COLUMN(NUMBER, "PX", PX),  COLUMN(NUMBER, "S", S),
+    COLUMN(WHOLE, "zone", zone),   COLUMN(NUMBER, "UPL", UPL)};
+
+enum { ELEMENT_ROWS = sizeof element_rows / sizeof *element_rows };
+
 static const char element_columns[] = "case X H PN PX S zone UPL";
 
-/* What stands in the columns behind the status. */
-static void values_of(const contact_run *r, double x[COLUMNS - 2])
+/* x + 0.0: no -0; NAN where the case was not run. */
+static case_row case_row_of(const contact_runs *all, int k)
 {
+    const contact_run *r = &all->run[k];
     const rb_rolling_solution *s = &r->s;
     const rb_io_contact_case *in = r->in;
-    const double sign = r->c.sign, width = r->c.width;
-    const double all[COLUMNS - 2] = {
-        s->normal_load * width,
-        sign * s->tangential_load * width,
-        sign * s->force_ratio,
-        sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift),
-        s->approach,
-        s->max_pressure,
-        rb_case_contact_power(in, &r->c, r->before, s),
-        s->n,
-        s->contact,
-        s->stick,
-        s->slipping - (s->yielding > 0 ? s->yielding : 0),
-        s->normal_load,
-        s->tangential_load,
-        in->line,
-        s->residual,
-        s->yielding > 0 ? s->yielding : 0};
-    for (int k = 0; k < COLUMNS - 2; k++)
-        x[k] = s->n > 0 ? all[k] + 0.0 : NAN;
+    const double known = s->n > 0 ? 0.0 : NAN, sign = r->c.sign, width = r->c.width;
+    const int yielding = s->yielding > 0 ? s->yielding : 0;
+    return (case_row){
+        .number = k + 1,
+        .status = r->c.runs ? rb_status_text(r->status) : "not run",
+        .left_out = r->c.left_out,
+        .FN = s->normal_load * width + known,
+        .FX = sign * s->tangential_load * width + known,
+        .FX_REL = sign * s->force_ratio + known,
+        .CKSI = sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift) + known,
+        .PEN = s->approach + known,
+        .PMAX = s->max_pressure + known,
+        .FRIC_POWER = rb_case_contact_power(in, &r->c, r->before, s) + known,
+        .NPOT = s->n + known,
+        .NCON = s->contact + known,
+        .NADH = s->stick + known,
+        .NSLIP = s->slipping - yielding + known,
+        .P = s->normal_load + known,
+        .Q = s->tangential_load + known,
+        .line = in->line + known,
+        .residual = s->residual + known,
+        .NPLAST = yielding + known};
 }
 
-static const char *status_of(const contact_run *r)
+static element_row element_row_of(const contact_runs *all, int k, int i)
 {
-    return r->c.runs ? rb_status_text(r->status) : "not run";
-}
-
-static void print_elements(rb_report_cells *cells, int k, const contact_run *r)
-{
+    const contact_run *r = &all->run[k];
     const rb_rolling_solution *s = &r->s;
-    for (int j = 0; j < s->n; j++) {
-        const int i = r->c.sign < 0.0 ? s->n - 1 - j : j;
-        rb_report_cell_whole(cells, k + 1);
-        rb_report_cell_number(cells, r->c.centre + r->c.sign * s->x[i]);
-        rb_report_cell_number(cells, s->gap[i]);
-        rb_report_cell_number(cells, s->p[i]);
-        rb_report_cell_number(cells, r->c.sign * s->q[i] + 0.0);
-        rb_report_cell_number(cells, r->c.sign * s->slip[i] + 0.0);
-        rb_report_cell_whole(cells, s->zone[i]);
-        rb_report_cell_number(cells, s->plastic ? s->plastic[i] : 0.0);
-        rb_report_cells_end_row(cells);
-    }
+    return (element_row){.number = k + 1,
+                         .X = r->c.centre + r->c.sign * s->x[i],
+                         .H = s->gap[i],
+                         .PN = s->p[i],
+                         .PX = r->c.sign * s->q[i] + 0.0,
+                         .S = r->c.sign * s->slip[i] + 0.0,
+                         .zone = s->zone[i],
+                         .UPL = s->plastic ? s->plastic[i] : 0.0};
 }
 
 static rb_status print_table(FILE *out, const contact_runs *all)
 {
-    rb_report_cells cells = rb_report_cells_begin(
-        out, &all->o->style, all->o->tractions ? element_columns : columns);
+    const char *names = all->o->tractions ? element_columns : columns;
+    rb_report_cells cells = rb_report_cells_begin(out, &all->o->style, names);
     rb_report_comment_origin(&cells, cli_command_line());
     for (int k = 0; k < all->n; k++)
         if (all->run[k].c.left_out[0])
             rb_report_comment(&cells, "case %d leaves out %s", k + 1,
                               all->run[k].c.left_out);
     for (int k = 0; k < all->n; k++) {
-        double x[COLUMNS - 2];
-        if (all->o->tractions) {
-            print_elements(&cells, k, &all->run[k]);
-            continue;
+        const rb_rolling_solution *s = &all->run[k].s;
+        const case_row row = case_row_of(all, k);
+        if (!all->o->tractions)
+            cli_rows_cells(&cells, names, CASE_ROWS, case_rows, &row);
+        for (int j = 0; all->o->tractions && j < s->n; j++) {
+            const int i = all->run[k].c.sign < 0.0 ? s->n - 1 - j : j;
+            const element_row element = element_row_of(all, k, i);
+            cli_rows_cells(&cells, names, ELEMENT_ROWS, element_rows, &element);
         }
-        values_of(&all->run[k], x);
-        rb_report_cell_whole(&cells, k + 1);
-        rb_report_cell_words(&cells, status_of(&all->run[k]));
-        for (int j = 0; j < COLUMNS - 2; j++)
-            rb_report_cell_number(&cells, x[j]);
-        rb_report_cells_end_row(&cells);
     }
     return rb_report_flush(out);
-}
-
-static json_t *json_case(const contact_runs *all, int k)
-{
-    const contact_run *r = &all->run[k];
-    json_t *one = json_object();
-    double x[COLUMNS - 2];
-    char name[20];
-    const char *at = columns;
-    values_of(r, x);
-    rb_report_json_set(&one, "case", json_integer(k + 1));
-    rb_report_json_set(&one, "status", json_string(status_of(r)));
-    rb_report_json_set(&one, "left_out", json_string(r->c.left_out));
-    for (int j = 0; j < COLUMNS; j++) {
-        const size_t n = strcspn(at, " ");
-        snprintf(name, sizeof name, "%.*s", (int)n, at);
-        at += n + (at[n] == ' ');
-        if (j >= 2)
-            rb_report_json_set(&one, name, rb_report_json_number(x[j - 2]));
-    }
-    if (all->o->tractions && r->s.n > 0)
-        rb_report_json_set(&one, "table", rb_report_json_table(&r->s));
-    return one;
 }
 
 static rb_status print(FILE *out, const void *context, rb_message *why)
@@ -176,8 +204,13 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
     if (all->o->style.format != RB_REPORT_JSON)
         return print_table(out, all);
     json_t *root = rb_report_json_start(cli_command_line()), *cases = json_array();
-    for (int k = 0; k < all->n; k++)
-        rb_report_json_append(&cases, json_case(all, k));
+    for (int k = 0; k < all->n; k++) {
+        const case_row row = case_row_of(all, k);
+        json_t *one = cli_rows_json(CASE_ROWS, case_rows, &row, 1);
+        if (all->o->tractions && all->run[k].s.n > 0)
+            rb_report_json_set(&one, "table", rb_report_json_table(&all->run[k].s));
+        rb_report_json_append(&cases, one);
+    }
     rb_report_json_set(&root, "file", rb_report_json_text(all->path));
     rb_report_json_set(&root, "cases", cases);
     return rb_report_json_write(out, root);

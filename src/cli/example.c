@@ -1,6 +1,7 @@
 /* rollbem example bar|truss|wall: the finite-element examples of the two papers. */
 #include "cli/interrupt.h"
 #include "cli/output.h"
+#include "cli/rows.h"
 #include "cli/solvers.h"
 #include "cli/wait.h"
 
@@ -96,56 +97,82 @@ static json_t *inputs_of(const example_options *o, const char *name)
     return inputs;
 }
 
-static rb_status write_json(FILE *out, const example_options *o, const char *name,
-                            json_t *steps)
-{
-    json_t *root = rb_report_json_start(cli_command_line());
-    rb_report_json_set(&root, "inputs", inputs_of(o, name));
-    rb_report_json_set(&root, "steps", steps);
-    return rb_report_json_write(out, root);
-}
+/* The steps of an example: values, a struct for each step, described by rows. */
+typedef struct {
+    const char *name, *columns;
+    const cli_row *row;
+    int rows;
+} step_table;
 
-static rb_report_cells begin_table(FILE *out, const example_options *o,
-                                   const char *columns)
+static rb_status write_steps(FILE *out, const example_options *o, const step_table *t,
+                             int steps, const void *values, size_t size)
 {
-    const rb_report_cells c = rb_report_cells_begin(out, &o->style, columns);
+    const char *at = values;
+    if (o->style.format == RB_REPORT_JSON) {
+        json_t *list = json_array();
+        for (int k = 0; k < steps; k++)
+            rb_report_json_append(
+                &list, cli_rows_json(t->rows, t->row, at + (size_t)k * size, 1));
+        json_t *root = rb_report_json_start(cli_command_line());
+        rb_report_json_set(&root, "inputs", inputs_of(o, t->name));
+        rb_report_json_set(&root, "steps", list);
+        return rb_report_json_write(out, root);
+    }
+    rb_report_cells c = rb_report_cells_begin(out, &o->style, t->columns);
     rb_report_comment_origin(&c, cli_command_line());
-    return c;
+    for (int k = 0; k < steps; k++)
+        cli_rows_cells(&c, t->columns, t->rows, t->row, at + (size_t)k * size);
+    return rb_report_flush(out);
 }
 
 /* ---- Bar and truss ----------------------------------------------------------------- */
 
 typedef struct {
-    const char *name, *columns;
-    void (*row)(rb_report_cells *c, const rb_report_fem_sums *sums);
-    json_t *(*json)(const rb_fem_model *model, const rb_fem_history *history);
+    int number, stick, slip, separated, iterations;
+    const char *status;
+    double residual;
+    rb_report_fem_sums sums;
+} model_step;
+
+#define ROW(name, column, kind, member)                                                  \
+    {                                                                                    \
+        name, column, CLI_ROW_##kind, offsetof(model_step, member)                       \
+    }
+#define COMMON_ROWS                                                                      \
+    ROW(NULL, "step", WHOLE, number), ROW("status", NULL, TEXT, status),                 \
+        ROW("stick", "stick", WHOLE, stick), ROW("slip", "slip", WHOLE, slip),           \
+        ROW("separated", "separated", WHOLE, separated),                                 \
+        ROW("iterations", "iterations", WHOLE, iterations),                              \
+        ROW("residual", "residual", NUMBER, residual)
+#define SUM(name, member) ROW(name, name, NUMBER, sums.member)
+
+static const cli_row bar_rows[] = {
+    COMMON_ROWS, SUM("corner_ux_mm", corner[0]), SUM("corner_uy_mm", corner[1]),
+    SUM("normal_sum_N", normal), SUM("tangential_sum_N", tangential[0])};
+static const cli_row truss_rows[] = {COMMON_ROWS, SUM("max_increment_mm", increment),
+                                     SUM("normal_sum_N", normal)};
+
+#undef ROW
+#undef SUM
+#undef COMMON_ROWS
+
+typedef struct {
+    step_table table;
     rb_status (*picture)(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
                          const rb_fem_history *history, rb_message *why);
 } example;
 
-static void bar_row(rb_report_cells *c, const rb_report_fem_sums *sums)
-{
-    rb_report_cell_number(c, sums->corner[0]);
-    rb_report_cell_number(c, sums->corner[1]);
-    rb_report_cell_number(c, sums->normal);
-    rb_report_cell_number(c, sums->tangential[0]);
-}
-
-static void truss_row(rb_report_cells *c, const rb_report_fem_sums *sums)
-{
-    rb_report_cell_number(c, sums->increment);
-    rb_report_cell_number(c, sums->normal);
-}
-
 static const example bar = {
-    "bar",
-    "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
-    "tangential_sum_N iterations residual",
-    bar_row, rb_report_json_bar, rb_report_picture_bar};
-static const example truss = {"truss",
-                              "step stick slip separated max_increment_mm normal_sum_N "
-                              "iterations residual",
-                              truss_row, rb_report_json_truss, rb_report_picture_truss};
+    {"bar",
+     "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
+     "tangential_sum_N iterations residual",
+     bar_rows, sizeof bar_rows / sizeof *bar_rows},
+    rb_report_picture_bar};
+static const example truss = {
+    {"truss",
+     "step stick slip separated max_increment_mm normal_sum_N iterations residual",
+     truss_rows, sizeof truss_rows / sizeof *truss_rows},
+    rb_report_picture_truss};
 
 typedef struct {
     const example_options *o;
@@ -154,31 +181,27 @@ typedef struct {
     const rb_fem_history *history;
 } example_run;
 
-static rb_status write_table(FILE *out, const example_run *r)
-{
-    rb_report_cells c = begin_table(out, r->o, r->e->columns);
-    for (int k = 0; k < r->history->steps; k++) {
-        const rb_fem_step *s = &r->history->step[k];
-        const rb_report_fem_sums sums = rb_report_fem_sum(r->model, s);
-        rb_report_cell_whole(&c, k + 1);
-        rb_report_cell_whole(&c, s->stick);
-        rb_report_cell_whole(&c, s->slip);
-        rb_report_cell_whole(&c, s->separated);
-        r->e->row(&c, &sums);
-        rb_report_cell_whole(&c, s->iterations);
-        rb_report_cell_number(&c, s->residual);
-        rb_report_cells_end_row(&c);
-    }
-    return rb_report_flush(out);
-}
-
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const example_run *r = context;
-    (void)why;
-    return r->o->style.format == RB_REPORT_JSON
-               ? write_json(out, r->o, r->e->name, r->e->json(r->model, r->history))
-               : write_table(out, r);
+    const int steps = r->history->steps;
+    model_step *all = calloc((size_t)steps, sizeof *all);
+    if (!all)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    for (int k = 0; k < steps; k++) {
+        const rb_fem_step *s = &r->history->step[k];
+        all[k] = (model_step){.number = k + 1,
+                              .stick = s->stick,
+                              .slip = s->slip,
+                              .separated = s->separated,
+                              .iterations = s->iterations,
+                              .status = rb_status_text(s->status),
+                              .residual = s->residual,
+                              .sums = rb_report_fem_sum(r->model, s)};
+    }
+    const rb_status s = write_steps(out, r->o, &r->e->table, steps, all, sizeof *all);
+    free(all);
+    return s;
 }
 
 static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *context,
@@ -240,37 +263,32 @@ typedef struct {
     int steps;
 } wall_run;
 
-static rb_status write_wall_table(FILE *out, const wall_run *run)
-{
-    rb_report_cells c =
-        begin_table(out, run->o,
-                    "time_s compression_N shear_N drift_m stick slip separated "
-                    "iterations residual seconds");
-    for (int k = 0; k < run->steps; k++) {
-        const rb_fem_wall_step *s = &run->step[k];
-        rb_report_cell_number(&c, s->time);
-        rb_report_cell_number(&c, s->compression);
-        rb_report_cell_number(&c, s->shear);
-        rb_report_cell_number(&c, s->drift);
-        rb_report_cell_whole(&c, s->stick);
-        rb_report_cell_whole(&c, s->slip);
-        rb_report_cell_whole(&c, s->separated);
-        rb_report_cell_whole(&c, s->iterations);
-        rb_report_cell_number(&c, s->residual);
-        rb_report_cell_number(&c, s->seconds);
-        rb_report_cells_end_row(&c);
+#define ROW(name, kind, member)                                                          \
+    {                                                                                    \
+        name, name, CLI_ROW_##kind, offsetof(rb_fem_wall_step, member)                   \
     }
-    return rb_report_flush(out);
-}
+
+static const cli_row wall_rows[] = {
+    ROW("time_s", NUMBER, time),        ROW("compression_N", NUMBER, compression),
+    ROW("shear_N", NUMBER, shear),      ROW("drift_m", NUMBER, drift),
+    ROW("stick", WHOLE, stick),         ROW("slip", WHOLE, slip),
+    ROW("separated", WHOLE, separated), ROW("iterations", WHOLE, iterations),
+    ROW("residual", NUMBER, residual),  ROW("seconds", NUMBER, seconds)};
+
+#undef ROW
+
+static const step_table wall_table = {
+    "wall",
+    "time_s compression_N shear_N drift_m stick slip separated iterations residual "
+    "seconds",
+    wall_rows, sizeof wall_rows / sizeof *wall_rows};
 
 static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 {
     const wall_run *run = context;
     (void)why;
-    return run->o->style.format == RB_REPORT_JSON
-               ? write_json(out, run->o, "wall",
-                            rb_report_json_wall(run->steps, run->step))
-               : write_wall_table(out, run);
+    return write_steps(out, run->o, &wall_table, run->steps, run->step,
+                       sizeof *run->step);
 }
 
 static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context,

@@ -328,7 +328,7 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     rb_rolling_case widest = rb_rolling_memory_case(r->rc, INFINITY);
 
     widest.formulation = RB_STATIC;
-    widest.increments = 0;
+    widest.increments = 1;
     widest.heat_a.conductivity = 0.0; /* nothing slides yet */
     widest.zone = zone;
     widest.load = largest(program->load, program->n, widest.load);
@@ -483,9 +483,8 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc,
     r->program = program ? program : &r->own;
     memset(r->model, 0, sizeof *r->model);
     rb_status s = rb_rolling_case_check(&whole, why);
-    if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT &&
-        !(rc->distance > 0.0))
-        s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got %g", rc->distance);
+    if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT && rc->distance == 0.0)
+        s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got 0");
     if (s == RB_OK && !program) {
         r->base.half_width = NAN; /* a column of loads replaces it */
         *columns = rb_rolling_program_of_case(rc, &r->own);

@@ -87,13 +87,10 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
     const int plane = plane_allowed && b->radius == INFINITY;
     rb_status s = RB_OK;
 
-    if (!(isfinite(b->young) && b->young > 0.0))
-        return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
-                       b->young);
     const int bore = plane_allowed && b->radius < 0.0;
-    if (!plane && !(isfinite(b->radius) && (b->radius > 0.0 || bore)))
-        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0%s, got %g", which,
-                       plane_allowed ? ", or < 0 of a bore" : "", b->radius);
+    if (b->radius == 0.0)
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0",
+                       which);
     if (!rb_rolling_kind_of(b))
         return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which,
                        (int)b->support);

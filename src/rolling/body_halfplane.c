@@ -84,16 +84,6 @@ halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                 rc, body, mesh, one_body, why);
 }
 
-rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
-                                double poisson, const char *which, rb_message *why)
-{
-    if (!(isfinite(young) && young >= 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "Young's modulus of the %s%s: expected > 0, got %g", what, which,
-                       young);
-    return young > 0.0 ? rb_rolling_check_poisson(rc, what, poisson, which, why) : RB_OK;
-}
-
 enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };
 
 /* ---- Of one material --------------------------------------------------------------- */
@@ -113,16 +103,6 @@ static double datum(const rb_rolling_case *rc, const rb_rolling_body *body)
     return on_rigid_base(body) ? NAN : depth_of_datum(rc, body);
 }
 
-static rb_status check_halfplane(const rb_rolling_case *rc, const rb_rolling_body *b,
-                                 const char *which, rb_message *why)
-{
-    (void)rc;
-    return isfinite(b->datum) && b->datum >= 0.0
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
-                         b->datum);
-}
-
 static const rb_rolling_parameter halfplane_parameters[] = {
     {.option = "datum"},
     {"datum", not_on_rigid_base, "on a rigid base the displacement is absolute"},
@@ -133,7 +113,6 @@ const rb_rolling_body_kind rb_rolling_halfplane = {
     .support = RB_BEM_HALFPLANE,
     .can = HALFPLANE | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC | RB_BODY_STRESS,
     .parameters = halfplane_parameters,
-    .check = check_halfplane,
     .flexibility = halfplane_flexibility,
     .transforms = halfplane_transforms,
     .surface = rb_rolling_halfplane_surface,
@@ -149,14 +128,13 @@ static int has_layer(const rb_rolling_body *body)
 static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b,
                              const char *which, rb_message *why)
 {
-    if (!(isfinite(b->layer) && b->layer >= 0.0))
-        return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
-                       b->layer);
     if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
         return rb_fail(why, RB_EINVAL,
                        "layer thickness%s: for the support halfplane only, got a wheel",
                        which);
-    return rb_rolling_check_base(rc, "base", b->base_young, b->base_poisson, which, why);
+    return has_layer(b) && b->base_young > 0.0
+               ? rb_rolling_check_poisson(rc, "base", b->base_poisson, which, why)
+               : RB_OK;
 }
 
 static const rb_rolling_parameter layer_parameters[] = {

@@ -169,16 +169,6 @@ enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
 /* ---- A clamped arc ----------------------------------------------------------------- */
 
-static rb_status check_arc(const rb_rolling_case *rc, const rb_rolling_body *b,
-                           const char *which, rb_message *why)
-{
-    (void)rc;
-    return b->arc > 0.0 && b->arc <= 90.0
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "arc%s: expected in (0, 90] degrees, got %g",
-                         which, b->arc);
-}
-
 static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"},
                                                       {.option = NULL}};
 
@@ -186,21 +176,10 @@ const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
                                              .support = RB_BEM_ARC,
                                              .can = WHEEL | RB_BODY_HOMOGENEOUS,
                                              .parameters = arc_parameters,
-                                             .check = check_arc,
                                              .flexibility = wheel_flexibility,
                                              .surface = rb_rolling_halfplane_surface};
 
 /* ---- A rigid hub ------------------------------------------------------------------- */
-
-static rb_status check_hub(const rb_rolling_case *rc, const rb_rolling_body *b,
-                           const char *which, rb_message *why)
-{
-    (void)rc;
-    return b->hub_ratio > 0.0 && b->hub_ratio < 1.0
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
-                         b->hub_ratio);
-}
 
 static int shows_its_hub(const rb_rolling_body *body)
 {
@@ -217,7 +196,6 @@ const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .can = WHEEL | RB_BODY_HOMOGENEOUS |
                                                     RB_BODY_TURNS,
                                              .parameters = hub_parameters,
-                                             .check = check_hub,
                                              .flexibility = wheel_flexibility,
                                              .transformed = wheel_transformed,
                                              .transforms = wheel_transforms,
@@ -237,17 +215,19 @@ static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b
         return rb_fail(why, RB_EINVAL,
                        "cover thickness%s: its core holds the wheel, add --support%s hub",
                        which, which[0] ? "-b" : "");
-    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < fabs(b->radius)))
-        return rb_fail(
-            why, RB_EINVAL,
-            "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
-            which, b->radius, b->cover);
+    if (!(b->cover < fabs(b->radius)))
+        return rb_fail(why, RB_EINVAL,
+                       "cover thickness%s: expected less than the radius, %g mm, got %g "
+                       "mm",
+                       which, b->radius, b->cover);
     if (rb_rolling_has_elastic_core(b) && rb_rolling_material(rc, b).poisson > 0.499)
         return rb_fail(why, RB_EINVAL,
                        "Poisson's ratio%s: a cover on an elastic core has to be "
                        "compressible, expected 0.499 at most, got %g",
                        which, b->poisson);
-    return rb_rolling_check_base(rc, "core", b->core_young, b->core_poisson, which, why);
+    return rb_rolling_has_elastic_core(b)
+               ? rb_rolling_check_poisson(rc, "core", b->core_poisson, which, why)
+               : RB_OK;
 }
 
 static const rb_rolling_parameter cover_parameters[] = {

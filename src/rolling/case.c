@@ -238,11 +238,6 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan)
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
-static int is_positive(double x)
-{
-    return isfinite(x) && x > 0.0;
-}
-
 /* Steady rolling averages over what a particle has passed, which must be alike everywhere
  * for that.  Step by step a body has one compliance, so that nothing may be under it that
  * does not relax. */
@@ -274,31 +269,34 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
 static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
+    rb_status s = RB_OK;
     int terms = 0;
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         if (memory[b]->n < 0 || memory[b]->n > RB_ROLLING_TERMS)
             return rb_fail(why, RB_EINVAL, "relaxation: expected 0 ... %d terms, got %d",
                            RB_ROLLING_TERMS, memory[b]->n);
-        for (int k = 0; k < memory[b]->n; k++)
-            if (!is_positive(memory[b]->time[k]) || !(memory[b]->ratio[k] >= 0.0) ||
-                isinf(memory[b]->ratio[k]))
-                return rb_fail(
-                    why, RB_EINVAL,
-                    "relaxation: expected times > 0 and ratios >= 0, got %g and %g",
-                    memory[b]->time[k], memory[b]->ratio[k]);
+        for (int k = 0; k < memory[b]->n && s == RB_OK; k++) {
+            s = rb_rolling_check_number(b ? "relaxation-time-b" : "relaxation-time",
+                                        memory[b]->time[k], why);
+            if (s == RB_OK)
+                s = rb_rolling_check_number(b ? "relaxation-ratio-b" : "relaxation-ratio",
+                                            memory[b]->ratio[k], why);
+        }
         terms += memory[b]->n;
     }
+    if (s != RB_OK)
+        return s;
     if (terms > 0 && rc->formulation == RB_TRANSIENT && rc->steps > 0)
         return rb_fail(why, RB_EINVAL,
                        "steps: viscoelastic bodies roll by one element in each step; "
                        "choose --contact-elements instead");
-    rb_status s = check_relaxing_body(rc, &rc->a, why);
+    s = check_relaxing_body(rc, &rc->a, why);
     if (s == RB_OK && rc->elastic_b)
         s = check_relaxing_body(rc, &rc->b, why);
     if (s != RB_OK || terms == 0)
         return s;
-    if (rc->formulation != RB_STATIC && !is_positive(rc->speed))
+    if (rc->formulation != RB_STATIC && rc->speed == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "relaxation: needs the speed of rolling, add --speed");
     if (rc->formulation != RB_STEADY &&
@@ -306,8 +304,6 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "relaxation: a computation with steps needs a parabola or circle "
                        "as gap, got a table");
-    if (!(isfinite(rc->time_step) && rc->time_step >= 0.0))
-        return rb_fail(why, RB_EINVAL, "time step: expected > 0, got %g", rc->time_step);
     return RB_OK;
 }
 
@@ -317,25 +313,16 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     enum { MOST = 100000, MOST_UNLIKE = 4000 };
     const rb_rolling_heat *a = &rc->heat_a, *b = &rc->heat_b;
 
-    if (!(a->conductivity >= 0.0 && isfinite(a->conductivity)))
-        return rb_fail(why, RB_EINVAL, "conductivity: expected >= 0, got %g",
-                       a->conductivity);
     if (a->conductivity == 0.0)
         return RB_OK;
-    if (!(b->conductivity >= 0.0 && isfinite(b->conductivity)))
-        return rb_fail(why, RB_EINVAL, "conductivity of body B: expected >= 0, got %g",
-                       b->conductivity);
-    if (!is_positive(a->heat_capacity) ||
-        (b->conductivity > 0.0 && !is_positive(b->heat_capacity)))
+    if (a->heat_capacity == 0.0 || (b->conductivity > 0.0 && b->heat_capacity == 0.0))
         return rb_fail(why, RB_EINVAL,
                        "conductivity: needs the heat capacity, add --heat-capacity");
-    if (!isfinite(a->temperature) || !isfinite(b->temperature))
-        return rb_fail(why, RB_EINVAL, "temperature: expected finite numbers");
     if (rc->formulation == RB_STATIC)
         return rb_fail(why, RB_EINVAL,
                        "conductivity: friction heats bodies that roll, add --formulation "
                        "steady or transient");
-    if (!is_positive(rc->speed))
+    if (rc->speed == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "conductivity: needs the speed of rolling, add --speed");
     /* A layer or a cover. */
@@ -374,15 +361,10 @@ static int count_given(int n, const double *value)
 static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
 {
     const double normal[] = {rc->approach, rc->load, rc->half_width};
-    static const char *const name[] = {"approach", "load", "half-width"};
 
     if (count_given(3, normal) > 1)
         return rb_fail(why, RB_EINVAL,
                        "approach, load and half-width exclude each other");
-    for (int i = 0; i < 3; i++)
-        if (!isnan(normal[i]) && !is_positive(normal[i]))
-            return rb_fail(why, RB_EINVAL, "%s: expected > 0, got %g", name[i],
-                           normal[i]);
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
         return rb_fail(why, RB_EINVAL,
@@ -396,13 +378,8 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 {
     const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force,
                           rc->force_ratio};
-    static const char *const name[] = {"shift", "creep", "creep-ratio", "force",
-                                       "force-ratio"};
     const double load[] = {rc->shift, rc->force, rc->force_ratio};
 
-    for (int i = 0; i < 5; i++)
-        if (isinf(all[i]))
-            return rb_fail(why, RB_EINVAL, "%s: expected a finite number", name[i]);
     if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
         return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
     if (rb_rolling_largest_mu(rc) == 0.0 && !isnan(rc->creep_ratio))
@@ -446,18 +423,6 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
 {
-    const double value[] = {rc->interlayer_normal, rc->interlayer_tangential};
-    for (int k = 0; k < 2; k++)
-        if (!(isfinite(value[k]) && value[k] >= 0.0))
-            return rb_fail(why, RB_EINVAL,
-                           "interlayer: expected a %s compliance >= 0, got %g",
-                           k ? "tangential" : "normal", value[k]);
-    if (!(isfinite(rc->yield_stress) && rc->yield_stress >= 0.0))
-        return rb_fail(why, RB_EINVAL, "yield stress: expected > 0, got %g",
-                       rc->yield_stress);
-    if (!isfinite(rc->hardening))
-        return rb_fail(why, RB_EINVAL, "hardening: expected a finite number, got %g",
-                       rc->hardening);
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
         return rb_fail(
             why, RB_EINVAL,
@@ -527,9 +492,6 @@ static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
 
 static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
 {
-    if (rc->increments < 0 || rc->increments > 1000000)
-        return rb_fail(why, RB_EINVAL, "increments: expected 0 ... 1000000, got %d",
-                       rc->increments);
     if (rc->increments > 1 && rc->formulation == RB_STEADY)
         return rb_fail(why, RB_EINVAL,
                        "increments: of static contact and of the start of a transient; "
@@ -547,18 +509,15 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "mesh aligned: expected 12 contact elements or more, got %d",
                        rc->contact_elements);
-    if (rc->contact_elements < 3 || rc->contact_elements > 1 << 24)
-        return rb_fail(why, RB_EINVAL, "contact elements: expected 3 ... %d, got %d",
+    if (rc->contact_elements > 1 << 24)
+        return rb_fail(why, RB_EINVAL, "contact elements: expected at most %d, got %d",
                        1 << 24, rc->contact_elements);
-    if (rc->outer_elements < 0 || rc->outer_elements > 1 << 20)
-        return rb_fail(why, RB_EINVAL, "outer elements: expected 0 ... %d, got %d",
+    if (rc->outer_elements > 1 << 20)
+        return rb_fail(why, RB_EINVAL, "outer elements: expected at most %d, got %d",
                        1 << 20, rc->outer_elements);
     if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
         return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
                        rc->outer_refinement);
-    if (!(isfinite(rc->zone) && rc->zone >= 0.0))
-        return rb_fail(why, RB_EINVAL, "zone: expected a half-width > 0, got %g",
-                       rc->zone);
     if (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius))
         return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm",
                        rc->zone, fmin(rc->a.radius, fabs(rc->b.radius)));
@@ -575,8 +534,6 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
             why, RB_EINVAL,
             "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
             rc->contact.cone_solver ? rc->contact.cone_solver : "");
-    if (!is_positive(rc->contact.tol))
-        return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->contact.tol);
     return RB_OK;
 }
 
@@ -623,8 +580,11 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         check_normal,       check_tangential, check_bore,           check_gap,
         check_irregularity, check_worn,       check_increments,     check_sizes,
         check_mesh};
-    rb_status s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
+    const rb_rolling_case defaults = rb_rolling_case_defaults();
+    rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 
+    if (s == RB_OK)
+        s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
     if (s == RB_OK && rc->elastic_b)
         s = rb_rolling_body_check(rc, &rc->b, " of body B", 1, why);
     for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)

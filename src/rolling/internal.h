@@ -2,6 +2,7 @@
 #ifndef ROLLBEM_ROLLING_INTERNAL_H
 #define ROLLBEM_ROLLING_INTERNAL_H
 
+#include "rollbem/options.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
@@ -18,6 +19,16 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc);
 /* 1 if products are computed by Fourier transforms: half-planes, and covers in steady
  * rolling, with equal elements, solved by Newton's method. */
 int rb_rolling_has_transforms(const rb_rolling_case *rc);
+
+/* ---- options.c: the ranges of the option table ---------------------------------------
+ */
+
+/* Checks the numbers of a case: RB_EINVAL "young: expected a number > 0, got -1".  What
+ * has its default is not given. */
+rb_status rb_rolling_check_ranges(const rb_rolling_case *rc,
+                                  const rb_rolling_case *defaults, rb_message *why);
+/* Checks a number against the range of this option. */
+rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
 
 /* ---- profile.c --------------------------------------------------------------------- */
 
@@ -94,14 +105,10 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
 /* L = V tau of each term. */
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
                                double length[RB_ROLLING_TERMS]);
-/* Checks E >= 0 (0: rigid) and nu of the base or core below a layer or cover. */
-rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
-                                double poisson, const char *which, rb_message *why);
-
 /* ---- material.c -------------------------------------------------------------------- */
 
-/* Checks that nu is in the range of the plane problem; what: "base" or "core", NULL for
- * the body itself. */
+/* Checks that nu is in the range of plane stress, if that is the problem; what: "base" or
+ * "core", NULL for the body itself. */
 rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
                                    double poisson, const char *which, rb_message *why);
 

@@ -129,16 +129,16 @@ static rb_status check_table(const rb_rolling_table *t, rb_message *why)
 static rb_status check_slip(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_friction *f = &rc->friction;
+    rb_status s = RB_OK;
 
-    for (int k = 0; k < 2; k++)
-        if (!isfinite(f->fall[k]) || (f->fall[k] != 0.0 && !(isfinite(f->slip_scale[k]) &&
-                                                             f->slip_scale[k] > 0.0)))
-            return rb_fail(
-                why, RB_EINVAL,
-                "friction law %s: expected a slip scale > 0 for each fall, got "
-                "%g for %g",
-                names[f->law], f->slip_scale[k], f->fall[k]);
-    if (rc->formulation != RB_STATIC && !(isfinite(rc->speed) && rc->speed > 0.0))
+    for (int k = 0; k < 2 && s == RB_OK; k++) {
+        s = rb_rolling_check_number("mu-fall", f->fall[k], why);
+        if (s == RB_OK && f->fall[k] != 0.0)
+            s = rb_rolling_check_number("slip-scale", f->slip_scale[k], why);
+    }
+    if (s != RB_OK)
+        return s;
+    if (rc->formulation != RB_STATIC && rc->speed == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "friction law %s: needs the speed of rolling, add --speed",
                        names[f->law]);
@@ -150,8 +150,6 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
     const rb_rolling_friction *f = &rc->friction;
     rb_status s = RB_OK;
 
-    if (!(isfinite(rc->mu) && rc->mu >= 0.0))
-        return rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
     if (f->law == RB_FRICTION_table)
         s = check_table(&f->table, why);
     if (s == RB_OK && rb_rolling_law_depends_on_slip(f))

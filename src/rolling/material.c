@@ -20,11 +20,10 @@ rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
 rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
                                    double poisson, const char *which, rb_message *why)
 {
-    const int stress = rc->plane == RB_PLANE_STRESS;
-    if (poisson > (stress ? -0.5 : -1.0) && poisson <= 0.5)
+    if (rc->plane != RB_PLANE_STRESS || poisson > -0.5)
         return RB_OK;
     return rb_fail(why, RB_EINVAL,
-                   "Poisson's ratio%s%s%s: expected in (%s, 0.5]%s, got %g",
-                   what ? " of the " : "", what ? what : "", which,
-                   stress ? "-0.5" : "-1", stress ? " in plane stress" : "", poisson);
+                   "Poisson's ratio%s%s%s: expected in (-0.5, 0.5] in plane stress, got "
+                   "%g",
+                   what ? " of the " : "", what ? what : "", which, poisson);
 }

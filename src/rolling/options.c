@@ -1,8 +1,9 @@
-/* The options of a case, each once: everything that reads or shows them is made from this
- * table. */
-#include "case/internal.h"
+/* The options of a case, each once: everything that reads, shows or checks them is made
+ * from this table. */
+#include "rolling/internal.h"
 
-#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 #define PLACE(member) offsetof(rb_resolved_case, member)
 #define RC(member) offsetof(rb_resolved_case, rc.member)
@@ -37,23 +38,8 @@ static const rb_choice lcp_forms[] = {
 static const rb_choice laws[] = {RB_ROLLING_FRICTION_LAWS(CHOICE_OF_LAW){NULL, 0}};
 #define HELP_OF_LAW(name, help) #name ": " help "; "
 
-const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO},
-                                             {"creep", RB_OVER_CREEP},
-                                             {"speed", RB_OVER_SPEED},
-                                             {NULL, 0}};
-
 static const rb_choice systems[] = {
     {"mm", RB_UNITS_MM}, {"si", RB_UNITS_SI}, {"inch", RB_UNITS_INCH}, {NULL, 0}};
-
-/* What excludes what. */
-enum {
-    ONE_NORMAL = 1,
-    ONE_CREEPAGE = 2,
-    ONE_LOADING = 4,
-    ONE_YOUNG_B = 8,
-    ONE_POISSON_B = 16,
-    ONE_FRICTION = 32
-};
 
 /* Stacks: the bond of each to the next is four more conditions for every wave. */
 #define ONE_LAYER "one layer on its base, a stack of layers is not modelled"
@@ -115,16 +101,18 @@ const rb_option rb_case_table[] = {
     RB_FLAG_LINE("similar", PLACE(similar),
                  "elastic, of the same material as A, with the same layer, cover and "
                  "viscoelasticity",
-                 .excludes = ONE_YOUNG_B | ONE_POISSON_B, .common = 1),
+                 .excludes = RB_ONE_YOUNG_B | RB_ONE_POISSON_B, .common = 1),
     RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
                    "Young's modulus; makes B elastic", .unset = "rigid",
-                   .excludes = ONE_YOUNG_B, .common = 1),
+                   .excludes = RB_ONE_YOUNG_B, .common = 1, .into = RC(b.young),
+                   .of_a = RC(a.young), .if_similar = 1),
     RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio", .unset = "A's", .excludes = ONE_POISSON_B),
+                   "Poisson's ratio", .unset = "A's", .excludes = RB_ONE_POISSON_B,
+                   .into = RC(b.poisson), .of_a = RC(a.poisson)),
     RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ANY,
                    "radius of an elastic B, or plane; < 0: a bore around A (outer race, "
                    "bearing of a journal, internal gear)",
-                   .word = "plane", .word_value = INFINITY),
+                   .word = "plane", .word_value = INFINITY, .into = RC(b.radius)),
     RB_CHOICE_LINE("support-b", RC(b.support), rb_rolling_supports,
                    "how an elastic B is held"),
     RB_NUMBER_LINE("arc-b", RC(b.arc), "degrees", RB_ABOVE_UPTO(0, 90),
@@ -137,18 +125,24 @@ const rb_option rb_case_table[] = {
                    .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness-b", RC(b.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of its material on a base",
-                   .word = "none", .word_value = 0.0, .one_only = ONE_LAYER),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_LAYER,
+                   .of_a = RC(a.layer), .if_similar = 1),
     RB_NUMBER_LINE("base-young-b", RC(b.base_young), "MPa", RB_ABOVE(0),
-                   "Young's modulus of that base", .word = "rigid", .word_value = 0.0),
+                   "Young's modulus of that base", .word = "rigid", .word_value = 0.0,
+                   .of_a = RC(a.base_young), .if_similar = 1),
     RB_NUMBER_LINE("base-poisson-b", RC(b.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio of an elastic base"),
+                   "Poisson's ratio of an elastic base", .of_a = RC(a.base_poisson),
+                   .if_similar = 1),
     RB_NUMBER_LINE("cover-thickness-b", RC(b.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of its material on its core",
-                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER),
+                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER,
+                   .of_a = RC(a.cover), .if_similar = 1),
     RB_NUMBER_LINE("core-young-b", RC(b.core_young), "MPa", RB_ABOVE(0),
-                   "Young's modulus of that core", .word = "rigid", .word_value = 0.0),
+                   "Young's modulus of that core", .word = "rigid", .word_value = 0.0,
+                   .of_a = RC(a.core_young), .if_similar = 1),
     RB_NUMBER_LINE("core-poisson-b", RC(b.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio of an elastic core"),
+                   "Poisson's ratio of an elastic core", .of_a = RC(a.core_poisson),
+                   .if_similar = 1),
     RB_NUMBER_LINE("relaxation-time-b", PLACE(memory_b.time), "s", RB_ABOVE(0), "as of A",
                    .unset = "elastic", .list = PLACE(memory_b.times)),
     RB_NUMBER_LINE("relaxation-ratio-b", PLACE(memory_b.ratio), "-", RB_FROM(0),
@@ -178,7 +172,7 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several, separated by commas",
-                   .list = PLACE(mus), .excludes = ONE_FRICTION, .common = 1),
+                   .list = PLACE(mus), .excludes = RB_ONE_FRICTION, .common = 1),
     RB_CHOICE_LINE(
         "friction-law", RC(friction.law), laws,
         RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
@@ -196,7 +190,8 @@ const rb_option rb_case_table[] = {
                    "d; at rest it changes as if sliding at s0 (1 mm/s)",
                    .unset = "none", .list = PLACE(law.memories)),
     RB_NUMBER_LINE(
-        "mu-heat", PLACE(law.heat), "-", RB_ANY,
+        "mu-heat",
+        PLACE(law.heat), "-", RB_ANY,
         "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
         "rises from Tref to Tref + dT [K]; see --conductivity",
         .unset = "none", .list = PLACE(law.heats)),
@@ -225,40 +220,43 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("temperature", RC(heat_a.temperature), "K", RB_ANY,
                    "of A far from the contact; 0: results are temperature rises"),
     RB_NUMBER_LINE("conductivity-b", PLACE(conductivity_b), "W/(m K)", RB_FROM(0),
-                   "of B, rigid or elastic; 0: no heat enters B", .unset = "A's"),
+                   "of B, rigid or elastic; 0: no heat enters B", .unset = "A's",
+                   .into = RC(heat_b.conductivity), .of_a = RC(heat_a.conductivity)),
     RB_NUMBER_LINE("heat-capacity-b", PLACE(heat_capacity_b), "MJ/(m3 K)", RB_ABOVE(0),
-                   "of B", .unset = "A's"),
+                   "of B", .unset = "A's", .into = RC(heat_b.heat_capacity),
+                   .of_a = RC(heat_a.heat_capacity)),
     RB_NUMBER_LINE("temperature-b", PLACE(temperature_b), "K", RB_ANY,
-                   "of B far from the contact", .unset = "A's"),
+                   "of B far from the contact", .unset = "A's",
+                   .into = RC(heat_b.temperature), .of_a = RC(heat_a.temperature)),
 
     RB_GROUP_LINE("normal", "Normal direction: one of"),
     RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
                    "how far A is moved down, towards B", .unset = "R/2",
-                   .excludes = ONE_NORMAL, .common = 1),
+                   .excludes = RB_ONE_NORMAL, .common = 1),
     RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P",
-                   .unset = "not given", .excludes = ONE_NORMAL, .common = 1),
+                   .unset = "not given", .excludes = RB_ONE_NORMAL, .common = 1),
     RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
                    "the half-width a of Hertz; the load follows from it",
-                   .unset = "not given", .excludes = ONE_NORMAL, .common = 1),
+                   .unset = "not given", .excludes = RB_ONE_NORMAL, .common = 1),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE(
         "shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",
-        .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
+        .unset = "a tenth of the approach; 0 under load", .excludes = RB_ONE_LOADING),
     RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY,
                    "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
-                   .excludes = ONE_CREEPAGE, .common = 1),
+                   .excludes = RB_ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", RB_ANY,
                    "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
-                   .unset = "not given", .excludes = ONE_CREEPAGE, .common = 1),
+                   .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("force", RC(force), "N/mm", RB_ANY,
                    "tangential load Q on A, towards +x", .unset = "not given",
-                   .excludes = ONE_LOADING),
+                   .excludes = RB_ONE_LOADING),
     RB_NUMBER_LINE("force-ratio", RC(force_ratio), "-", RB_ANY, "Q/(mu P), the sign of Q",
-                   .unset = "not given", .excludes = ONE_LOADING, .common = 1),
+                   .unset = "not given", .excludes = RB_ONE_LOADING, .common = 1),
     RB_FLAG_LINE("free-axle", RC(free_axle),
                  "steady: no torque on A's axle, Q = -M/R_A; M: see resistance_moment",
-                 .excludes = ONE_LOADING),
+                 .excludes = RB_ONE_LOADING),
 
     RB_GROUP_LINE("problem", "Problem"),
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
@@ -356,10 +354,113 @@ const int rb_case_table_n = sizeof rb_case_table / sizeof rb_case_table[0];
 
 _Static_assert(sizeof rb_case_table / sizeof rb_case_table[0] <= RB_CASE_OPTIONS_MAX,
                "RB_CASE_OPTIONS_MAX is too small");
+_Static_assert(PLACE(rc) == 0, "a place in rb_resolved_case is one in its case");
 
-/* In rolling a force stands in the place of a creepage; static contact knows no rolling.
- */
-unsigned rb_case_alike(rb_rolling_formulation formulation)
+/* ---- Ranges ------------------------------------------------------------------------ */
+
+int rb_option_in_range(const rb_option *o, double value)
 {
-    return formulation == RB_STATIC ? 0 : ONE_CREEPAGE | ONE_LOADING;
+    const rb_range *r = &o->range;
+
+    return (r->from_open ? value > r->from : value >= r->from) &&
+           (r->to_open ? value < r->to : value <= r->to);
+}
+
+const char *rb_option_expected(const rb_option *o, char *text, size_t size)
+{
+    char range[64];
+    if (isfinite(o->range.from) && isfinite(o->range.to))
+        rb_format(range, sizeof range, " in %c%g, %g%c", o->range.from_open ? '(' : '[',
+                  o->range.from, o->range.to, o->range.to_open ? ')' : ']');
+    else if (isfinite(o->range.from))
+        rb_format(range, sizeof range, " %s %g",
+                  o->range.from_open ? ">" : ">=", o->range.from);
+    else if (isfinite(o->range.to))
+        rb_format(range, sizeof range, " %s %g",
+                  o->range.to_open ? "<" : "<=", o->range.to);
+    else
+        range[0] = '\0';
+    switch (o->kind) {
+    case RB_OPTION_NUMBER:
+        snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
+                 o->word ? o->word : "");
+        break;
+    case RB_OPTION_INTEGER:
+        snprintf(text, size, "a whole number%s", range);
+        break;
+    case RB_OPTION_CHOICE: {
+        text[0] = '\0';
+        for (int i = 0; o->choices[i].name; i++) {
+            const char *between = i == 0 ? "" : o->choices[i + 1].name ? ", " : " or ";
+            rb_append(text, size, "%s%s", between, o->choices[i].name);
+        }
+    } break;
+    case RB_OPTION_FLAG:
+        snprintf(text, size, "yes or no");
+        break;
+    case RB_OPTION_TEXT:
+    case RB_OPTION_GROUP:
+        snprintf(text, size, "a name");
+        break;
+    }
+    return text;
+}
+
+/* "core-young-b" of body B is the core-young of its row. */
+int rb_option_applies(const rb_option *o, const rb_rolling_body *body)
+{
+    const size_t n = strlen(o->name), of_b = n > 2 && strcmp(o->name + n - 2, "-b") == 0;
+    int is_named = 0, applies = 0;
+
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++)
+        for (const rb_rolling_parameter *p = (*kind)->parameters; p->option; p++)
+            if (strncmp(p->option, o->name, n - 2 * of_b) == 0 &&
+                strlen(p->option) == n - 2 * of_b) {
+                is_named = 1;
+                applies |= rb_rolling_body_is(body, *kind);
+            }
+    return applies || !is_named;
+}
+
+static double number_at(const rb_rolling_case *rc, const rb_option *o, size_t place)
+{
+    const void *at = (const char *)rc + place;
+    return o->kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at;
+}
+
+static rb_status refuse(const rb_option *o, double value, rb_message *why)
+{
+    char expected[200];
+    return rb_fail(why, RB_EINVAL, "%s: expected %s, got %g", o->name,
+                   rb_option_expected(o, expected, sizeof expected), value);
+}
+
+rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
+{
+    const rb_option *o = rb_case_table;
+
+    while (o->kind == RB_OPTION_GROUP || strcmp(o->name, option) != 0)
+        o++;
+    return rb_option_in_range(o, value) ? RB_OK : refuse(o, value, why);
+}
+
+rb_status rb_rolling_check_ranges(const rb_rolling_case *rc,
+                                  const rb_rolling_case *defaults, rb_message *why)
+{
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const size_t at = o->into ? o->into : o->offset;
+        const int of_a = at >= RC(a) && at < RC(a) + sizeof rc->a,
+                  of_b = at >= RC(b) && at < RC(b) + sizeof rc->b,
+                  of_heat_b = at >= RC(heat_b) && at < RC(heat_b) + sizeof rc->heat_b;
+        if ((o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER) ||
+            at >= sizeof *rc || (of_b && !rc->elastic_b) ||
+            (of_heat_b && rc->heat_a.conductivity == 0.0) ||
+            ((of_a || of_b) && !rb_option_applies(o, of_b ? &rc->b : &rc->a)))
+            continue;
+        const double x = number_at(rc, o, at), unset = number_at(defaults, o, at);
+        if (!rb_option_in_range(o, x) && !(o->word && x == o->word_value) && x != unset &&
+            !(isnan(x) && isnan(unset)))
+            return refuse(o, x, why);
+    }
+    return RB_OK;
 }
