@@ -245,7 +245,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                         "has",
                         k + 1);
         else if (names) {
-            /* The crack of case k, with the m options whose texts begin at `values`. */
+            /* The crack of case k, with its m options. */
             rb_api *of = st.cases[k];
             rb_message why = {""};
             st.crack[k] = rb_case_crack_defaults();

@@ -89,7 +89,7 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
     }
     const double *all = f->compliance;
     const double own[2] = {all ? all[f->n / 2] : 0.0, all ? all[f->n + f->n / 2] : 0.0};
-    /* Of F_NN, and of A F_TT; own: what the interface adds to either.  The mean, which
+    /* Of F_NN, and of A F_TT; own is what the interface adds to either.  The mean, which
      * the datum of the body decides and for which the symbol vanishes, gets numbers that
      * do no harm. */
     const int size = c->fourier.size;

@@ -122,29 +122,6 @@ static void fill_left_over(const particular *p, const rb_assembly *assembly, int
     }
 }
 
-/* X += [G, -H] times the boundary values left over, for elements from ... to - 1.  All in
- * one parallel region: threads that wait for a product by one of them would spin. */
-static void add_left_over(const particular *p, const rb_assembly *assembly, int from,
-                          int to, const block *b, double *X)
-{
-    const rb_bem_system *s = p->s;
-
-#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) *       \
-                                                                 s->mesh.n >             \
-                                                             rb_pairs_for_threads / 32)
-    {
-#pragma omp for schedule(static)
-        for (int k = from; k < to; k++)
-            fill_left_over(p, assembly, k, k - from, b);
-#pragma omp for schedule(static)
-        for (int row = 0; row < s->dofs; row += SLICE)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
-                        s->dofs - row < SLICE ? s->dofs - row : SLICE,
-                        2 * s->mesh.contact_n, 2 * (to - from), 1.0, b->columns + row,
-                        s->ld, b->values, 2 * BLOCK, 1.0, X + row, s->ld);
-    }
-}
-
 rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -200,7 +177,23 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
     if (status == RB_OK) {
         for (int from = 0; from < s->mesh.n; from += BLOCK) {
             const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-            add_left_over(p, &assembly, from, to, &b, X);
+            /* X += [G, -H] times the boundary values left over. All in one parallel
+             * region: threads that wait for a product by one of them would spin. */
+#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) *       \
+                                                                 s->mesh.n >             \
+                                                             rb_pairs_for_threads / 32)
+            {
+#pragma omp for schedule(static)
+                for (int k = from; k < to; k++)
+                    fill_left_over(p, &assembly, k, k - from, &b);
+#pragma omp for schedule(static)
+                for (int row = 0; row < s->dofs; row += SLICE)
+                    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
+                                s->dofs - row < SLICE ? s->dofs - row : SLICE,
+                                2 * s->mesh.contact_n, 2 * (to - from), 1.0,
+                                b.columns + row, s->ld, b.values, 2 * BLOCK, 1.0, X + row,
+                                s->ld);
+            }
         }
         rb_assembly_end(&assembly);
     }
@@ -454,21 +447,6 @@ static rb_status solve_loads(const rb_bem_system *s, const particular *p, double
     return status;
 }
 
-static rb_status contact_displacements(const rb_bem_system *s, int subtract, double **X)
-{
-    particular p = {0};
-    rb_status status = subtract ? particular_make(s, &p) : RB_OK;
-
-    *X = rb_large_alloc((size_t)s->ld, 2 * (size_t)s->mesh.contact_n + 1);
-    if (!*X)
-        status = RB_ENOMEM;
-    if (status == RB_OK)
-        status = solve_loads(s, subtract ? &p : NULL, *X);
-    free(p.strip);
-    free(p.bonded);
-    return status;
-}
-
 static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
                           int subtract, rb_bem_flexibility *f, rb_message *why)
 {
@@ -480,7 +458,16 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
     rb_phase("flexibility of the contact");
-    rb_status s = contact_displacements(system, subtract, &X);
+    particular p = {0};
+    rb_status s = subtract ? particular_make(system, &p) : RB_OK;
+
+    X = rb_large_alloc((size_t)system->ld, 2 * (size_t)system->mesh.contact_n + 1);
+    if (!X)
+        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = solve_loads(system, subtract ? &p : NULL, X);
+    free(p.strip);
+    free(p.bonded);
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);
     if (s == RB_OK) {

@@ -135,9 +135,14 @@ static cli_exit choose_solvers(comparison *c)
 
 /* ---- Runs -------------------------------------------------------------------------- */
 
-static cli_exit run_problem(comparison *c, const char *path, const rb_friction_problem *p)
+static cli_exit run_file(comparison *c, const char *path)
 {
-    const size_t m = (size_t)(p->dimension * p->contacts);
+    rb_friction_problem p;
+    rb_message why = {""};
+    const rb_status s = rb_friction_read(path, &p, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    const size_t m = (size_t)(p.dimension * p.contacts);
     double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
     const rb_friction_solution solution = {r, u, NULL};
     rb_friction_options opt = rb_friction_defaults();
@@ -146,29 +151,18 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
     opt.seconds = c->o->limit;
     opt.max_iters = c->o->max_iters;
     cli_exit code = r && u ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
-    for (int s = 0; code == CLI_OK && s < c->solvers; s++) {
-        run_result *one = &c->result[c->problems * c->solvers + s];
+    for (int k = 0; code == CLI_OK && k < c->solvers; k++) {
+        run_result *one = &c->result[c->problems * c->solvers + k];
         cli_wait_begin();
-        one->status = rb_friction_solve(c->solver[s], p, &opt, &solution, &one->info);
+        one->status = rb_friction_solve(c->solver[k], &p, &opt, &solution, &one->info);
         cli_wait_end();
         if (one->status == RB_ENOMEM)
-            code = cli_fail(CLI_INTERNAL, "%s: %s: out of memory", path, c->solver[s]);
+            code = cli_fail(CLI_INTERNAL, "%s: %s: out of memory", path, c->solver[k]);
     }
     if (code == CLI_OK)
         c->file[c->problems++] = path;
     free(u);
     free(r);
-    return code;
-}
-
-static cli_exit run_file(comparison *c, const char *path)
-{
-    rb_friction_problem p;
-    rb_message why = {""};
-    const rb_status s = rb_friction_read(path, &p, &why);
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    const cli_exit code = run_problem(c, path, &p);
     rb_friction_problem_free(&p);
     return code;
 }

@@ -494,21 +494,6 @@ static const struct {
      "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)"}};
 enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
 
-static void print_examples(void)
-{
-    char name[60], text[1000];
-    FILE *pager = cli_open_pager();
-    puts("rollbem --example NAME solves one; every command that takes a case takes it.");
-    for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
-        cli_print_entry(name, text);
-    puts("rollbem example NAME solves finite elements with friction.");
-    for (int k = 0; k < FINITE_ELEMENTS; k++) {
-        snprintf(name, sizeof name, "example %s", finite_elements[k].name);
-        cli_print_entry(name, finite_elements[k].about);
-    }
-    cli_close_pager(pager);
-}
-
 static void list_example(json_t **list, const char *name, const char *kind,
                          const char *what)
 {
@@ -556,7 +541,18 @@ int cli_examples(int argc, char **argv)
     if (code == CLI_CONTINUE && json)
         code = cli_write_file(NULL, write_examples, NULL);
     if (code == CLI_CONTINUE) {
-        print_examples();
+        char name[60], text[1000];
+        FILE *pager = cli_open_pager();
+        puts("rollbem --example NAME solves one; every command that takes a case takes "
+             "it.");
+        for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
+            cli_print_entry(name, text);
+        puts("rollbem example NAME solves finite elements with friction.");
+        for (int k = 0; k < FINITE_ELEMENTS; k++) {
+            snprintf(name, sizeof name, "example %s", finite_elements[k].name);
+            cli_print_entry(name, finite_elements[k].about);
+        }
+        cli_close_pager(pager);
         code = CLI_OK;
     }
     cli_args_free(&args);

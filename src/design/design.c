@@ -289,7 +289,7 @@ static void read_functions(const rb_design *d, const rb_rolling_solution *s,
         if (r)
             *to = rb_rolling_number(r, along ? along : s);
         else {
-            /* The ripple, and its derivative along p_rate (NULL: 0). */
+            /* The ripple, and its derivative along p_rate. */
             const double *p_rate = along ? along->p : NULL;
             double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
 

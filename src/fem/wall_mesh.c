@@ -59,19 +59,6 @@ static void place_nodes(const wall_block *b, double *x)
             }
 }
 
-static int *join_nodes(const wall_block *b, int *node)
-{
-    static const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    for (int k = 0; k + 1 < b->n[2]; k++)
-        for (int j = 0; j + 1 < b->n[1]; j++)
-            for (int i = 0; i + 1 < b->n[0]; i++)
-                for (int a = 0; a < 8; a++)
-                    *node++ = wall_node(b, i + corner[a][0], j + corner[a][1],
-                                        k + corner[a][2]);
-    return node;
-}
-
 rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh)
 {
     const rb_status s =
@@ -81,7 +68,14 @@ rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh)
     int *node = mesh->node;
     for (int b = 0; b < BLOCKS; b++) {
         place_nodes(&layout->block[b], mesh->x);
-        node = join_nodes(&layout->block[b], node);
+        static const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                         {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+        for (int k = 0; k + 1 < layout->block[b].n[2]; k++)
+            for (int j = 0; j + 1 < layout->block[b].n[1]; j++)
+                for (int i = 0; i + 1 < layout->block[b].n[0]; i++)
+                    for (int a = 0; a < 8; a++)
+                        *node++ = wall_node(&layout->block[b], i + corner[a][0],
+                                            j + corner[a][1], k + corner[a][2]);
     }
     return RB_OK;
 }

@@ -54,27 +54,6 @@ typedef struct {
     int *pivots;
 } lemke;
 
-static rb_status lemke_alloc(rb_friction_task *task, lemke *s)
-{
-    const size_t m = (size_t)task->m, n = 3 * (size_t)task->contacts;
-    *s = (lemke){.task = task,
-                 .nc = task->contacts,
-                 .n = (int)n,
-                 .W = rb_alloc(m, m),
-                 .q = rb_alloc(m, 1),
-                 .M = rb_alloc(n, n),
-                 .b = rb_alloc(n, 1),
-                 .basis = rb_alloc(n, n),
-                 .z = rb_alloc(n, 1),
-                 .w = rb_alloc(n, 1),
-                 .cover = rb_alloc(n, 1),
-                 .pivots = rb_alloc_int(n)};
-    return s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover &&
-                   s->pivots
-               ? RB_OK
-               : RB_ENOMEM;
-}
-
 /* ---- The equations E u - W r = q --------------------------------------------------- */
 
 static void scatter(const rb_sparse *a, double *dense)
@@ -288,7 +267,23 @@ static rb_status try(lemke *s, const attempt *a)
         return RB_SINGULAR;
     rb_status st = RB_OK;
     if (!s->M) { /* no dense attempt was made yet */
-        st = lemke_alloc(t, s);
+        const size_t m = (size_t)t->m, n = 3 * (size_t)t->contacts;
+        *s = (lemke){.task = t,
+                     .nc = t->contacts,
+                     .n = (int)n,
+                     .W = rb_alloc(m, m),
+                     .q = rb_alloc(m, 1),
+                     .M = rb_alloc(n, n),
+                     .b = rb_alloc(n, 1),
+                     .basis = rb_alloc(n, n),
+                     .z = rb_alloc(n, 1),
+                     .w = rb_alloc(n, 1),
+                     .cover = rb_alloc(n, 1),
+                     .pivots = rb_alloc_int(n)};
+        st = s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover &&
+                     s->pivots
+                 ? RB_OK
+                 : RB_ENOMEM;
         if (st == RB_OK) {
             if (s->task->shared->local)
                 load_local(s, s->task->shared->local);

@@ -56,12 +56,6 @@ static double time_of(const history_state *r)
                : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
 }
 
-/* [s], of a step that rolls by c. */
-static double interval_of(const history_state *r, double c)
-{
-    return rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0;
-}
-
 /* mu of a step that differs from that of the step before.  Coefficients that depend on
  * the state stay as they are: the iteration begins with them. */
 static void follow_way(rb_rolling_model *model, double mu_before)
@@ -228,7 +222,8 @@ static rb_status begin_rolled(history_state *r, rb_message *why)
 
     r->to =
         k + 1 == r->steps ? r->program->distance[r->program->n - 1] : (rolled + 1) * part;
-    r->stride = (rb_rolling_stride){c, interval_of(r, c), 0};
+    r->stride =
+        (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
     const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, r->to);
     rb_status s = check_force(r, &step, why);
 

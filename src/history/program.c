@@ -167,35 +167,6 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
     return RB_OK;
 }
 
-static rb_status check_times(const rb_rolling_program *program, const rb_rolling_case *rc,
-                             rb_message *why)
-{
-    const double *t = program->time;
-    double steps = 0.0;
-
-    if (!t)
-        return rb_fail(
-            why, RB_EINVAL,
-            "history: static contact of viscoelastic bodies needs a column time");
-    if (t[0] != 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "history: row 1: expected time 0, when the bodies are pressed "
-                       "together, got %g",
-                       t[0]);
-    for (int r = 1; r < program->n; r++) {
-        if (t[r] < t[r - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "history: row %d: time %g is before that of the row before",
-                           r + 1, t[r]);
-        steps += rb_rolling_program_parts(program, rc, r);
-    }
-    return steps <= 1e7
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "time step: %g s makes %.3g steps; expected at most 1e7",
-                         rc->time_step, steps);
-}
-
 static rb_status check_columns(const rb_rolling_program *program,
                                const rb_rolling_case *rc, rb_message *why)
 {
@@ -229,8 +200,33 @@ static rb_status check_columns(const rb_rolling_program *program,
             if (!isfinite(column_of(program, c)[r]))
                 return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number",
                                r + 1, rb_rolling_program_columns[c].name);
-    if (formulation == RB_STATIC && rb_rolling_relaxes(rc))
-        return check_times(program, rc, why);
+    if (formulation == RB_STATIC && rb_rolling_relaxes(rc)) {
+        const double *t = program->time;
+        double steps = 0.0;
+
+        if (!t)
+            return rb_fail(
+                why, RB_EINVAL,
+                "history: static contact of viscoelastic bodies needs a column time");
+        if (t[0] != 0.0)
+            return rb_fail(why, RB_EINVAL,
+                           "history: row 1: expected time 0, when the bodies are pressed "
+                           "together, got %g",
+                           t[0]);
+        for (int r = 1; r < program->n; r++) {
+            if (t[r] < t[r - 1])
+                return rb_fail(
+                    why, RB_EINVAL,
+                    "history: row %d: time %g is before that of the row before", r + 1,
+                    t[r]);
+            steps += rb_rolling_program_parts(program, rc, r);
+        }
+        return steps <= 1e7
+                   ? RB_OK
+                   : rb_fail(why, RB_EINVAL,
+                             "time step: %g s makes %.3g steps; expected at most 1e7",
+                             rc->time_step, steps);
+    }
     return program->distance ? check_distances(program, why) : RB_OK;
 }
 

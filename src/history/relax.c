@@ -78,29 +78,6 @@ static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *
     return RB_OK;
 }
 
-/* Alone, in its own frame.  Of what rolls by transforms, because there may be many
- * elements behind the mesh. */
-static rb_status glassy_flexibility(const rb_rolling_case *rc, int rolls,
-                                    const rb_rolling_body *body,
-                                    const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
-                                    rb_message *why)
-{
-    const rb_rolling_plan plan = rb_rolling_plan_of(rc);
-    rb_rolling_body glassy = *body;
-    rb_rolling_body_flexibility made = {0};
-
-    glassy.memory.n = 0;
-    if (rolls) {
-        const rb_bem_surface surface = rb_rolling_surface_of(rc, &glassy, NULL);
-        return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why);
-    }
-    const rb_status s =
-        rb_rolling_kind_of(&glassy)->flexibility(rc, &plan, &glassy, mesh, &made, why);
-    rb_bem_system_free(made.system);
-    *f = made.f;
-    return s;
-}
-
 static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body,
                           double sign, const rb_rolling_mesh *mesh,
                           rb_rolling_memory_track *r, rb_message *why)
@@ -112,8 +89,24 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
     *own = (rb_rolling_relaxing){.memory = &body->memory, .sign = sign};
     own->past = rb_alloc(2 * (size_t)r->all, (size_t)body->memory.n);
     r->bodies++;
-    return own->past ? glassy_flexibility(rc, r->tail > 0, body, mesh, &own->f, why)
-                     : RB_ENOMEM;
+    /* Alone, in its own frame.  Of what rolls by transforms, because there may be many
+     * elements behind the mesh. */
+    if (!own->past)
+        return RB_ENOMEM;
+    const rb_rolling_plan plan = rb_rolling_plan_of(rc);
+    rb_rolling_body glassy = *body;
+    rb_rolling_body_flexibility made = {0};
+
+    glassy.memory.n = 0;
+    if (r->tail > 0) {
+        const rb_bem_surface surface = rb_rolling_surface_of(rc, &glassy, NULL);
+        return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, &own->f, why);
+    }
+    const rb_status s =
+        rb_rolling_kind_of(&glassy)->flexibility(rc, &plan, &glassy, mesh, &made, why);
+    rb_bem_system_free(made.system);
+    own->f = made.f;
+    return s;
 }
 
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,

@@ -43,27 +43,6 @@ static void run_free(wear_state *r)
     free(r->softer);
 }
 
-/* Arrays for the mesh of the model. */
-static rb_status take_mesh(wear_state *r)
-{
-    const size_t n = (size_t)r->model.mesh.n, m = n + 1;
-    double **const arrays[] = {&r->x, &r->depth, &r->compliance, &r->path};
-    int complete = 1;
-
-    r->n = (int)n;
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
-        *arrays[k] = rb_alloc(n, 1);
-        complete = complete && *arrays[k];
-    }
-    r->softer = r->model.bodies.F ? rb_alloc(2 * m, 2 * n) : rb_alloc(n, 2);
-    if (!complete || !r->softer)
-        return RB_ENOMEM;
-    memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
-    for (size_t i = 0; i < n; i++)
-        r->depth[i] = rb_rolling_worn_depth(&r->rc, r->x[i]);
-    return RB_OK;
-}
-
 static rb_rolling_table worn_of(const wear_state *r)
 {
     return (rb_rolling_table){r->n, r->x, r->depth};
@@ -93,7 +72,25 @@ static rb_status press(wear_state *r, rb_message *why)
     }
     r->rc.zone = at_rest.zone;
     r->rc.contact_elements = mesh->n;
-    return s == RB_OK ? take_mesh(r) : s;
+    /* Arrays for the mesh of the model. */
+    if (s != RB_OK)
+        return s;
+    const size_t n = (size_t)r->model.mesh.n, m = n + 1;
+    double **const arrays[] = {&r->x, &r->depth, &r->compliance, &r->path};
+    int complete = 1;
+
+    r->n = (int)n;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = rb_alloc(n, 1);
+        complete = complete && *arrays[k];
+    }
+    r->softer = r->model.bodies.F ? rb_alloc(2 * m, 2 * n) : rb_alloc(n, 2);
+    if (!complete || !r->softer)
+        return RB_ENOMEM;
+    memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
+    for (size_t i = 0; i < n; i++)
+        r->depth[i] = rb_rolling_worn_depth(&r->rc, r->x[i]);
+    return RB_OK;
 }
 
 /* As many more elements of the same length on either side; what is worn stays where it

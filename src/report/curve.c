@@ -14,38 +14,34 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
     return (rb_report_columns){&rb_rolling_curve_columns, c, errors, c->units};
 }
 
-/* The coefficient of friction stands before the columns of its curve. */
-static void write_curve(rb_report_cells *c, const rb_report_curves *curves, int k,
-                        const char *command)
-{
-    const rb_report_columns part[2] = {columns_of(&curves->curve[k], 0),
-                                       columns_of(&curves->error[k], 1)};
-    const int parts = curves->has_errors ? 2 : 1;
-
-    if (k == 0) {
-        rb_report_cell_text(c, "mu");
-        rb_report_cell_headings(c, parts, part);
-        rb_report_cell_slope_headings(c, &curves->slopes[k]);
-        rb_report_cells_end_row(c);
-        rb_report_comment_head(c, command);
-        rb_report_comment_slopes(c, &curves->slopes[k]);
-        if (curves->rc)
-            rb_report_comment_notes(c, curves->rc, &curves->curve[curves->n - 1].last);
-    }
-    for (int i = 0; i < curves->curve[k].n; i++) {
-        rb_report_cell_number(c, curves->mu[k]);
-        rb_report_cell_entries(c, i, parts, part);
-        rb_report_cell_slopes(c, &curves->slopes[k], i);
-        rb_report_cells_end_row(c);
-    }
-}
-
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
                                 const char *command, const rb_report_style *style)
 {
     rb_report_cells c = rb_report_cells_begin(out, style, "");
-    for (int k = 0; k < curves->n; k++)
-        write_curve(&c, curves, k, command);
+    for (int k = 0; k < curves->n; k++) {
+        /* The coefficient of friction stands before the columns of its curve. */
+        const rb_report_columns part[2] = {columns_of(&curves->curve[k], 0),
+                                           columns_of(&curves->error[k], 1)};
+        const int parts = curves->has_errors ? 2 : 1;
+
+        if (k == 0) {
+            rb_report_cell_text(&c, "mu");
+            rb_report_cell_headings(&c, parts, part);
+            rb_report_cell_slope_headings(&c, &curves->slopes[k]);
+            rb_report_cells_end_row(&c);
+            rb_report_comment_head(&c, command);
+            rb_report_comment_slopes(&c, &curves->slopes[k]);
+            if (curves->rc)
+                rb_report_comment_notes(&c, curves->rc,
+                                        &curves->curve[curves->n - 1].last);
+        }
+        for (int i = 0; i < curves->curve[k].n; i++) {
+            rb_report_cell_number(&c, curves->mu[k]);
+            rb_report_cell_entries(&c, i, parts, part);
+            rb_report_cell_slopes(&c, &curves->slopes[k], i);
+            rb_report_cells_end_row(&c);
+        }
+    }
     return rb_report_flush(out);
 }
 
@@ -128,16 +124,6 @@ static void print_hysteresis(FILE *out, const rb_rolling_curve *c)
             widest, c->creepage[most], largest(c->n, c->kappa));
 }
 
-static void print_most_resistance(FILE *out, const rb_rolling_curve *c)
-{
-    int most = 0;
-    for (int i = 1; i < c->n; i++)
-        if (c->resistance_ratio[i] > c->resistance_ratio[most])
-            most = i;
-    fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
-            c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
-}
-
 static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
 {
     int points = 0, least = 0;
@@ -165,9 +151,15 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
-        if (speeds)
-            print_most_resistance(out, c);
-        else if (c->branch)
+        if (speeds) {
+            int most = 0;
+            for (int i = 1; i < c->n; i++)
+                if (c->resistance_ratio[i] > c->resistance_ratio[most])
+                    most = i;
+            fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
+                    c->resistance_ratio[most], c->speed[most],
+                    rb_unit_name(c->units, "mm/s"));
+        } else if (c->branch)
             print_hysteresis(out, c);
         if (curves->has_errors && speeds)
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",

@@ -131,14 +131,6 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
     return s;
 }
 
-static rb_status dump_dense(const target *t, const rb_rolling_model *model)
-{
-    const int n = model->mesh.n, m = n + 1;
-    return write_matrix(t, "F", (rb_io_dense){2 * m, 2 * n, model->bodies.F, 2 * m},
-                        "w = F r: w_N then w_T, each at the contact elements and the one "
-                        "upstream; r_N then r_T");
-}
-
 /* Four columns hold all of F where its blocks are constant along their diagonals, as
  * those of half-planes are. */
 static rb_status dump_columns(const target *t, const rb_rolling_model *model)
@@ -198,7 +190,10 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
         return dump_columns(t, model);
-    s = dump_dense(t, model);
+    const int n = model->mesh.n, m = n + 1;
+    s = write_matrix(t, "F", (rb_io_dense){2 * m, 2 * n, model->bodies.F, 2 * m},
+                     "w = F r: w_N then w_T, each at the contact elements and the one "
+                     "upstream; r_N then r_T");
     return s == RB_OK ? dump_lcp(t, model) : s;
 }
 

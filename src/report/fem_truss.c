@@ -25,15 +25,6 @@ static const double *vector_of(const rb_fem_step *step, int total, int node)
     return total ? step->u + 3 * node : step->du + 3 * node + 1;
 }
 
-/* Where a node is drawn: from above, or along a line of sight that looks down on it. */
-static void project(const double *x, int from_above, double at[2])
-{
-    static const double turn = 0.62, rise = 0.42; /* [rad] */
-    const double away = x[0] * sin(turn) + x[1] * cos(turn);
-    at[0] = 1e-3 * (from_above ? x[0] : x[0] * cos(turn) - x[1] * sin(turn));
-    at[1] = 1e-3 * (from_above ? x[1] : away * sin(rise) + x[2] * cos(rise));
-}
-
 /* The bars of the quarter as a block of data, displaced by scale times u (NULL: not). */
 static void write_bars(FILE *out, const quarter *q, const char *name, int from_above,
                        const double *u, double scale)
@@ -49,7 +40,12 @@ static void write_bars(FILE *out, const quarter *q, const char *name, int from_a
             inside &= mesh->x[3 * node] >= 0.0 && mesh->x[3 * node + 1] >= 0.0;
             for (int d = 0; d < 3; d++)
                 x[d] = mesh->x[3 * node + d] + (u ? scale * u[3 * node + d] : 0.0);
-            project(x, from_above, at[k]);
+            /* Where a node is drawn: from above, or along a line of sight that looks down
+             * on it. */
+            static const double turn = 0.62, rise = 0.42; /* [rad] */
+            const double away = x[0] * sin(turn) + x[1] * cos(turn);
+            at[k][0] = 1e-3 * (from_above ? x[0] : x[0] * cos(turn) - x[1] * sin(turn));
+            at[k][1] = 1e-3 * (from_above ? x[1] : away * sin(rise) + x[2] * cos(rise));
         }
         if (inside)
             fprintf(out, "%.7g %.7g\n%.7g %.7g\n\n", at[0][0], at[0][1], at[1][0],
@@ -120,25 +116,6 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
         panel, panel, panel);
 }
 
-static void write_legend(FILE *out, int column)
-{
-    enum { LINES = 4 };
-    static const char *const lines[2][LINES] = {
-        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold "
-         "Red}: "
-         "slip, its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
-         "(total: no displacement).  Counts are of the whole truss.  From the side: grey "
-         "at rest, blue after the last increment."},
-        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].",
-         "{/:Bold Red}: slip, its displacement times the factor in parentheses.",
-         "{/:Bold Blue}: stick (total: no displacement).  Counts are of the whole truss.",
-         "From the side: grey at rest, blue after the last increment."}};
-    for (int k = 0; k < LINES && lines[column][k]; k++)
-        fprintf(out, "set label %d '{/*%g %s}' at screen 0.055, %.4f\n", 10 + k,
-                column ? 0.65 : 0.75, lines[column][k],
-                (column ? 0.08 : 0.052) - (column ? 0.02 : 0.028) * k);
-}
-
 typedef struct {
     quarter q;
     const rb_fem_history *history;
@@ -160,7 +137,21 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
                 v->layout);
     fprintf(out, "set xrange [0:%g]\nset yrange [0:%g]\nset xtics 0, 4\nset ytics 0, 4\n",
             q->width + 1.1 * q->spacing, q->height + 1.1 * q->spacing);
-    write_legend(out, column);
+    enum { LINES = 4 };
+    static const char *const lines[2][LINES] = {
+        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold "
+         "Red}: "
+         "slip, its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
+         "(total: no displacement).  Counts are of the whole truss.  From the side: grey "
+         "at rest, blue after the last increment."},
+        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].",
+         "{/:Bold Red}: slip, its displacement times the factor in parentheses.",
+         "{/:Bold Blue}: stick (total: no displacement).  Counts are of the whole truss.",
+         "From the side: grey at rest, blue after the last increment."}};
+    for (int k = 0; k < LINES && lines[column][k]; k++)
+        fprintf(out, "set label %d '{/*%g %s}' at screen 0.055, %.4f\n", 10 + k,
+                column ? 0.65 : 0.75, lines[column][k],
+                (column ? 0.08 : 0.052) - (column ? 0.02 : 0.028) * k);
     write_bars(out, q, "bars", 1, NULL, 0.0);
     for (int k = 0; k < history->steps; k++) {
         write_panel(out, q, &history->step[k], 0, column, k);

@@ -171,18 +171,6 @@ typedef struct {
     int zone;
 } stretch;
 
-/* The next run of equal zones from element *i on, cut to the axis; *i moves behind it. */
-static stretch next_stretch(const view *v, int *i)
-{
-    const rb_rolling_solution *s = v->s;
-    const int first = *i;
-    while (*i < s->n && s->zone[*i] == s->zone[first])
-        ++*i;
-    const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
-    const double to = (s->x[*i - 1] + s->h[*i - 1] / 2) / v->length.size;
-    return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
-}
-
 /* Upright where the zone is narrow, left out where it is a line. */
 static void write_zone_label(FILE *out, const view *v, const stretch *st)
 {
@@ -202,7 +190,16 @@ static void write_zone_label(FILE *out, const view *v, const stretch *st)
 static void write_zones(FILE *out, const view *v, int labelled)
 {
     for (int i = 0; i < v->s->n;) {
-        const stretch st = next_stretch(v, &i);
+        /* The next run of equal zones from element *i on, cut to the axis; *i moves
+         * behind it. */
+        const rb_rolling_solution *s = v->s;
+        const int first = i;
+        while (i < s->n && s->zone[i] == s->zone[first])
+            ++i;
+        const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
+        const double to = (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size;
+        const stretch st =
+            (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
         if (st.to <= st.from)
             continue;
         fprintf(out,

@@ -137,25 +137,6 @@ static void measure(const grid *g, const choice *rows, column *all)
     }
 }
 
-/* Columns that differ, from the left, as many as fit; those of `minor` only where all do.
- */
-static void choose_columns(const grid *g, const rb_report_window *window, column *all)
-{
-    int wanted = 0;
-    for (int j = 0; j < g->columns; j++)
-        wanted += all[j].is_constant ? 0 : GAP + all[j].width;
-    const int all_fit = wanted <= window->columns;
-    for (int j = 0, used = 0; j < g->columns; j++) {
-        column *c = &all[j];
-        char word[WIDTH + 2];
-        snprintf(word, sizeof word, " %s ", c->name);
-        const int minor = window->minor && strstr(window->minor, word) && !all_fit;
-        c->is_shown =
-            !c->is_constant && !minor && used + GAP + c->width <= window->columns;
-        used += c->is_shown ? GAP + c->width : 0;
-    }
-}
-
 /* Zones and failures stand out; what a colour says the text says too. */
 static const char *colour_of(const column *c, const char *text)
 {
@@ -178,20 +159,6 @@ static void print_row(FILE *out, const grid *g, int i, const column *all, int co
                 *start ? "\033[0m" : "");
     }
     fputc('\n', out);
-}
-
-static void print_names(FILE *out, const grid *g, const column *all, int colour)
-{
-    int units = 0;
-    for (int j = 0; j < g->columns; j++)
-        units |= all[j].is_shown && all[j].unit[0];
-    for (int line = 0; line <= units; line++) {
-        fputs(colour ? "\033[1m" : "", out);
-        for (int j = 0; j < g->columns; j++)
-            if (all[j].is_shown)
-                fprintf(out, "%*s", GAP + all[j].width, line ? all[j].unit : all[j].name);
-        fputs(colour ? "\033[0m\n" : "\n", out);
-    }
 }
 
 /* Items of a list behind a heading, in lines of the window's width. */
@@ -274,13 +241,38 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
         const choice rows = choose_rows(&g, most);
         int width = 0;
         measure(&g, &rows, all);
-        choose_columns(&g, window, all);
+        /* Columns that differ, from the left, as many as fit; those of `minor` only where
+         * all do.
+         */
+        int wanted = 0;
+        for (int j = 0; j < g.columns; j++)
+            wanted += all[j].is_constant ? 0 : GAP + all[j].width;
+        const int all_fit = wanted <= window->columns;
+        for (int j = 0, used = 0; j < g.columns; j++) {
+            column *c = &all[j];
+            char word[WIDTH + 2];
+            snprintf(word, sizeof word, " %s ", c->name);
+            const int minor = window->minor && strstr(window->minor, word) && !all_fit;
+            c->is_shown =
+                !c->is_constant && !minor && used + GAP + c->width <= window->columns;
+            used += c->is_shown ? GAP + c->width : 0;
+        }
         for (int j = 0; j < g.columns; j++)
             width += GAP + all[j].width;
         if (g.rows == 2 && width > window->columns) {
             print_one_row(out, &g, all, window->colour);
         } else {
-            print_names(out, &g, all, window->colour);
+            int units = 0;
+            for (int j = 0; j < g.columns; j++)
+                units |= all[j].is_shown && all[j].unit[0];
+            for (int line = 0; line <= units; line++) {
+                fputs(window->colour ? "\033[1m" : "", out);
+                for (int j = 0; j < g.columns; j++)
+                    if (all[j].is_shown)
+                        fprintf(out, "%*s", GAP + all[j].width,
+                                line ? all[j].unit : all[j].name);
+                fputs(window->colour ? "\033[0m\n" : "\n", out);
+            }
             for (int i = 1; i < g.rows; i = next_row(&g, i, &rows)) {
                 if (rows.from <= rows.to && i == rows.to + 1)
                     fprintf(out, "%*s...\n", GAP, "");

@@ -371,7 +371,7 @@ static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
     rb_status status = RB_OK;
     int peak = -1;
     for (int k = 0; k < STARTS && status == RB_OK; k++) {
-        /* The highest peak that is lower than peak `last`, or behind it; -1: none. */
+        /* The highest peak that is lower than the last one, or behind it. */
         int next = -1;
         for (int j = 0; j < grid->nx * grid->ny; j++) {
             const double here = s->of(&grid->at[j]);

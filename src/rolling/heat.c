@@ -177,33 +177,6 @@ static int is_one_contact(const rb_rolling_solution *s)
     return edges == 1;
 }
 
-static rb_status solve_any(const conductor *a, const conductor *b,
-                           const rb_rolling_solution *s, double *rhs)
-{
-    const int n = s->n, m = s->contact;
-    double *M = rb_alloc((size_t)m, (size_t)m), *row = rb_alloc((size_t)n, 2);
-    lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
-    rb_status status = M && row && pivots ? RB_OK : RB_ENOMEM;
-
-    for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
-        if (!is_contact(s, i))
-            continue;
-        conductor_row(a, i, row);
-        conductor_row(b, i, row + n);
-        for (int j = 0, l = 0; j < n; j++)
-            if (is_contact(s, j))
-                M[(size_t)l++ * (size_t)m + (size_t)k] = row[j] + row[n + j];
-        k++;
-    }
-    if (status == RB_OK && m > 0 &&
-        LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
-        status = RB_SINGULAR;
-    free(M);
-    free(row);
-    free(pivots);
-    return status;
-}
-
 /* In contact both surfaces are equally warm: (K_A + K_B) H_A = K_B H + T_B - T_A gives
  * the part H_A of the heat H that enters A. */
 static rb_status share_heat(const conductor *a, const conductor *b,
@@ -229,8 +202,29 @@ static rb_status share_heat(const conductor *a, const conductor *b,
             if (status == RB_OK)
                 status = solve_toeplitz(s->contact, t + s->contact, rhs);
             free(t);
-        } else
-            status = solve_any(a, b, s, rhs);
+        } else {
+            const int m = s->contact;
+            double *M = rb_alloc((size_t)m, (size_t)m), *row = rb_alloc((size_t)n, 2);
+            lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
+            status = M && row && pivots ? RB_OK : RB_ENOMEM;
+
+            for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
+                if (!is_contact(s, i))
+                    continue;
+                conductor_row(a, i, row);
+                conductor_row(b, i, row + n);
+                for (int j = 0, l = 0; j < n; j++)
+                    if (is_contact(s, j))
+                        M[(size_t)l++ * (size_t)m + (size_t)k] = row[j] + row[n + j];
+                k++;
+            }
+            if (status == RB_OK && m > 0 &&
+                LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
+                status = RB_SINGULAR;
+            free(M);
+            free(row);
+            free(pivots);
+        }
     }
     for (int i = 0, k = 0; i < n && status == RB_OK; i++)
         heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;

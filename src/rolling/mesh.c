@@ -289,13 +289,22 @@ static void put_upstream(const rb_rolling_case *rc, int n, double *ends)
     ends[n + 1] = ends[n] + fmin(step, 0.5 * (lower_half(rc) - ends[n]));
 }
 
-/* All ends, the one behind the upstream element included, from end[0] on; returns the
- * number of contact elements. */
-static int put_ends(const rb_rolling_case *rc, int all, int count,
-                    const rb_rolling_span *span, double *ends)
+rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
+                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
+                                rb_message *why)
 {
+    int most = (count + 1) * 2 * MOST_OUTSIDE;
+    rb_status s = check_extent(rc, span[0].from, span[count - 1].to, why);
+
+    for (int k = 0; k < count; k++)
+        most += elements_across(all, count, span, k);
+    if (s == RB_OK)
+        s = mesh_alloc(most, mesh);
+    if (s != RB_OK)
+        return s;
+    /* All ends, the one behind the upstream element included. */
     const rb_rolling_span *last = span + count - 1;
-    double from, to, distance[MOST_OUTSIDE], *end = ends;
+    double from, to, distance[MOST_OUTSIDE], *end = mesh->ends;
 
     rb_rolling_extent(rc, &from, &to);
     double step = edge_step(span, elements_across(all, count, span, 0));
@@ -306,7 +315,7 @@ static int put_ends(const rb_rolling_case *rc, int all, int count,
     for (int k = 0; k < count; k++) {
         const int across = elements_across(all, count, span, k);
         step = edge_step(span + k, across);
-        /* n elements between from and to, symmetric to rounding; returns the last end. */
+        /* Symmetric to rounding. */
         const double centre = 0.5 * (span[k].from + span[k].to),
                      half = 0.5 * (span[k].to - span[k].from);
 
@@ -321,25 +330,9 @@ static int put_ends(const rb_rolling_case *rc, int all, int count,
     const int right = distances(step, last->margin_right, to - last->to, distance);
     for (int k = 0; k < right; k++)
         *++end = last->to + distance[k];
-    const int n = (int)(end - ends);
-    put_upstream(rc, n, ends);
-    return n;
-}
-
-rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
-                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
-                                rb_message *why)
-{
-    int most = (count + 1) * 2 * MOST_OUTSIDE;
-    rb_status s = check_extent(rc, span[0].from, span[count - 1].to, why);
-
-    for (int k = 0; k < count; k++)
-        most += elements_across(all, count, span, k);
-    if (s == RB_OK)
-        s = mesh_alloc(most, mesh);
-    if (s != RB_OK)
-        return s;
-    mesh->n = put_ends(rc, all, count, span, mesh->ends);
+    const int n = (int)(end - mesh->ends);
+    put_upstream(rc, n, mesh->ends);
+    mesh->n = n;
     s = rb_rolling_mesh_set_gap(rc, mesh);
     if (s != RB_OK)
         rb_rolling_mesh_free(mesh);

@@ -383,7 +383,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
                                 fmax(x[places - 1], mesh->ends[mesh->n]), &least);
     if (status != RB_OK)
         return status;
-    /* Leaves the places whose gap is less than `reach`. */
+    /* The places that the displacements may close. */
     int n = 0;
 
     for (int i = 0; i < places; i++)

@@ -251,8 +251,8 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
                             ? RB_OK
                             : rb_rolling_find_overlap(model, &model->state, &overlap);
 
-    /* The zone grown where fewer separated elements than wanted stand at its end. */
-    /* Three, or what few elements have beside three in contact: a potential contact that
+    /* The zone grows where fewer separated elements than wanted stand at its end: three,
+     * or what few elements have beside three in contact: a potential contact that
      * is grown until all elements are separated no longer sees the contact between their
      * midpoints. */
     const int spare = (model->state.n - IN_CONTACT) / 2;
