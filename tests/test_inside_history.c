@@ -422,7 +422,8 @@ TEST(programs_that_make_no_sense_are_refused)
     REFUSED("needs a column time", relaxing_press(), .n = 3, .load = load);
     REFUSED("row 1: expected time 0", relaxing_press(), .n = 3, .time = late);
     REFUSED("row 3: time 1 is before", relaxing_press(), .n = 3, .time = back);
-    REFUSED("history: row 3: load: expected a number > 0, got -3", rest, .n = 3, .load = pull);
+    REFUSED("history: row 3: load: expected a number > 0, got -3", rest, .n = 3,
+            .load = pull);
 
     rb_rolling_case fine = relaxing_press();
     fine.time_step = 1.0000001e-7; /* 1e7 steps */
