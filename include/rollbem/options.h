@@ -1,6 +1,6 @@
-/* The options of a case as one table: name, section, unit, range, choices, place, default,
- * help.  The functions of case.h set a case by name from it; a case that is filled in
- * without them is checked by its ranges (rb_rolling_case_check). */
+/* The options of a case as one table: name, section, unit, range, choices, place,
+ * default, help.  The functions of case.h set a case by name from it; a case that is
+ * filled in without them is checked by its ranges (rb_rolling_case_check). */
 #ifndef ROLLBEM_OPTIONS_H
 #define ROLLBEM_OPTIONS_H
 
@@ -72,12 +72,12 @@ typedef struct {
     const char *alone; /* texts: value if the option is given without one, that is, if the
                           next argument is an option, a file, or has a dot or slash; NULL:
                           a value is required */
-    size_t into; /* number of a case: its place in rb_rolling_case if this is not `offset`;
-                    0: it is */
+    size_t into;       /* number of a case: its place in rb_rolling_case if this is not
+                          `offset`;       0: it is */
     size_t of_a; /* number of body B: place in rb_rolling_case of A's value, which it has
                     if none is given; 0: none */
-    int if_similar;    /* 1: only with the option `similar` */
-    const char *unset; /* help: text shown as the default; NULL: the value itself */
+    int if_similar;       /* 1: only with the option `similar` */
+    const char *unset;    /* help: text shown as the default; NULL: the value itself */
     const char *one_only; /* reason in the error message for several numbers; NULL: the
                              general message */
     int common;           /* 1: shown at the beginning of --help */
