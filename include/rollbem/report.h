@@ -184,9 +184,9 @@ rb_status rb_report_json_write(FILE *out, struct json_t *json);
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
 /* A summary of a few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
-/* Values with their error bars. */
-void rb_report_errors(FILE *out, const rb_rolling_solution *s,
-                      const rb_rolling_errors *e);
+/* Values with their error bars, as many in a line as its width has room for; 0: one. */
+void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_errors *e,
+                      int width);
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
                                const rb_rolling_history *h);
 /* The notes of rb_rolling_find_notes as an array of JSON, or as lines of text. */

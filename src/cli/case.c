@@ -211,6 +211,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         if (run.printable) {
             /* a person reads the notes first */
             const int first = !run.o.output && cli_reader_is_person();
+            cli_page_begin();
             code = run.command->before_table ? run.command->before_table(&run) : CLI_OK;
             if (code == CLI_OK && first)
                 summarise(&run);
@@ -222,6 +223,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
                 summarise(&run);
             if (code == CLI_OK && run.o.cite)
                 cli_print_citations(&run.c->rc, run.solution);
+            cli_page_end();
             code = code == CLI_OK ? write_files(&spec, &run, 1) : code;
         } else
             code = CLI_OK;

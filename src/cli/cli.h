@@ -149,6 +149,10 @@ void cli_print_entry(const char *name, const char *text);
  * holds everything; NULL: it is no terminal.  Closing NULL does nothing. */
 FILE *cli_open_pager(void);
 void cli_close_pager(FILE *pager);
+/* Summaries and tables between the two calls are shown by a pager if they are longer than
+ * the window of the terminal. */
+void cli_page_begin(void);
+void cli_page_end(void);
 
 /* --help and --usage of a command, on stdout.  part: "all" options, those of a group, or
  * one; NULL: all, or on a terminal the common ones.  The exit code. */

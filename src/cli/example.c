@@ -384,12 +384,11 @@ static cli_exit run_wall(const example_options *o)
     if (!o->quiet) {
         const int contacts = rb_fem_wall_contacts(run.wall);
         int rank;
-        fprintf(stderr, "wall: %d contact points, %d degrees of freedom", contacts,
+        fprintf(stderr, "wall: %d contact points, %d degrees of freedom\n", contacts,
                 rb_fem_wall_dofs(run.wall));
         if (rb_fem_wall_rank(run.wall, &rank) == RB_OK)
-            fprintf(stderr, ", H has rank %d: %d times hyperstatic", rank,
+            fprintf(stderr, "H has rank %d: %d times hyperstatic\n", rank,
                     3 * contacts - rank);
-        fputs("\n", stderr);
     }
     run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
     cli_exit code =

@@ -59,16 +59,45 @@ int cli_reader_is_person(void)
            !strstr(line, " --format");
 }
 
+static int lines_above; /* of a table on the terminal */
+/* Summary and table of a terminal: what is longer than the window is read page by page.
+ */
+static struct {
+    FILE *text; /* NULL: everything goes straight to the terminal */
+    char *at;
+    size_t size;
+} page;
+
+void cli_page_begin(void)
+{
+    if (isatty(STDOUT_FILENO) && isatty(STDERR_FILENO))
+        page.text = open_memstream(&page.at, &page.size);
+}
+
+void cli_page_end(void)
+{
+    if (!page.text)
+        return;
+    if (fclose(page.text) == 0) {
+        int lines = 1; /* of the prompt */
+        for (const char *c = page.at; *c; c++)
+            lines += *c == '\n';
+        FILE *pager = lines > cli_terminal_height() ? cli_open_pager() : NULL;
+        fputs(page.at, stdout);
+        cli_close_pager(pager);
+    }
+    free(page.at);
+    page.text = NULL;
+}
+
 rb_status cli_show_table(char *text, int summary)
 {
     const rb_report_window window = {
         cli_terminal_height() - summary, cli_terminal_width(STDOUT_FILENO),
         cli_is_coloured(stdout),
         " h gap un ut shift principal_1 principal_2 hydrostatic "};
-    return rb_report_terminal(stdout, text, &window);
+    return rb_report_terminal(page.text ? page.text : stdout, text, &window);
 }
-
-static int lines_above; /* of a table on the terminal */
 
 void cli_print_lines(cli_lines *print, const void *context)
 {
@@ -77,7 +106,8 @@ void cli_print_lines(cli_lines *print, const void *context)
     FILE *memory = isatty(STDERR_FILENO) ? open_memstream(&text, &size) : NULL;
     print(memory ? memory : stderr, context);
     if (memory && fclose(memory) == 0)
-        lines_above += rb_report_wrapped(stderr, text, cli_terminal_width(STDERR_FILENO));
+        lines_above += rb_report_wrapped(page.text ? page.text : stderr, text,
+                                         cli_terminal_width(STDERR_FILENO));
     free(text);
 }
 

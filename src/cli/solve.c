@@ -187,7 +187,8 @@ static void summarise(FILE *out, const cli_case_run *run)
         rb_report_tolerances(out, &it->r.solution, &it->shown);
     rb_report_summary(out, &it->r.solution, cli_terminal_width(STDERR_FILENO));
     if (it->r.has_errors)
-        rb_report_errors(out, &it->r.solution, &it->r.errors);
+        rb_report_errors(out, &it->r.solution, &it->r.errors,
+                         isatty(STDERR_FILENO) ? cli_terminal_width(STDERR_FILENO) : 0);
     if (it->all.n > 0)
         rb_report_solutions(out, &it->all);
     if (it->r.history.n > 0)

@@ -3,6 +3,7 @@
 #include "cli/run.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -327,9 +328,10 @@ static void summarise(FILE *out, const cli_case_run *run)
     rb_report_stress_summary(out, &((const stress *)run->own)->table);
     if (shows_column(run)) {
         const stress *st = run->own;
+        const double x = st->at.at[column_shown(st)].x;
         fprintf(out, "  table     below x = %.4g %s; a file gets all %d points\n",
-                st->at.at[column_shown(st)].x, rb_unit_name(run->c->units, "mm"),
-                st->table.n);
+                fabs(x) < 1e-9 * run->solution->half_width ? 0.0 : x,
+                rb_unit_name(run->c->units, "mm"), st->table.n);
     }
 }
 

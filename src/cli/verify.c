@@ -11,11 +11,15 @@ static const rb_option options[] = {
     RB_FLAG_LINE("json", 0, "every reference as JSON"),
 };
 
+typedef struct {
+    int count, for_person; /* asked before standard output is a pager's */
+} printed;
+
 static void print_check(const rb_verify_check *c, void *context)
 {
-    int *count = context;
-    ++*count;
-    if (cli_reader_is_person()) { /* 80 columns */
+    printed *all = context;
+    all->count++;
+    if (all->for_person) { /* 80 columns */
         const int red = !c->holds && cli_is_coloured(stdout);
         printf("%s%-5s%s %-43s", red ? "\033[31m" : "", c->holds ? "ok" : "WRONG",
                red ? "\033[0m" : "", c->what);
@@ -70,11 +74,13 @@ int cli_verify(int argc, char **argv)
     if (code == CLI_CONTINUE && args.operands > 0)
         code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
     if (code == CLI_CONTINUE && !json) {
-        int count = 0;
-        if (cli_reader_is_person())
+        printed all = {0, cli_reader_is_person()};
+        FILE *pager = cli_open_pager();
+        if (all.for_person)
             printf("%-5s %-43s %9s %9s %8s\n", "", "", "wanted", "got", "error");
-        const int failed = rb_verify_run(print_check, &count);
-        printf("%d of %d references hold\n", count - failed, count);
+        const int failed = rb_verify_run(print_check, &all);
+        printf("%d of %d references hold\n", all.count - failed, all.count);
+        cli_close_pager(pager);
         code = failed ? CLI_UNSOLVED : CLI_OK;
     }
     if (code == CLI_CONTINUE) {

@@ -25,11 +25,13 @@ static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
                                  rb_rolling_number(r + 2, all)};
 }
 
-/* "value +- error" */
-static const char *quantity(double value, const double *error, char text[48])
+/* "value +- error" with so many digits; 0 where it is below rounding. */
+static const char *quantity(double value, double rounding, int digits,
+                            const double *error, char text[48])
 {
     const int known = error && isfinite(*error);
-    const int n = snprintf(text, 48, "%.6g", value);
+    const int n =
+        snprintf(text, 48, "%.*g", digits, fabs(value) < rounding ? 0.0 : value);
     if (known)
         snprintf(text + n, 48 - (size_t)n, " +- %.2g", *error);
     return text;
@@ -40,12 +42,15 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     const rb_rolling_extremum of = extremum(s->maxima, k), *m = &of;
     const rb_rolling_extremum bar = s->errors ? extremum(s->errors, k) : of;
     const rb_rolling_extremum *e = s->errors ? &bar : NULL;
+    /* a place is searched for until it is known to about a millionth of the half-width */
+    const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
     char value[48], x[48], y[48];
-    snprintf(line, size, "%-24s %s %s at x = %s %s, y = %s %s; %.5g p0",
-             maximum(k)->meaning, quantity(m->value, e ? &e->value : NULL, value),
-             rb_unit_name(s->s->units, "MPa"), quantity(m->x, e ? &e->x : NULL, x),
-             rb_unit_name(s->s->units, "mm"), quantity(m->y, e ? &e->y : NULL, y),
-             rb_unit_name(s->s->units, "mm"), m->value / s->s->max_pressure);
+    snprintf(
+        line, size, "%-24s %s %s at x = %s, y = %s %s; %.5g p0", maximum(k)->meaning,
+        quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
+        rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
+        quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
+        fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
     return line;
 }
 

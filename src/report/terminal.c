@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 5 };
+enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 3 };
 
 typedef struct {
     int rows, columns;
@@ -17,6 +17,7 @@ typedef struct {
     char name[WIDTH], unit[WIDTH];
     int width, is_shown, is_constant;
     double scale; /* the largest number; below rounding of it everything is zero */
+    double units; /* the largest number of any column with this unit */
 } column;
 
 /* Lines of text are cut at tabs and ends in place; comments are left out.  0: it is no
@@ -65,8 +66,8 @@ static int read_number(const char *text, double *x)
     return *text && !*end;
 }
 
-/* A cell with five digits, 0 where it is rounding of the largest number of its column or
- * of anything. */
+/* A cell with five digits, 0 where it is rounding of the largest number of its column, of
+ * its unit or of anything. */
 static const char *shown(const grid *g, int i, int j, const column *c, char text[WIDTH])
 {
     double x;
@@ -74,8 +75,10 @@ static const char *shown(const grid *g, int i, int j, const column *c, char text
         snprintf(text, WIDTH, "%.*s", WIDTH - 1, entry(g, i, j));
     else if (isnan(x))
         snprintf(text, WIDTH, "-");
-    else
-        snprintf(text, WIDTH, "%.5g", fabs(x) <= fmax(1e-12 * c->scale, 1e-15) ? 0.0 : x);
+    else {
+        const double rounding = fmax(fmax(1e-12 * c->scale, 1e-13 * c->units), 1e-15);
+        snprintf(text, WIDTH, "%.5g", fabs(x) <= rounding ? 0.0 : x);
+    }
     return text;
 }
 
@@ -125,6 +128,12 @@ static void measure(const grid *g, const choice *rows, column *all)
         for (int i = 1; i < g->rows; i++)
             if (read_number(entry(g, i, j), &x) && isfinite(x))
                 c->scale = fmax(c->scale, fabs(x));
+    }
+    for (int j = 0; j < g->columns; j++) {
+        column *c = &all[j];
+        for (int k = 0; k < g->columns; k++)
+            if (c->unit[0] && strcmp(c->unit, all[k].unit) == 0)
+                c->units = fmax(c->units, all[k].scale);
         c->is_constant = g->rows > 2;
         for (int i = 2; i < g->rows && c->is_constant; i++)
             c->is_constant = strcmp(entry(g, i, j), entry(g, 1, j)) == 0;
