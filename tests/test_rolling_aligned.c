@@ -1,6 +1,5 @@
 /* Equal elements aligned with the contact and the second-order slip operator: Carter's
  * law, its dissipation, many elements, bodies with memory, what is refused. */
-#include "case_words.h"
 #include "rollbem/closed_forms.h"
 #include "solved.h"
 
@@ -238,19 +237,20 @@ TEST(many_elements_are_solved_once)
  * each mesh: ten meshes would not bring it to rest. */
 TEST(an_edge_that_drifts_ends_the_rounds)
 {
-    static const words unlike = {{"support", "halfplane", "half-width", ".05",
-                                  "formulation", "steady", "poisson", ".5", "force-ratio",
-                                  "0", "young-b", "70000", "poisson-b", ".3",
-                                  "contact-elements", "6400", NULL}};
-    rb_case *c = case_of(RB_CASE_SINGLE, &unlike, NULL, 0.0);
+    rb_rolling_case rc = carter(6400);
     rb_rolling_model model;
     rb_message why;
-    CHECK_STATUS(rb_rolling_model_create(&rb_case_resolved(c)->rc, &model, &why), RB_OK);
+    rc.elastic_b = 1;
+    rc.b.support = RB_BEM_HALFPLANE;
+    rc.b.radius = INFINITY;
+    rc.b.young = 70000.0;
+    rc.b.poisson = 0.3;
+    rc.force_ratio = 0.0;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_OK);
     assert_false(model.equal_instead);
     assert_true(model.iterations <= 9);
     CHECK_REL(model.state.xi, 1.137795e-4, 1e-6, "free creepage");
     rb_rolling_model_free(&model);
-    rb_case_free(c);
 }
 
 RUN_TESTS(NULL, NULL)
