@@ -962,6 +962,15 @@ TEST(cracks)
     for (int j = 0; j < rows; j++)
         sum += length[j];
     CHECK_ABS(sum, 1.0, 2e-3, "lengths of the nodes but for half an element at the tip");
+    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"90", "yes", "-2"}),
+                     RB_OK);
+    for (int k = 0; k < 2; k++) { /* closed: the faces carry what lies across them */
+        const double *traction =
+            rb_api_array(a, k ? "crack.friction" : "crack.pressure", &rows, &columns);
+        assert_non_null(traction);
+        for (int j = 0; j < rows; j++)
+            CHECK_ABS(traction[j], k ? 0.0 : 2.0, 1e-10, "node %d", j);
+    }
     rb_api_set(a, "units", "si");
     rb_api_set(a, "half-width", "0.001");
     assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"45", "yes", "2e6"}),

@@ -124,7 +124,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
  *   crack.summary.K_I_max ...    one number each
  *   crack.growth.length crack.growth.cycles ...   with "paris", an entry per length
- *   crack.opening crack.sliding crack.zone  nodes x positions
+ *   crack.opening crack.sliding crack.zone  nodes x positions; so are crack.pressure and
+ *                        crack.friction, the tractions of the faces
  *   crack.node.x crack.node.y crack.node.length   an entry per node: its place, and the
  *                                length that it stands for
  *   crack.node.t_x crack.node.t_y           the direction of the crack there

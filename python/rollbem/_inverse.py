@@ -32,8 +32,8 @@ def _text(value: Any) -> str:
 class Crack(_Named):
     """A crack under a passing contact: numbers of the pass, columns over the positions.
 
-    ``faces`` holds ``opening``, ``sliding`` and ``zone`` (nodes x positions), the places ``x``, ``y`` of the nodes
-    and the corners ``path_x``, ``path_y`` of the crack; ``growth`` the columns of a crack that grows.
+    ``faces`` holds ``opening``, ``sliding``, ``pressure``, ``friction`` and ``zone`` (nodes x positions), the places
+    ``x``, ``y`` of the nodes and the corners ``path_x``, ``path_y`` of the crack; ``growth`` the columns of a crack that grows.
     """
 
     faces: "dict[str, Array]"
@@ -41,7 +41,8 @@ class Crack(_Named):
 
     def __init__(self, case: Case, handle: Any) -> None:
         self.case = case
-        faces = {"opening": "opening", "sliding": "sliding", "zone": "zone", "x": "node.x", "y": "node.y",
+        faces = {"opening": "opening", "sliding": "sliding", "pressure": "pressure",
+                 "friction": "friction", "zone": "zone", "x": "node.x", "y": "node.y",
                  "path_x": "path.x", "path_y": "path.y"}
 
         self._arrays = handle.arrays("position", "crack.", copied=True)

@@ -1125,26 +1125,28 @@ static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
     const rb_crack_path *path = &r->shape.path;
     const int n = h->nodes, steps = h->n;
     rb_crack *crack = NULL;
-    api_array *at[8];
-    static const char *const of_nodes[] = {"crack.node.x", "crack.node.y",
-                                           "crack.node.length", "crack.node.t_x",
-                                           "crack.node.t_y"},
-                             *const of_steps[] = {"crack.opening", "crack.sliding",
-                                                  "crack.zone"};
+    static const char *const names[] = {
+        "crack.node.x",   "crack.node.y",  "crack.node.length", "crack.node.t_x",
+        "crack.node.t_y", "crack.opening", "crack.sliding",     "crack.pressure",
+        "crack.friction", "crack.zone"};
+    enum { NODES = 5, ALL = sizeof names / sizeof *names };
+    api_array *at[ALL];
     rb_status s = rb_crack_create(&r->shape, &crack, &a->why);
 
-    for (int k = 0; k < 8 && s == RB_OK; k++) {
-        at[k] = k < 5 ? rb_api_make_array(a, of_nodes[k], n, 1)
-                      : rb_api_make_array(a, of_steps[k - 5], n, steps);
+    for (int k = 0; k < ALL && s == RB_OK; k++) {
+        at[k] = rb_api_make_array(a, names[k], n, k < NODES ? 1 : steps);
         s = at[k] ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
         rb_crack_places(crack, at[0]->at, at[1]->at, at[2]->at, at[3]->at, at[4]->at);
     for (int k = 0; k < n * steps && s == RB_OK; k++) {
-        const double *D = h->D + (size_t)(k / n) * 2 * (size_t)n;
-        at[5]->at[k] = D[k % n];
-        at[6]->at[k] = D[n + k % n];
-        at[7]->at[k] = h->zone[k];
+        const size_t N = (size_t)(k / n) * 2 * (size_t)n + (size_t)(k % n),
+                     T = N + (size_t)n;
+        at[5]->at[k] = h->D[N];
+        at[6]->at[k] = h->D[T];
+        at[7]->at[k] = h->r[N] / at[2]->at[k % n];
+        at[8]->at[k] = h->r[T] / at[2]->at[k % n];
+        at[9]->at[k] = h->zone[k];
     }
     rb_crack_free(crack);
     if (s == RB_OK &&
