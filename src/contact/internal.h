@@ -9,6 +9,11 @@
 
 /* ---- reduced.c --------------------------------------------------------------------- */
 
+/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q are
+ * undefined. */
+rb_status rb_contact_solve_zones(rb_contact_problem *problem,
+                                 rb_contact_unknowns unknowns, rb_contact_state *state);
+
 /* The unknowns of a linear problem: (r_N, delta), (r_T, xi) or both. */
 typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_contact_unknowns;
 
@@ -172,11 +177,6 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol,
                          rb_contact_state *state);
 
 /* ---- newton.c ---------------------------------------------------------------------- */
-
-/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q are
- * undefined. */
-rb_status rb_contact_solve_zones(rb_contact_problem *problem,
-                                 rb_contact_unknowns unknowns, rb_contact_state *state);
 
 /* Newton's method from the zones of the state (warm), or from the result of alternating
  * normal and tangential problems.  RB_MAXITER: it cycles; RB_SINGULAR. */

@@ -119,3 +119,26 @@ rb_status rb_contact_reduced_add(const rb_contact_problem *p, const rb_contact_r
         state->xi += p->slip_length / p->e_T[0] * r->x[row];
     return RB_OK;
 }
+
+/* ---- Given zones ------------------------------------------------------------------- */
+
+rb_status rb_contact_solve_zones(rb_contact_problem *problem,
+                                 rb_contact_unknowns unknowns, rb_contact_state *state)
+{
+    rb_contact_reduced r;
+    rb_status s = rb_contact_reduced_alloc(problem, unknowns, state, &r);
+
+    if (s == RB_OK)
+        s = problem->op->kind->solve(problem, state, &r);
+    rb_contact_reduced_free(&r);
+    return s;
+}
+
+rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state,
+                               double *gap)
+{
+    const rb_status s = rb_contact_solve_zones(problem, RB_BOTH, state);
+    if (s == RB_OK)
+        rb_contact_kinematics(problem, state, gap, state->lambda);
+    return s;
+}
