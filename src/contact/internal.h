@@ -9,11 +9,6 @@
 
 /* ---- reduced.c --------------------------------------------------------------------- */
 
-/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q are
- * undefined. */
-rb_status rb_contact_solve_zones(rb_contact_problem *problem,
-                                 rb_contact_unknowns unknowns, rb_contact_state *state);
-
 /* The unknowns of a linear problem: (r_N, delta), (r_T, xi) or both. */
 typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_contact_unknowns;
 
@@ -71,6 +66,11 @@ void rb_contact_reduced_right_side(const rb_contact_problem *problem,
 /* Adds r->x to the unknowns of the state.  RB_SINGULAR: it is not finite. */
 rb_status rb_contact_reduced_add(const rb_contact_problem *problem,
                                  const rb_contact_reduced *r, rb_contact_state *state);
+
+/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q are
+ * undefined. */
+rb_status rb_contact_solve_zones(rb_contact_problem *problem,
+                                 rb_contact_unknowns unknowns, rb_contact_state *state);
 
 /* ---- gmres.c ----------------------------------------------------------------------- */
 
