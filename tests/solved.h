@@ -18,7 +18,7 @@ static inline rb_rolling_solution solved(const rb_rolling_case *rc)
 }
 
 /* The case of a model, of which a test wants to know what it does under another one. */
-static inline rb_rolling_case *case_of(rb_rolling_model *model)
+static inline rb_rolling_case *case_of_model(rb_rolling_model *model)
 {
     return (rb_rolling_case *)model->rc;
 }

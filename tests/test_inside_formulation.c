@@ -297,8 +297,8 @@ TEST(coefficients_forget_from_the_leading_edge_on)
             before[i] = 0.25 + 0.001 * i;
         }
         for (int k = 0; k < 3; k++) { /* no memory, with it, with a past */
-            case_of(&model)->friction.memory = k ? 0.01 : 0.0;
-            case_of(&model)->friction.memory_slip = 15.0;
+            case_of_model(&model)->friction.memory = k ? 0.01 : 0.0;
+            case_of_model(&model)->friction.memory_slip = 15.0;
             model.carried.mu = k == 2 ? before : NULL;
             CHECK_STATUS(rb_rolling_law_coefficients(&model, mu, &why), RB_OK);
             double upstream = rest;
@@ -326,8 +326,8 @@ TEST(starts_slide_up_to_their_place)
     CHECK_STATUS(rb_rolling_law_start(&model, x[10], NULL), RB_OK);
     for (int i = 0; i < model.problem.n; i++)
         CHECK_ABS(model.problem.bound[i], i < 10 ? 0.2 : 0.4, 1e-12, "element %d", i);
-    case_of(&model)->friction.heat = -0.1;
-    case_of(&model)->friction.heat_range = 50.0;
+    case_of_model(&model)->friction.heat = -0.1;
+    case_of_model(&model)->friction.heat_range = 50.0;
     CHECK_STATUS(rb_rolling_law_start(&model, x[0], NULL), RB_OK);
     CHECK_ABS(model.problem.bound[0], 0.4, 1e-12, "at rest and cold");
     CHECK_STATUS(rb_rolling_law_start(&model, INFINITY, NULL), RB_OK);
@@ -342,9 +342,9 @@ TEST(bounds_start_where_they_are_told)
     rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_model) model = solved_model(&rc);
-    case_of(&model)->friction.start = &start;
+    case_of_model(&model)->friction.start = &start;
     for (int k = 0; k < 2; k++) {
-        case_of(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
+        case_of_model(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
         rb_rolling_start_bounds(model.rc, &model.bodies, &model.problem);
         for (int i = 0; i < model.problem.n; i++) {
             const double at = model.bodies.f.x[i];
@@ -406,10 +406,10 @@ TEST(newtons_method_may_have_no_memory)
     assert_true(model->problem.n <= 60);
     memcpy(from.bound, model->problem.bound, (size_t)model->problem.n * sizeof(double));
     assert_true(alloc_fail_each(go_to_rest, &from) > 5);
-    case_of(model)->heat_a =
+    case_of_model(model)->heat_a =
         (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    case_of(model)->friction.heat = -0.1;
-    case_of(model)->friction.heat_range = 100.0;
+    case_of_model(model)->friction.heat = -0.1;
+    case_of_model(model)->friction.heat_range = 100.0;
     assert_true(alloc_fail_each(set_friction, model) > 2);
     rb_rolling_model_free(model);
 }

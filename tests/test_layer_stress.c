@@ -245,7 +245,7 @@ TEST(what_relaxes_everywhere_alike_has_the_elastic_stress)
         rc.speed = 100.0;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, relaxing, NULL), RB_OK);
-        case_of(&model)->a.memory.n = 0; /* the same tractions */
+        case_of_model(&model)->a.memory.n = 0; /* the same tractions */
         CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, elastic, NULL), RB_OK);
         for (int i = 0; i < 3; i++) {
             CHECK_REL(relaxing[i].sxx, elastic[i].sxx, 1e-12, "sxx, point %d", i);

@@ -255,7 +255,7 @@ TEST(a_hundredth_of_the_half_width_is_followed)
         for (int i = 0; i < 2; i++) {
             rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i],
                                      &to[i]);
-            case_of(&model)->creep_ratio = last;
+            case_of_model(&model)->creep_ratio = last;
             CHECK_STATUS(rb_rolling_model_control(&model, NULL), RB_OK);
         }
         const double moved = fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) /

@@ -272,8 +272,8 @@ TEST(all_solutions_of_one_are_one)
     assert_non_null(strstr(why.text, "not under a given force"));
     model.problem.force_given = 0;
     for (int k = 0; k < 2; k++) {
-        case_of(&model)->formulation = k ? RB_STEADY : RB_TRANSIENT;
-        case_of(&model)->friction.fall[0] = k ? 0.0 : 0.1;
+        case_of_model(&model)->formulation = k ? RB_STEADY : RB_TRANSIENT;
+        case_of_model(&model)->friction.fall[0] = k ? 0.0 : 0.1;
         CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "all solutions: only for steady rolling with"));
     }
@@ -288,7 +288,7 @@ TEST(starts_that_fail_are_counted)
     rc.contact_elements = 6;
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_model) model = solved_model(&rc);
-    case_of(&model)->contact.tol = 1e-300; /* rounding leaves more */
+    case_of_model(&model)->contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
     CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
     assert_int_equal(all.n, 1);

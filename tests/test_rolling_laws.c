@@ -818,9 +818,9 @@ TEST(a_step_has_two_starts)
         const rb_rolling_past past = {.w_T = w + m + 1, .step = 0.1};
         memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
         rb_contact_problem_free(&model.problem);
-        case_of(&model)->formulation = RB_TRANSIENT;
-        case_of(&model)->creep = 0.001;
-        case_of(&model)->friction.start = start ? &sliding : NULL;
+        case_of_model(&model)->formulation = RB_TRANSIENT;
+        case_of_model(&model)->creep = 0.001;
+        case_of_model(&model)->friction.start = start ? &sliding : NULL;
         model.carried.mu = before;
         CHECK_STATUS(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies,
                                                &past, &model.problem, &why),

@@ -75,8 +75,8 @@ TEST(shift_and_creepage_at_rest)
     OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int k = 0; k < 3; k++) {
         model.shift = 0.01 * k;
-        case_of(&model)->creep = k == 1 ? 0.02 : NAN;
-        case_of(&model)->creep_ratio = k == 2 ? 0.5 : NAN;
+        case_of_model(&model)->creep = k == 1 ? 0.02 : NAN;
+        case_of_model(&model)->creep_ratio = k == 2 ? 0.5 : NAN;
         OWNED(rb_rolling_solution) s = solution_of(&model);
         CHECK_REL(s.tangential_shift, 0.001 + 0.01 * k, 1e-12, "shift %d", k);
         CHECK_ABS(s.creepage,

@@ -527,7 +527,7 @@ TEST(free_rolling_may_need_other_elements)
     CHECK_STATUS(rb_rolling_model_build(&model, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_OK);
     CHECK_REL(creepage, freely.creepage, 1e-9, "on its own elements");
-    case_of(&model)->zone = 1.6; /* a given zone stays */
+    case_of_model(&model)->zone = 1.6; /* a given zone stays */
     CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_ZONE);
 }
 
