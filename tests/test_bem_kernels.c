@@ -1,14 +1,10 @@
 /* Closed-form integrals over one element (B2, B3) and the matrices made of them (B1). */
 #include "bem_shapes.h"
+#include "numbers.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <string.h>
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * (rand() / (double)RAND_MAX);
-}
 
 /* ---- Against quadrature ------------------------------------------------------------ */
 
@@ -74,9 +70,9 @@ static double block_error(integrand_data *q, const double *block, int self)
 /* From the origin, so that no digit of the distance to a close point is lost. */
 static integrand_data random_element(void)
 {
-    const double h = pow(10.0, uniform(-3, 0)), angle = uniform(0, 2 * M_PI);
+    const double h = pow(10.0, between(-3, 0)), angle = between(0, 2 * M_PI);
     integrand_data q = {.x1 = h * cos(angle), .y1 = h * sin(angle)};
-    q.material = (rb_bem_material){pow(10.0, uniform(-2, 5)), uniform(-0.9, 0.5)};
+    q.material = (rb_bem_material){pow(10.0, between(-2, 5)), between(-0.9, 0.5)};
     return q;
 }
 
@@ -87,8 +83,8 @@ TEST(closed_form_equals_quadrature)
     srand(1);
     for (int k = 0; k < 300; k++) {
         integrand_data q = random_element();
-        const double h = hypot(q.x1 - q.x0, q.y1 - q.y0), angle = uniform(0, 2 * M_PI),
-                     r = h * pow(10.0, uniform(-2.5, 2.5)), s = uniform(-0.5, 1.5);
+        const double h = hypot(q.x1 - q.x0, q.y1 - q.y0), angle = between(0, 2 * M_PI),
+                     r = h * pow(10.0, between(-2.5, 2.5)), s = between(-0.5, 1.5);
         q.px = q.x0 + s * (q.x1 - q.x0) + r * cos(angle);
         q.py = q.y0 + s * (q.y1 - q.y0) + r * sin(angle);
         const rb_bem_blocks got = rb_bem_element_integrals(
@@ -187,8 +183,8 @@ static rb_bem_mesh irregular(int n)
     SCRATCH double *angle = rb_alloc((size_t)n + 1, 1), *r = rb_alloc((size_t)n + 1, 1);
     srand(4);
     for (int k = 0; k < n; k++) {
-        angle[k + 1] = angle[k] + pow(10.0, uniform(-2, 0));
-        r[k] = uniform(0.5, 2.0);
+        angle[k + 1] = angle[k] + pow(10.0, between(-2, 0));
+        r[k] = between(0.5, 2.0);
     }
     r[n] = r[0];
     CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);

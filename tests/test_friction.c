@@ -1,14 +1,9 @@
 /* The problem, its measure, and Newton on both forms. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* Equation (13), written down a second time: by the disjunction of *Acary* (2) for the
  * projection instead of the library's formula. */
@@ -55,7 +50,7 @@ static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *
                                .q = rb_alloc((size_t)m, 1)};
     SCRATCH double *B = rb_alloc((size_t)m, (size_t)m);
     for (int k = 0; k < m * m; k++)
-        B[k] = uniform(&seed) / sqrt(m);
+        B[k] = uniform_from(&seed) / sqrt(m);
     for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++) {
             p->W[i + j * m] = 0.5 * (i == j);
@@ -64,9 +59,9 @@ static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *
         }
     for (int c = 0; c < nc; c++) {
         double *rc = r + c * d, *uc = p->q + c * d, dir[2], t = 0.0;
-        p->mu[c] = 0.1 + 0.4 * fabs(uniform(&seed));
+        p->mu[c] = 0.1 + 0.4 * fabs(uniform_from(&seed));
         for (int a = 0; a < d - 1; a++)
-            dir[a] = uniform(&seed), t = hypot(t, dir[a]);
+            dir[a] = uniform_from(&seed), t = hypot(t, dir[a]);
         memset(rc, 0, (size_t)d * sizeof *rc);
         switch (c % 3) {
         case 0: /* separated */
@@ -127,7 +122,7 @@ TEST(the_measure_is_equation_13)
         CHECK_REL(error.floor, floor_again(&p, r), 1e-12, "floor, d = %d", d);
         for (int trial = 0; trial < 50; trial++) {
             for (int k = 0; k < d * NC; k++)
-                r[k] = 3.0 * uniform(&seed);
+                r[k] = 3.0 * uniform_from(&seed);
             CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error), RB_OK);
             for (int i = 0; i < d * NC; i++) {
                 double want = p.q[i];

@@ -4,17 +4,12 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
+#include "numbers.h"
 
 #include <string.h>
 #include <unistd.h>
 
 enum { DOFS = 14, CONTACTS = 3, ROWS = 3 * CONTACTS, JOINTS = 4 };
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* x of A x = b by elimination with row pivoting; A: n x n row-major, spoilt. */
 static void solve_dense(int n, double *A, double *x)
@@ -54,7 +49,7 @@ static void make_structure(unsigned seed, int loose, structure *s)
 {
     double A[DOFS * DOFS];
     for (int k = 0; k < DOFS * DOFS; k++)
-        A[k] = uniform(&seed);
+        A[k] = uniform_from(&seed);
     for (int i = 0; i < DOFS; i++)
         for (int j = 0; j < DOFS; j++) {
             double sum = i == j;
@@ -63,15 +58,15 @@ static void make_structure(unsigned seed, int loose, structure *s)
             s->K[i + j * DOFS] = loose && (i == DOFS - 1 || j == DOFS - 1) ? 0.0 : sum;
         }
     for (int k = 0; k < DOFS * ROWS; k++)
-        s->H[k] = k % DOFS == DOFS - 1 ? 0.0 : uniform(&seed);
+        s->H[k] = k % DOFS == DOFS - 1 ? 0.0 : uniform_from(&seed);
     for (int k = 0; k < DOFS * JOINTS; k++) /* each joins some motions only */
-        s->G[k] = (k % 5 == 0 || k % DOFS == DOFS - 1) ? uniform(&seed) : 0.0;
+        s->G[k] = (k % 5 == 0 || k % DOFS == DOFS - 1) ? uniform_from(&seed) : 0.0;
     for (int i = 0; i < DOFS; i++)
-        s->f[i] = 3.0 * uniform(&seed);
+        s->f[i] = 3.0 * uniform_from(&seed);
     for (int k = 0; k < ROWS; k++)
-        s->w[k] = (k % 3 ? 1.0 : -1.0) * fabs(uniform(&seed));
+        s->w[k] = (k % 3 ? 1.0 : -1.0) * fabs(uniform_from(&seed));
     for (int c = 0; c < JOINTS; c++)
-        s->b[c] = uniform(&seed);
+        s->b[c] = uniform_from(&seed);
 }
 
 static void copy(size_t n, const double *from, double **to)

@@ -5,6 +5,7 @@
  * ROLLBEM_TEST_ALL 200 000. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -16,15 +17,9 @@ typedef struct {
     const char *family;
 } challenge;
 
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
-
 static int below(unsigned *state, int n)
 {
-    return (int)((uniform(state) + 1.0) * 0.5 * n) % n;
+    return (int)((uniform_from(state) + 1.0) * 0.5 * n) % n;
 }
 
 /* W = H'H, q = H'v + noise with H random (motions x rows), its entries rounded to
@@ -34,13 +29,13 @@ static void gram(unsigned *seed, int motions, int ties, double noise, challenge 
     const int m = p->d * p->contacts;
     double H[MOST * MOST], v[MOST];
     for (int k = 0; k < motions * m; k++)
-        H[k] = ties ? (double)(below(seed, 5) - 2) : uniform(seed);
+        H[k] = ties ? (double)(below(seed, 5) - 2) : uniform_from(seed);
     for (int j = 0; j < m; j += p->d) /* no normal without compliance */
         H[j * motions] += H[j * motions] < 0.0 ? -1.0 : 1.0;
     for (int i = 0; i < motions; i++)
-        v[i] = ties ? (double)(below(seed, 5) - 2) : uniform(seed);
+        v[i] = ties ? (double)(below(seed, 5) - 2) : uniform_from(seed);
     for (int i = 0; i < m; i++) {
-        p->q[i] = noise * uniform(seed);
+        p->q[i] = noise * uniform_from(seed);
         for (int k = 0; k < motions; k++)
             p->q[i] += H[k + i * motions] * v[k];
         for (int j = 0; j < m; j++) {
@@ -65,7 +60,7 @@ static void wedge(unsigned *seed, challenge *p)
     p->W[d] = p->W[d * m] = -p->W[0];
     for (int a = 1; a < d; a++) /* of frictionless contacts the tangents do not matter */
         p->W[d + a * m] = -p->W[a * m], p->W[a + d * m] = -p->W[a];
-    p->q[d] = -p->q[0] - 0.01 - 0.5 * fabs(uniform(seed));
+    p->q[d] = -p->q[0] - 0.01 - 0.5 * fabs(uniform_from(seed));
     p->hopeless = 1;
 }
 
@@ -87,7 +82,7 @@ static void pose(unsigned seed, challenge *p)
     const unsigned number = seed;
     seed = seed * 2654435761u + 12345u;
     for (int k = 0; k < 4; k++)
-        uniform(&seed);
+        uniform_from(&seed);
     *p = (challenge){.d = 2 + (int)(number % 2),
                      .contacts = 2 + below(&seed, 10),
                      .family = families[number / 2 % 9]};
@@ -110,7 +105,7 @@ static void pose(unsigned seed, challenge *p)
     case 4:
         gram(&seed, m, 0, 0.1, p);
         for (int k = 0; k < m * m; k++)
-            p->W[k] += k % (m + 1) ? 0.2 * uniform(&seed) : 0.5;
+            p->W[k] += k % (m + 1) ? 0.2 * uniform_from(&seed) : 0.5;
         break;
     case 5:
         gram(&seed, m, 0, 0.1, p);

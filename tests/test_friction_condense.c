@@ -3,6 +3,7 @@
  * at several contacts. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -10,8 +11,7 @@ static unsigned long long seed = 9;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 static int below(int n)

@@ -2,6 +2,7 @@
  * largest, with arguments that are none, and without memory. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <float.h>
 #include <string.h>
@@ -12,8 +13,7 @@ static unsigned long long seed = 31;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 /* Coupled contacts that are pressed and dragged; W times `unit`. */

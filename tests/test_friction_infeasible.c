@@ -1,6 +1,7 @@
 /* Proofs that a friction problem has no solution: each is checked from W and q alone. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -12,8 +13,7 @@ static unsigned long long state_of_random = 3;
 
 static double uniform(void)
 {
-    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(state_of_random >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&state_of_random);
 }
 
 static rb_friction_problem problem(int d, int contacts)

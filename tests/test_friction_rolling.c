@@ -5,6 +5,7 @@
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
 #include "scratch.h"
+#include "numbers.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -12,12 +13,6 @@
 enum { MOST = 12, CONTACTS = 2 * MOST, ROWS = 5 * CONTACTS, DOFS = 6 * MOST };
 
 #define INERTIA 0.1 /* of a ball of mass 1 and diameter 1 */
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* Balls in a row on the ground: each touches the ground and its neighbours.  H: dofs x
  * rows, column-major. */
@@ -65,7 +60,7 @@ static void make_row(int balls, double mu, double mu_r, unsigned seed, row_of_ba
         }
     }
     for (int i = 0; i < s->dofs; i++)
-        s->v[i] = i % 6 == 1 ? -1.0 : 0.5 * uniform(&seed);
+        s->v[i] = i % 6 == 1 ? -1.0 : 0.5 * uniform_from(&seed);
 }
 
 static double mass(int dof)
@@ -171,7 +166,7 @@ TEST(rows_of_balls_obey_both_laws)
             CHECK_MAX(violation(&s, r), 1e-7, "%d balls, mu %g, mu_r %g", s.balls, s.mu,
                       s.mu_r);
             for (int i = 0; i < s.rows; i++)
-                s.w[i] = 0.2 * uniform(&random);
+                s.w[i] = 0.2 * uniform_from(&random);
             CHECK_STATUS(solve_row(&s, 2.0, "auto", r, u), RB_OK);
             CHECK_MAX(violation(&s, r), 1e-7, "%d balls, moved", s.balls);
         }

@@ -1,14 +1,9 @@
 /* Every solver of the registry, the canonical SOCLCP, and the files of other projects. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* A chain of contacts, each coupled to its neighbours, W block tridiagonal and positive
  * definite: sparse, and with a load that separates, sticks and slips. */
@@ -25,13 +20,13 @@ static void chain(int d, int nc, rb_friction_problem *p)
     for (int i = 0; i < m; i++)
         for (int j = i; j < m; j++) {
             const int apart = j / d - i / d;
-            const double w = i == j ? 2.0 : apart > 1 ? 0.0 : 0.25 * uniform(&seed);
+            const double w = i == j ? 2.0 : apart > 1 ? 0.0 : 0.25 * uniform_from(&seed);
             p->W[i + j * m] = p->W[j + i * m] = w;
         }
     for (int c = 0; c < nc; c++) {
-        p->mu[c] = c % 5 == 4 ? 0.0 : 0.2 + 0.3 * fabs(uniform(&seed));
+        p->mu[c] = c % 5 == 4 ? 0.0 : 0.2 + 0.3 * fabs(uniform_from(&seed));
         for (int a = 0; a < d; a++)
-            p->q[c * d + a] = a ? uniform(&seed) : c % 3 ? -1.0 : 0.5;
+            p->q[c * d + a] = a ? uniform_from(&seed) : c % 3 ? -1.0 : 0.5;
     }
 }
 
@@ -212,7 +207,7 @@ TEST(cones_of_every_size)
     unsigned seed = 5;
     double M[N * N], B[N * N], q[N], want[N], planted[N], x[N], y[N];
     for (int k = 0; k < N * N; k++)
-        B[k] = uniform(&seed);
+        B[k] = uniform_from(&seed);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++) {
             M[i + j * N] = (i == j) + 0.5 * (i > j) - 0.5 * (i < j); /* monotone */
@@ -223,7 +218,7 @@ TEST(cones_of_every_size)
     for (int k = 0, at = 0; k < CONES; at += size[k++]) {
         double e[5], norm = 0.0;
         for (int a = 1; a < size[k]; a++)
-            e[a] = uniform(&seed), norm = hypot(norm, e[a]);
+            e[a] = uniform_from(&seed), norm = hypot(norm, e[a]);
         const double ax = k % 3 == 2 ? 0.0 : 1.5, ay = k % 3 == 1 ? 0.0 : 0.5;
         want[at] = size[k] == 1 && k % 3 == 0 ? 0.0 : ax;
         planted[at] = ay;
@@ -258,7 +253,7 @@ TEST(a_cone_of_any_size)
     unsigned seed = 9;
     double norm = 0.0;
     for (int i = 1; i < N; i++)
-        x[i] = uniform(&seed), norm = hypot(norm, x[i]);
+        x[i] = uniform_from(&seed), norm = hypot(norm, x[i]);
     x[0] = norm;
     for (int i = 0; i < N; i++) {
         M[i + i * N] = 1.0;

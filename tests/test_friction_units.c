@@ -1,14 +1,9 @@
 /* What is solved does not depend on units: the scaled measure, and every solver. */
 #include "check.h"
 #include "rollbem/friction.h"
+#include "numbers.h"
 
 #include <string.h>
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* W = B B' + 1, q random: some contacts open, some stick, some slip. */
 static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
@@ -22,7 +17,7 @@ static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
                                .W = rb_alloc((size_t)m, (size_t)m),
                                .q = rb_alloc((size_t)m, 1)};
     for (int k = 0; k < m * m; k++)
-        B[k] = uniform(&seed) / sqrt(m);
+        B[k] = uniform_from(&seed) / sqrt(m);
     for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++) {
             p->W[i + j * m] = i == j;
@@ -30,9 +25,9 @@ static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
                 p->W[i + j * m] += B[i + k * m] * B[j + k * m];
         }
     for (int i = 0; i < m; i++)
-        p->q[i] = uniform(&seed) - (i % d ? 0.0 : 0.3);
+        p->q[i] = uniform_from(&seed) - (i % d ? 0.0 : 0.3);
     for (int c = 0; c < nc; c++)
-        p->mu[c] = 0.1 + 0.4 * fabs(uniform(&seed));
+        p->mu[c] = 0.1 + 0.4 * fabs(uniform_from(&seed));
 }
 
 /* W times a, q times b; the global form likewise: K over a, f times b/a, w times b. */
@@ -97,7 +92,7 @@ TEST(the_scaled_measure_sees_no_units)
         unsigned seed = 17;
         random_problem(d, NC, 4u, &p);
         for (int i = 0; i < d * NC; i++)
-            r[i] = uniform(&seed);
+            r[i] = uniform_from(&seed);
         CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &first), RB_OK);
         CHECK_REL(first.scaled, measure_again(&p, r), 1e-12, "by hand, d = %d", d);
         rescale(&p, 1e-6, 1e3);
@@ -218,9 +213,9 @@ TEST(cones_in_other_units)
     unsigned seed = 21;
     double M[N * N], q[N], x[N], y[N], B[N * N];
     for (int k = 0; k < N * N; k++)
-        B[k] = uniform(&seed);
+        B[k] = uniform_from(&seed);
     for (int i = 0; i < N; i++)
-        q[i] = uniform(&seed);
+        q[i] = uniform_from(&seed);
     int iters = 0;
     for (int k = 0; k < 3; k++) {
         const double s = k == 0 ? 1.0 : k == 1 ? 0x1p-30 : 1e9;

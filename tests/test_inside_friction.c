@@ -4,21 +4,16 @@
 #include "friction/internal.h"
 #include "friction/smoothing.h"
 #include "packing.h"
+#include "numbers.h"
 
 #include <string.h>
-
-static double uniform(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
-}
 
 /* A A' + shift, with a part that is not symmetric */
 static void positive_definite(int d, double unsymmetric, unsigned *seed, double *W)
 {
     double a[9];
     for (int k = 0; k < d * d; k++)
-        a[k] = uniform(seed);
+        a[k] = uniform_from(seed);
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++) {
             W[i + j * d] = (i == j) * 0.1 + unsymmetric * (i < j ? 1.0 : -1.0) * (i != j);
@@ -54,7 +49,7 @@ TEST(one_contact_obeys_coulomb)
     int states[3] = {0, 0, 0}; /* open, stuck, sliding */
     for (int k = 0; k < 6000; k++) {
         const int d = 2 + k % 2;
-        const double mu = k % 11 ? fabs(uniform(&seed)) : 0.0;
+        const double mu = k % 11 ? fabs(uniform_from(&seed)) : 0.0;
         double W[9], q[3], r[3] = {0.0, 0.0, 0.0}, u[3];
         rb_friction_contact c;
         positive_definite(d, k % 3 ? 0.0 : 1e-2, &seed, W);
@@ -62,7 +57,7 @@ TEST(one_contact_obeys_coulomb)
         double lambda = 0.0; /* then of the time before */
         for (int again = 0; again < 3; again++) {
             for (int a = 0; a < d; a++)
-                q[a] = uniform(&seed) - (a == 0) * 0.5;
+                q[a] = uniform_from(&seed) - (a == 0) * 0.5;
             const int steps = rb_friction_contact_exact(&c, &lambda, q, r);
             assert_true(steps > 0 && steps < 20);
             velocity(d, W, q, r, u);
@@ -86,7 +81,7 @@ TEST(one_contact_has_no_unit)
         rb_friction_contact c;
         positive_definite(d, k % 3 ? 0.0 : 1e-2, &seed, W);
         for (int a = 0; a < d; a++)
-            q[a] = uniform(&seed) - (a == 0) * 0.5;
+            q[a] = uniform_from(&seed) - (a == 0) * 0.5;
         rb_friction_contact_init(d, 0.3, W, &c);
         rb_friction_contact_exact(&c, &lambda, q, r);
         for (int a = 0; a < d * d; a++)
@@ -110,7 +105,7 @@ TEST(elimination_agrees_with_newton)
         positive_definite(d, 0.0, &seed, W);
         rb_friction_contact_init(d, 0.3, W, &c);
         for (int a = 0; a < d; a++)
-            q[a] = a ? uniform(&seed) : -0.3 - fabs(uniform(&seed));
+            q[a] = a ? uniform_from(&seed) : -0.3 - fabs(uniform_from(&seed));
         const double rho[] = {1.0 / W[0], 1.0 / (W[d + 1] + (d == 3 ? W[8] : 0.0))};
         double lambda = 0.0;
         assert_true(rb_friction_contact_exact(&c, &lambda, q, r) > 0);
@@ -132,7 +127,7 @@ TEST(newton_obeys_coulomb_with_unsymmetric_blocks)
         positive_definite(d, 0.15, &seed, W);
         rb_friction_contact_init(d, 0.4, W, &c);
         for (int a = 0; a < d; a++)
-            q[a] = a ? 2.0 * uniform(&seed) : -0.2 - fabs(uniform(&seed));
+            q[a] = a ? 2.0 * uniform_from(&seed) : -0.2 - fabs(uniform_from(&seed));
         const double rho[] = {1.0 / W[0], 1.0 / W[d + 1]};
         assert_true(rb_friction_contact_newton(&c, rho, q, r) > 0);
         velocity(d, W, q, r, u);
@@ -171,7 +166,7 @@ static void random_problem(int d, int nc, unsigned *seed, rb_friction_problem *p
     for (int j = 0; j < m; j++)
         for (int i = 0; i < m; i++)
             if ((i / d + 2 * (j / d)) % 3 == 0 && i / d + j / d != 2)
-                p->W[i + j * m] = (i + j) % 4 ? uniform(seed) : 0.0;
+                p->W[i + j * m] = (i + j) % 4 ? uniform_from(seed) : 0.0;
 }
 
 static void make_sparse(rb_friction_problem *p)
@@ -191,7 +186,7 @@ TEST(blocks_multiply_as_the_matrix_does)
         double x[21], y[21];
         random_problem(d, nc, &seed, &p);
         for (int i = 0; i < m; i++)
-            x[i] = i / d == 4 ? 0.0 : uniform(&seed);
+            x[i] = i / d == 4 ? 0.0 : uniform_from(&seed);
         if (k / 2)
             make_sparse(&p);
         CHECK_STATUS(rb_friction_blocks_init(&p, &b), RB_OK);
@@ -227,11 +222,11 @@ TEST(a_newton_step_solves_its_system)
                     p.W[i + j * m] = 0.0;
         make_sparse(&p);
         for (int i = 0; i < m; i++)
-            F[i] = uniform(&seed);
+            F[i] = uniform_from(&seed);
         for (int i = 0; i < m * d; i++) {
             const int open = (i / dd) % 5 == 1;
             A[i] = (i % dd % (d + 1) == 0) * (open ? 1.0 : 5.0);
-            B[i] = open ? 0.0 : uniform(&seed);
+            B[i] = open ? 0.0 : uniform_from(&seed);
         }
         rb_friction_shared shared = {.problem = &p, .local = &p};
         rb_friction_task task = {
@@ -262,7 +257,7 @@ TEST(acceleration_solves_a_linear_iteration)
     double matrix[M * M], r[M] = {0.0}, u[M], start[M];
     OWNED(rb_anderson) a;
     for (int k = 0; k < M * M; k++)
-        matrix[k] = 0.6 * uniform(&seed); /* on its own it need not converge */
+        matrix[k] = 0.6 * uniform_from(&seed); /* on its own it need not converge */
     CHECK_STATUS(rb_anderson_init(M, &a), RB_OK);
     for (int k = 0; k < M + 3; k++) {
         memcpy(start, r, sizeof r);
@@ -351,16 +346,16 @@ TEST(a_step_of_all_bodies_solves_its_system)
         const rb_friction_linearised at = {F, A, B};
         for (int i = 0; i < n; i++) {
             rb_triplets_add(&tk, i, i, 2.0 + 0.1 * i);
-            e[i] = uniform(&seed);
+            e[i] = uniform_from(&seed);
         }
         for (int j = 0; j < m; j++) {
             rb_triplets_add(&th, j, j, 1.0);
             rb_triplets_add(&th, j + 2, j, -1.0);
-            F[j] = uniform(&seed);
+            F[j] = uniform_from(&seed);
         }
         for (int k = 0; k < 2 * m; k++) {
-            A[k] = (k % 4 % 3 == 0) * 3.0 + uniform(&seed);
-            B[k] = uniform(&seed);
+            A[k] = (k % 4 % 3 == 0) * 3.0 + uniform_from(&seed);
+            B[k] = uniform_from(&seed);
         }
         CHECK_STATUS(rb_sparse_from_triplets(&tk, &p.K), RB_OK);
         CHECK_STATUS(rb_sparse_from_triplets(&th, &p.H), RB_OK);
@@ -524,7 +519,7 @@ TEST(smoothed_projections_obey_their_definition)
             const double mu = 0.3 + 0.1 * trial, step = 1e-5;
             double x[3], P[3], D[9], up[3], down[3], t = 0.0, along = 0.0;
             for (int a = 0; a < n; a++)
-                x[a] = 3.0 * uniform(&seed);
+                x[a] = 3.0 * uniform_from(&seed);
             for (int a = 1; a < n; a++)
                 t = hypot(t, x[a]);
             const double least = rb_friction_smoothed(n, mu, x, P, D);

@@ -2,6 +2,7 @@
  * functions whose roots are solutions and their derivatives, the units of a contact. */
 #include "check.h"
 #include "friction/internal.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -9,8 +10,7 @@ static unsigned long long seed = 21;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 static double tangential(int d, const double *x)

@@ -2,6 +2,7 @@
  * is made good by the next, so that a solve tells nothing of them. */
 #include "check.h"
 #include "friction/internal.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -11,8 +12,7 @@ static unsigned long long seed = 5;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 typedef enum { DENSE, SPARSE, FILLED, HELD, LOOSE, KINDS } kind;

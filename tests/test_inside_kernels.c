@@ -2,13 +2,9 @@
  * distances. */
 #include "bem/column.h"
 #include "bem_shapes.h"
+#include "numbers.h"
 
 #include <string.h>
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * (rand() / (double)RAND_MAX);
-}
 
 enum { n_seen = 1003, rounds = 40 };
 
@@ -19,8 +15,8 @@ static const char *const place_name[places] = {"anywhere", "collinear", "above"}
 
 static rb_element element_in_general_position(void)
 {
-    const double h = pow(10.0, uniform(-3, 0)), angle = uniform(0, 2 * M_PI),
-                 x = uniform(-1, 1), y = uniform(-1, 1);
+    const double h = pow(10.0, between(-3, 0)), angle = between(0, 2 * M_PI),
+                 x = between(-1, 1), y = between(-1, 1);
     return rb_element_make(x, y, x + h * cos(angle), y + h * sin(angle), 1.0);
 }
 
@@ -29,8 +25,8 @@ static rb_element element_in_general_position(void)
 static void put_points(const rb_element *e, int place, double *x, double *y)
 {
     for (int i = 0; i < n_seen; i++) {
-        const double away = e->a * pow(10.0, uniform(-1, 4)),
-                     angle = uniform(0, 2 * M_PI);
+        const double away = e->a * pow(10.0, between(-1, 4)),
+                     angle = between(0, 2 * M_PI);
         const double along = place == ANYWHERE    ? away * cos(angle)
                              : place == COLLINEAR ? e->a + away
                                                   : 0.0;
@@ -58,7 +54,7 @@ typedef struct {
 static void make_column_case(int place, column_case *c)
 {
     c->e = element_in_general_position();
-    c->material = (rb_bem_material){pow(10.0, uniform(-2, 5)), uniform(0.0, 0.4)};
+    c->material = (rb_bem_material){pow(10.0, between(-2, 5)), between(0.0, 0.4)};
     c->self = place == ANYWHERE ? 77 : -1;
     put_points(&c->e, place, c->x, c->y);
 }

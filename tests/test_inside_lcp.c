@@ -4,6 +4,7 @@
  * the cheaper way that will do. */
 #include "check.h"
 #include "lcp/lemke.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -16,8 +17,7 @@ static unsigned long long seed = 7;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 static int below(int n)

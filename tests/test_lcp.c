@@ -2,6 +2,7 @@
 #include "check.h"
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -10,8 +11,7 @@ static unsigned long long seed = 20240229;
 /* Uniform in [-1, 1). */
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 /* max |min(z, M z + q)|, written out independently of the library. */

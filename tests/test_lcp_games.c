@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "rollbem/lcp.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -9,8 +10,7 @@ static unsigned long long state_of_random = 77;
 
 static double uniform(void)
 {
-    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(state_of_random >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&state_of_random);
 }
 
 enum { N = 40, LD = N + 3 };

@@ -2,6 +2,7 @@
  * units.  Claims are judged in the units of the problem before it was scaled. */
 #include "check.h"
 #include "rollbem/lcp.h"
+#include "numbers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,8 +20,7 @@ static unsigned long long seed = 28;
 
 static double uniform(void)
 {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+    return uniform_of(&seed);
 }
 
 /* Dominant, symmetric with a skew part, sparse, small integers that tie, diagonal; a z

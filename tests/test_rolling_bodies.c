@@ -1,6 +1,7 @@
 /* Two elastic bodies (4.5), each with its own support. */
 #include "rollbem/rolling.h"
 #include "solved.h"
+#include "numbers.h"
 
 #include <string.h>
 
@@ -105,14 +106,9 @@ TEST(finite_cylinders_tend_to_bentall_and_johnson)
     CHECK_REL(finite_free_creepage(1e-6, 1e-4), mu_zero, 5e-3, "mu -> 0, a/R = 1e-6");
 }
 
-static double uniform(double a, double b)
-{
-    return a + (b - a) * (rand() / (double)RAND_MAX);
-}
-
 static double log_uniform(double a, double b)
 {
-    return exp(uniform(log(a), log(b)));
+    return exp(between(log(a), log(b)));
 }
 
 TEST(force_control_never_fails_on_wheels)
@@ -120,18 +116,18 @@ TEST(force_control_never_fails_on_wheels)
     srand(5);
     for (int k = 0; k < 12; k++) {
         rb_rolling_case rc =
-            steady_wheel(k % 2 ? RB_BEM_HUB : RB_BEM_ARC, uniform(0.0, 0.5));
+            steady_wheel(k % 2 ? RB_BEM_HUB : RB_BEM_ARC, between(0.0, 0.5));
         const double ratio = log_uniform(1e-6, 0.1);
         rc.b = rc.a;
         rc.b.young *= log_uniform(0.1, 10.0);
-        rc.b.poisson = uniform(0.0, 0.5);
+        rc.b.poisson = between(0.0, 0.5);
         rc.elastic_b = k % 3 > 0;
-        rc.a.hub_ratio = uniform(0.2, 0.9);
+        rc.a.hub_ratio = between(0.2, 0.9);
         rc.gap = RB_GAP_EXACT;
         rc.contact_elements = 20;
         rc.half_width = ratio * rb_rolling_radius(&rc);
         rc.mu = fmin(10.0, log_uniform(1e-6, 0.1) / ratio);
-        rc.force_ratio = k % 4 ? uniform(-0.999, 0.999) : 0.999;
+        rc.force_ratio = k % 4 ? between(-0.999, 0.999) : 0.999;
         OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
         CHECK_MAX(s.load_error, 1e-10, "case %d", k);

@@ -1,17 +1,13 @@
 /* Given loads and forces up to full sliding, and the two solvers against each other. */
 #include "check.h"
 #include "rollbem/rolling.h"
+#include "numbers.h"
 
 #include <string.h>
 
-static double uniform(double a, double b)
-{
-    return a + (b - a) * (rand() / (double)RAND_MAX);
-}
-
 static double log_uniform(double a, double b)
 {
-    return exp(uniform(log(a), log(b)));
+    return exp(between(log(a), log(b)));
 }
 
 /* Half-planes of any materials in steady or static contact, creepage or force given. */
@@ -20,9 +16,9 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
     rb_rolling_case rc = rb_rolling_case_defaults();
 
     rc.a.young = log_uniform(1e3, 1e6);
-    rc.a.poisson = uniform(-0.3, 0.5);
+    rc.a.poisson = between(-0.3, 0.5);
     rc.b.young = log_uniform(1e3, 1e6);
-    rc.b.poisson = uniform(0.0, 0.5);
+    rc.b.poisson = between(0.0, 0.5);
     rc.elastic_b = rand() % 2;
     rc.b.radius = rand() % 2 ? INFINITY : log_uniform(10.0, 1000.0);
     rc.a.support = RB_BEM_HALFPLANE;
@@ -31,14 +27,14 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
     rc.half_width = log_uniform(1e-6, 1e-2) * rc.a.radius;
     rc.mu = log_uniform(mu_from, mu_to);
     if (rand() % 2)
-        rc.force_ratio = rand() % 4   ? uniform(-0.999, 0.999)
+        rc.force_ratio = rand() % 4   ? between(-0.999, 0.999)
                          : rand() % 2 ? 0.999
                                       : -0.999;
     else if (rc.formulation == RB_STEADY)
-        rc.creep_ratio = uniform(-2.0, 2.0);
+        rc.creep_ratio = between(-2.0, 2.0);
     else
         rc.shift =
-            rc.mu * rc.half_width * rc.half_width / rc.a.radius * uniform(-3.0, 3.0);
+            rc.mu * rc.half_width * rc.half_width / rc.a.radius * between(-3.0, 3.0);
     rc.contact_elements = 15 + rand() % 45;
     return rc;
 }
@@ -76,7 +72,7 @@ TEST(force_control_never_fails_on_the_halfplane)
         rb_message why = {""};
         rc.formulation = RB_STEADY;
         rc.creep_ratio = rc.shift = NAN;
-        rc.force_ratio = k % 4 ? uniform(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
+        rc.force_ratio = k % 4 ? between(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
         if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
             fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio,
                      why.text);

@@ -1,6 +1,7 @@
 /* What follows from a solved model: creep curves, stress, dissipation, error bars. */
 #include "check.h"
 #include "rollbem/rolling.h"
+#include "numbers.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -245,24 +246,19 @@ TEST(dissipation_is_the_work_of_the_forces)
 
 /* ---- Error bars -------------------------------------------------------------------- */
 
-static double uniform(double a, double b)
-{
-    return a + (b - a) * (rand() / (double)RAND_MAX);
-}
-
 /* Carter by creepage and by force, Cattaneo by force; Hertz in all of them. */
 static void count_random_case(int fitted, tally *t)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     const int kind = rand() % 3;
-    const double s = uniform(0.05, 0.95);
+    const double s = between(0.05, 0.95);
     OWNED(rb_rolling_solution) so;
     rb_rolling_errors e;
 
     rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
     rc.contact_elements = 40 + rand() % 60;
     if (!fitted)
-        rc.zone = rc.half_width * uniform(1.1, 1.4);
+        rc.zone = rc.half_width * between(1.1, 1.4);
     rc.formulation = kind == 2 ? RB_STATIC : RB_STEADY;
     if (kind == 0)
         rc.creep_ratio = s;

@@ -1,15 +1,11 @@
 /* The potential contact, the edges of the contact and elements fitted to them. */
 #include "rollbem/rolling.h"
 #include "solved.h"
+#include "numbers.h"
 
 #include <gsl/gsl_math.h>
 
 #include <string.h>
-
-static double uniform(double a, double b)
-{
-    return a + (b - a) * (rand() / (double)RAND_MAX);
-}
 
 static rb_rolling_case halfplane(double poisson, double mu, int elements)
 {
@@ -143,12 +139,12 @@ TEST(fitted_and_equal_elements_agree)
 {
     srand(9);
     for (int k = 0; k < 15; k++) {
-        rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 3.0), 60);
-        rc.half_width = exp(uniform(log(1e-4), log(1e-2))) * rc.a.radius;
-        rc.creep_ratio = uniform(-1.2, 1.2);
+        rb_rolling_case rc = halfplane(between(-0.3, 0.5), between(0.05, 3.0), 60);
+        rc.half_width = exp(between(log(1e-4), log(1e-2))) * rc.a.radius;
+        rc.creep_ratio = between(-1.2, 1.2);
         rc.elastic_b = rand() % 2;
-        rc.b.poisson = uniform(-0.3, 0.5);
-        rc.b.young = rc.a.young * exp(uniform(-2.0, 2.0));
+        rc.b.poisson = between(-0.3, 0.5);
+        rc.b.young = rc.a.young * exp(between(-2.0, 2.0));
         rb_rolling_case fine = rc;
         rc.mesh = RB_MESH_FITTED;
         fine.contact_elements = 600;
@@ -169,14 +165,14 @@ TEST(exchanged_bodies_have_the_same_pressure)
 {
     srand(10);
     for (int k = 0; k < 20; k++) {
-        rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 2.0), 40);
+        rb_rolling_case rc = halfplane(between(-0.3, 0.5), between(0.05, 2.0), 40);
         rc.mesh = k % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.half_width = 1e-3 * rc.a.radius;
-        rc.creep_ratio = uniform(-1.2, 1.2);
+        rc.creep_ratio = between(-1.2, 1.2);
         rc.elastic_b = 1;
-        rc.b.radius = exp(uniform(2.0, 6.0));
-        rc.b.poisson = uniform(-0.3, 0.5);
-        rc.b.young = rc.a.young * exp(uniform(-2.0, 2.0));
+        rc.b.radius = exp(between(2.0, 6.0));
+        rc.b.poisson = between(-0.3, 0.5);
+        rc.b.young = rc.a.young * exp(between(-2.0, 2.0));
         rc.a.datum = rc.b.datum = 40.0;
         rb_rolling_case swapped = rc;
         swapped.a = rc.b;
