@@ -61,7 +61,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
             "set xrange [0:%g]\nset tmargin at screen 0.86\nset bmargin at screen 0.60\n",
-            0.10 + 1.6 * place.right, place.titled ? 0.975 : 0.95, 1.005 * v->length);
+            canvas.size == RB_REPORT_SLIDE ? 0.125 : 0.10 + 1.6 * place.right,
+            place.titled ? 0.975 : 0.95, 1.005 * v->length);
     if (place.titled)
         fprintf(out,
                 "set label 1 '{/:Bold Bar pressed onto an obstacle and pushed from the "

@@ -89,14 +89,15 @@ static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last,
                        int column)
 {
     const panel at = panel_of(column, FRONT);
-    fprintf(
-        out,
-        "set multiplot\nset label 1 '{/:Bold Wall of 12 elastic blocks, pressed with %g "
-        "kN and sheared}' at screen 0.5, 0.955 center\n"
-        "set label 2 'displacements × %g, drift of the upper support %.3g mm' at screen "
-        "%g, %g center textcolor rgb '#444444'\n%s",
-        1e-3 * last->compression, f->magnify, 1e3 * last->drift, column ? 0.5 : 0.31,
-        at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
+    char magnify[40];
+    fprintf(out,
+            "set multiplot\nset label 1 '{/:Bold Wall of 12 blocks, pressed with %g "
+            "kN and sheared}' at screen 0.5, 0.955 center\n"
+            "set label 2 'displacements × %s, drift %s%.3g mm' at screen "
+            "%g, %g center textcolor rgb '#444444'\n%s",
+            1e-3 * last->compression, rb_report_large_number(f->magnify, magnify),
+            column ? "" : "of the upper support ", 1e3 * last->drift, column ? 0.5 : 0.31,
+            at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
     open_panel(out, at);
     fprintf(
         out,

@@ -209,10 +209,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const rb_report_place place = rb_report_place_of(canvas);
     const int n = f->data->n;
     const char *unit = force_unit(f);
-    double(*row)[4] = calloc((size_t)n, sizeof *row);
+    double(*row)[4] = calloc((size_t)n, sizeof *row), most = 0.0;
+    for (int k = 0; k < n; k++)
+        most = fmax(most, fabs(f->data->creep[k]));
+    const int power = rb_report_exponent(most);
 
     for (int k = 0; row && k < n; k++) {
-        row[k][0] = f->data->creep[k];
+        row[k][0] = f->data->creep[k] / pow(10.0, power);
         row[k][1] = in_units(f, unit, f->data->force[k]);
         row[k][2] = in_units(f, unit, f->fit->model[k]);
         row[k][3] = in_units(f, unit, f->fit->band[k]);
@@ -236,8 +239,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (place.titled)
         fputs("set label 1 '{/:Bold Fitted creep curve}' at screen 0.55, 0.965 center\n",
               out);
-    fprintf(out, "set xlabel 'creepage %s'\nset ylabel 'force on A  %s%s%s'\n",
-            f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ",
+    fprintf(out, "set xlabel 'creepage %s", f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ");
+    if (power)
+        fprintf(out, "  [10^{%d}]", power);
+    fprintf(out, "'\nset ylabel 'force on A  %s%s%s'\n",
             f->data->measure == RB_CASE_FORCE         ? "Q  ["
             : f->data->measure == RB_CASE_FORCE_RATIO ? "Q/(μP)"
                                                       : "Q/P",

@@ -219,16 +219,16 @@ static const struct {
               21}};
 
 /* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
- * part of the width, than in the shape's own size (column: in four thirds, so that they
+ * part of the width, than in the shape's own size (alike: in four thirds, so that they
  * are as large in every picture); width over height, 0: the shape's.  In a column panels
  * that are side by side elsewhere lie below each other. */
 static const struct {
     double inches, letters, ratio[SHAPES];
-    int column;
+    int alike;
 } sizes[] = {
     [RB_REPORT_85MM] = {85 / 25.4, 1.65, {1.0, 0.82, 1.0, 0.6}, 1},
     [RB_REPORT_170MM] = {170 / 25.4, 1.0, {0.0}, 0},
-    [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 0}};
+    [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 1}};
 
 typedef struct {
     double width, height, letters; /* letters: against those of the shape's own size */
@@ -244,7 +244,7 @@ static extent extent_of(rb_report_canvas canvas, rb_report_shape shape)
     const double wanted = inches > 0.0 ? inches * looks[canvas.kind].inch
                                        : looks[canvas.kind].width[RB_REPORT_SCREEN];
     const double ratio = sizes[canvas.size].ratio[shape];
-    const int like = sizes[canvas.size].column ? RB_REPORT_FOUR_THIRDS : (int)shape;
+    const int like = sizes[canvas.size].alike ? RB_REPORT_FOUR_THIRDS : (int)shape;
     return (extent){wanted, ratio > 0.0 ? wanted / ratio : wanted * height / width,
                     sizes[canvas.size].letters * wanted / looks[canvas.kind].width[like] *
                         looks[canvas.kind].font[like] / looks[canvas.kind].font[shape]};

@@ -377,7 +377,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         /* a longer line in smaller letters */
         const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;
         fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%g ",
-                0.95 - 0.1 * longer);
+                0.95 - (canvas.size == RB_REPORT_SLIDE ? 0.035 : 0.075) * longer);
         write_results(out, v);
         fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
         rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);

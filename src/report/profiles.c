@@ -17,7 +17,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
             "set xlabel 'τ: %s over the least of all solvers'\n"
             "set ylabel 'share of problems solved' offset 1,0\n"
             "set key outside right samplen 2 font ',%.3g'\n$profiles << EOD\n",
-            0.9 + place.up, p->measure, 0.8 * rb_report_key_font(canvas));
+            0.9 + place.up, p->measure,
+            (p->solvers > 12 ? 0.8 : 1.0) * rb_report_key_font(canvas));
     for (int k = 0; k < p->n; k++) {
         fprintf(out, "%.4g", p->tau[k]);
         for (int s = 0; s < p->solvers; s++)

@@ -125,10 +125,10 @@ typedef struct {
  * the tics behind. */
 static panel panel_of(const view *v, int k)
 {
-    const double wide = v->column ? 0.61 : 0.335, high = v->column ? 0.31 : 0.60;
+    const double wide = v->column ? 0.61 : 0.345, high = v->column ? 0.31 : 0.60;
     const double aspect = v->shape * shown_aspect(v);
     const double width = fmin(wide, high / aspect);
-    const double left = v->column ? 0.2 : 0.095 + 0.475 * k;
+    const double left = v->column ? 0.2 : 0.075 + 0.48 * k;
     return (panel){.left = left + 0.5 * (wide - width),
                    .middle = !v->column ? 0.48 : 0.755 - 0.45 * k,
                    .width = width,
