@@ -469,8 +469,10 @@ static int count_in_a_process(const rb_case *c, random_regime regime, bars_of_ca
 static int study_of_all_options(int cases, int from)
 {
     static random_case r;
+    char folder[] = "/tmp/rollbem-bars-XXXXXX", command[60]; /* for their tables */
     int broken = 0, unsolved = 0, left_out = 0, bars = 0, held = 0;
 
+    assert_true(mkdtemp(folder) && chdir(folder) == 0);
     for (int k = from, n = 0; n < cases; k++) {
         random_case_make(&r, k, 24);
         /* the steps of an increment are the caller's, not of the mesh */
@@ -497,6 +499,8 @@ static int study_of_all_options(int cases, int from)
         if (n % 20 == 0)
             printf("... %d cases, %d with bars that do not hold\n", n, broken);
     }
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
     printf("%d of %d cases have bars that do not hold; of the bars %d of %d do; %d not "
            "solved, %d more left out for their time\n",
            broken, cases, held, bars, unsolved, left_out);
