@@ -336,6 +336,8 @@ TEST(words_are_found)
                  {"help basis", "Glossary\n  basis ", "--mu "},
                  {"help gnuplot", "Questions\n  Can I use it without gnuplot?", "--mu "},
                  {"help E", "--young X", "--mu "},
+                 {"help what is aligned", "Which mesh", "--mu "},
+                 {"help 'How do I cite it?'", "CITATION.cff", "--zone"},
                  {"help relaxation time", "--relaxation-time X", "--zone"},
                  {"help lcp", "Usage: rollbem lcp", "Glossary"},
                  {"--help=mesh", "--contact-elements N", "--mu X"},

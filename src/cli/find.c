@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <string.h>
+#include <strings.h>
 
 enum { WORD, QUESTION };
 
@@ -286,19 +287,40 @@ static void find_everything(const rb_option_set *options)
     find_texts(QUESTION, "Questions");
 }
 
+/* Words that a question has besides those that it is about. */
+static int is_small(const char *word)
+{
+    static const char *const small[] = {"a",    "an",   "and",   "are",   "can",  "do",
+                                        "does", "for",  "how",   "i",     "in",   "is",
+                                        "it",   "my",   "of",    "on",    "the",  "to",
+                                        "what", "when", "where", "which", "with", "why"};
+    for (size_t k = 0; k < sizeof small / sizeof *small; k++)
+        if (strcasecmp(word, small[k]) == 0)
+            return 1;
+    return 0;
+}
+
 int cli_find(int n, char **words)
 {
+    enum { MOST = 20 };
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     if (!c)
         return cli_fail(CLI_INTERNAL, "out of memory");
     const rb_option_set options = rb_case_options(c);
     rb_guess near = {.word = words[0]};
-    char all[200] = "";
+    char all[200] = "", split[200], *asked[MOST], *rest = split;
     for (int k = 0; k < n; k++)
         rb_append(all, sizeof all, "%s%s", k ? " " : "", words[k]);
     memset(&search, 0, sizeof search);
-    search.n = n;
-    search.word = words;
+    strcpy(split, all);
+    for (char *word; search.n < MOST && (word = strtok_r(rest, " ?", &rest)) != NULL;)
+        if (!is_small(word))
+            asked[search.n++] = word;
+    search.word = asked;
+    if (search.n == 0) { /* small words alone, such as: it */
+        search.n = n;
+        search.word = words;
+    }
     FILE *pager = cli_open_pager();
     find_everything(&options);
     const char *other = cli_other_name(words[0], strlen(words[0]));
