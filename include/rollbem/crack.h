@@ -143,6 +143,8 @@ typedef struct {
     double *residual;
     double *max_pressure; /* of the contact, if it depends on the crack; otherwise NULL */
     double *D, *r;        /* n x 2 nodes, step by step */
+    int elements;         /* of a coupled wheel; otherwise 0 */
+    double *wheel;        /* n x elements: its pressures, step by step; otherwise NULL */
     int *zone;            /* n x nodes */
 } rb_crack_history;
 
@@ -150,8 +152,8 @@ typedef struct {
  * RB_EINVAL: no steps; RB_RAY, RB_INACCURATE: a step was not solved; why names it. */
 rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage,
                         rb_crack_history *history, rb_message *why);
-/* Zeros for so many steps, n = 0; coupled: with max_pressure.  RB_ENOMEM. */
-rb_status rb_crack_history_alloc(const rb_crack *crack, int steps, int coupled,
+/* Zeros for so many steps, n = 0; elements: of a coupled wheel, or 0.  RB_ENOMEM. */
+rb_status rb_crack_history_alloc(const rb_crack *crack, int steps, int elements,
                                  rb_crack_history *history);
 void rb_crack_history_free(rb_crack_history *history);
 

@@ -28,7 +28,7 @@ static const char about[] =
     "Not checked: derivatives, tolerances, free_creepage, iterations, seconds, and\n"
     "the solver. Refused: histories without states, or with friction that depends on\n"
     "the slip or the temperature, or with an interface that yields; cracks without\n"
-    "states, coupled or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
+    "states, or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"

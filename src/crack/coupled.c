@@ -90,7 +90,7 @@ static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both,
 
 rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x,
                                 const double *T, double stress, rb_crack_state *state,
-                                double *max_pressure, rb_message *why)
+                                double *pressure, rb_message *why)
 {
     const int m = w->n;
     rb_crack_contact *both = &c->coupled;
@@ -116,9 +116,7 @@ rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x,
                     "the contact fills its elements: expected a wider zone");
     if (s == RB_OK)
         rb_crack_contact_read(c, both, state);
-    *max_pressure = 0.0;
     for (int i = 0; i < m && s == RB_OK; i++)
-        *max_pressure = fmax(*max_pressure, both->state.p[i] * both->scale[i] /
-                                                (w->ends[i + 1] - w->ends[i]));
+        pressure[i] = both->state.p[i] * both->scale[i] / (w->ends[i + 1] - w->ends[i]);
     return s;
 }

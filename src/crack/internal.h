@@ -71,9 +71,9 @@ void rb_crack_contact_read(const rb_crack *crack, const rb_crack_contact *contac
 
 /* ---- coupled.c --------------------------------------------------------------------- */
 
-/* A step with the wheel's contact elements in the problem (C9). */
+/* A step with the wheel's contact elements in the problem (C9); pressure: of each. */
 rb_status rb_crack_step_coupled(rb_crack *crack, const rb_crack_wheel *wheel, double x,
                                 const double *T, double stress, rb_crack_state *state,
-                                double *max_pressure, rb_message *why);
+                                double *pressure, rb_message *why);
 
 #endif

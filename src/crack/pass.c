@@ -17,19 +17,22 @@ void rb_crack_history_free(rb_crack_history *h)
     free(h->x);
     free(h->D);
     free(h->zone);
+    free(h->wheel);
     memset(h, 0, sizeof *h);
 }
 
-rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int coupled,
+rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int elements,
                                  rb_crack_history *h)
 {
     const size_t n = (size_t)steps;
     memset(h, 0, sizeof *h);
     h->nodes = c->n;
+    h->elements = elements;
     h->x = rb_alloc(n, COLUMNS);
     h->D = rb_alloc(n, 4 * (size_t)c->n);
     h->zone = rb_alloc_int(n * (size_t)c->n);
-    if (!h->x || !h->D || !h->zone) {
+    h->wheel = elements > 0 ? rb_alloc(n, (size_t)elements) : NULL;
+    if (!h->x || !h->D || !h->zone || (elements > 0 && !h->wheel)) {
         rb_crack_history_free(h);
         return RB_ENOMEM;
     }
@@ -43,15 +46,15 @@ rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int coupled,
     h->residual = h->fluid_volume + n;
     h->K_I_upper = c->first ? h->residual + n : NULL;
     h->K_II_upper = c->first ? h->residual + 2 * n : NULL;
-    h->max_pressure = coupled ? h->residual + 3 * n : NULL;
+    h->max_pressure = elements > 0 ? h->residual + 3 * n : NULL;
     return RB_OK;
 }
 
 /* In the order of rb_crack_history_alloc. */
-static void record(const rb_crack_state *state, double x, double max_pressure,
-                   size_t steps, rb_crack_history *h)
+static void record(const rb_crack_state *state, double x, size_t steps,
+                   rb_crack_history *h)
 {
-    const size_t n = (size_t)state->n, k = (size_t)h->n++;
+    const size_t n = (size_t)state->n, k = (size_t)h->n++, m = (size_t)h->elements;
     const double value[COLUMNS] = {x,
                                    state->K_I,
                                    state->K_II,
@@ -62,7 +65,7 @@ static void record(const rb_crack_state *state, double x, double max_pressure,
                                    state->residual,
                                    state->K_I_upper,
                                    state->K_II_upper,
-                                   max_pressure};
+                                   m > 0 ? rb_norm_inf(m, h->wheel + k * m) : 0.0};
     for (size_t i = 0; i < COLUMNS; i++)
         h->x[i * steps + k] = value[i];
     memcpy(h->D + k * 2 * n, state->D, 2 * n * sizeof *h->D);
@@ -165,14 +168,14 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
     const double scale = largest_stress(p);
     double *T = rb_alloc(4, (size_t)c->n);
     rb_crack_state state = {0};
-    rb_status s = T ? rb_crack_history_alloc(c, n, p->wheel != NULL, h) : RB_ENOMEM;
+    rb_status s =
+        T ? rb_crack_history_alloc(c, n, p->wheel ? p->wheel->n : 0, h) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_state_alloc(c, &state);
     c->faces.warm = c->coupled.warm = 0;
     for (int k = 0; k < n && s == RB_OK; k++) {
         const int step = k % p->steps;
         const double x = p->x[step];
-        double max_pressure = 0.0;
         rb_message reason = {""};
         if (p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
@@ -182,12 +185,13 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         if (s == RB_OK)
             s = p->wheel
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,
-                                            &max_pressure, &reason)
+                                            h->wheel + (size_t)k * (size_t)h->elements,
+                                            &reason)
                     : rb_crack_step(c, T, p->fluid,
                                     pressure_at(load_of(p, step), c->shape.path.x[0] - x),
                                     scale, &state, &reason);
         if (s == RB_OK)
-            record(&state, x, max_pressure, (size_t)n, h);
+            record(&state, x, (size_t)n, h);
         else if (s > 0)
             rb_fail(why, s, "crack: step %d, contact at x = %g: %.300s", k + 1, x,
                     rb_status_reason(s, &reason));

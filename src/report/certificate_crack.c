@@ -29,6 +29,8 @@ typedef struct {
     double *length, *force; /* n: typical D and r of a node */
     double exact;           /* of D over its length */
     double per_D;           /* K over D next to a tip */
+    rb_rolling_model wheel; /* of a coupled contact, whose pressures are in r.history */
+    double *gap, *slip, *none; /* of its elements; gap owns them */
 } judge;
 
 /* ---- Inputs ------------------------------------------------------------------------ */
@@ -88,10 +90,6 @@ static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
         json_object_del(own, key);
     }
     json_decref(again);
-    if (*s == RB_OK && j->crack.coupled)
-        *s = rb_certificate_refuse(
-            j->c.name, "the pressures of a contact that feels its crack are not printed",
-            why);
     if (*s == RB_OK)
         return own;
     json_decref(own);
@@ -128,8 +126,17 @@ static json_t *notes_of_contact(const judge *j)
     return notes;
 }
 
+/* A coupled contact has equal elements, whatever the case says of a steady one. */
+static rb_status couple(rb_case *words, rb_message *why)
+{
+    rb_status s = rb_case_set(words, "mesh", "uniform", RB_GIVEN_ARGUMENT, why);
+    if (s == RB_OK)
+        s = rb_case_set(words, "slip-operator", "upstream", RB_GIVEN_ARGUMENT, why);
+    return s == RB_OK ? rb_case_resolve(words, why) : s;
+}
+
 /* The contact as a result of its own. */
-static rb_status check_contact(judge *j, rb_case *words, json_t *inputs, rb_message *why)
+static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
 {
     static const char *const shared[][2] = {
         {"schema", "schema"},   {"version", "version"},
@@ -138,17 +145,21 @@ static rb_status check_contact(judge *j, rb_case *words, json_t *inputs, rb_mess
         {"history", "history"}};
     rb_report_certificate own = {0};
     json_t *one = json_object();
+    rb_status s = RB_OK;
 
+    if (j->crack.coupled && j->resolved->rc.formulation == RB_STEADY)
+        s = couple(words, why);
     for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
         json_t *part = json_object_get(j->root, shared[k][0]);
         if (part)
             rb_report_json_set(&one, shared[k][1], json_incref(part));
     }
     rb_report_json_set(&one, "notes", notes_of_contact(j));
-    rb_report_json_set(&one, "inputs", json_incref(inputs));
+    rb_report_json_set(&one, "inputs", rb_report_json_inputs(words));
     rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
-    const rb_status s =
-        one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why)
+                : RB_ENOMEM;
     json_decref(one);
     j->c.found->violations += own.violations;
     j->c.found->numbers += own.numbers;
@@ -237,6 +248,9 @@ static rb_status read_history(judge *j, rb_message *why)
         s = read_lists(j, faces, "p_MPa", steps, n, apart, h->r, why);
     if (s == RB_OK)
         s = read_lists(j, faces, "q_MPa", steps, n, apart, h->r + n, why);
+    if (s == RB_OK && h->wheel)
+        s = read_lists(j, faces, "contact_p_MPa", steps, h->elements, (size_t)h->elements,
+                       h->wheel, why);
     if (s == RB_OK)
         s = read_lists(j, faces, "zone", steps, n, (size_t)n, zone, why);
     if (s == RB_OK)
@@ -311,6 +325,19 @@ static void set_scales(judge *j)
     j->exact = 10.0 * fmax(printed < 1e-10 ? printed : 1e-10, 1e-13);
 }
 
+/* The contact that feels the crack, on the elements of contact_table. */
+static rb_status build_wheel(judge *j, rb_message *why)
+{
+    const rb_rolling_solution *of = &j->r.contact.solution;
+    j->gap = rb_alloc((size_t)of->n, 3);
+    if (!j->gap)
+        return RB_ENOMEM;
+    j->slip = j->gap + of->n;
+    j->none = j->slip + of->n;
+    return rb_rolling_model_of_result(
+        &j->resolved->rc, &(rb_rolling_elements){of->n, of->x, of->h, 1}, &j->wheel, why);
+}
+
 static rb_status rebuild(judge *j, rb_message *why)
 {
     rb_status s = j->crack.unloaded ? RB_OK : read_contact(j, why);
@@ -332,9 +359,13 @@ static rb_status rebuild(judge *j, rb_message *why)
     if (s != RB_OK)
         return s;
     j->T = rb_alloc((size_t)n, 5);
-    s = j->T ? rb_crack_history_alloc(j->body, steps, 0, &j->r.history) : RB_ENOMEM;
+    const int elements = j->crack.coupled ? j->r.contact.solution.n : 0;
+    s = j->T ? rb_crack_history_alloc(j->body, steps, elements, &j->r.history)
+             : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_crack_history_alloc(j->body, steps, 0, &j->again);
+        s = rb_crack_history_alloc(j->body, steps, elements, &j->again);
+    if (s == RB_OK && elements > 0)
+        s = build_wheel(j, why);
     if (s != RB_OK)
         return s;
     j->hat = j->T + 2 * n;
@@ -357,8 +388,10 @@ static rb_status displace(judge *j, int k, rb_message *why)
     const int n = h->nodes, step = k % t->n;
     const rb_bem_edge_load *load =
         t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
-    const rb_status s =
-        rb_crack_load(j->body, load, t->x[step], j->crack.remote_stress, j->T);
+    const rb_bem_edge_load coupled = {h->elements, t->ends, h->wheel + k * h->elements,
+                                      j->none};
+    const rb_status s = rb_crack_load(j->body, h->wheel ? &coupled : load, t->x[step],
+                                      j->crack.remote_stress, j->T);
 
     if (s != RB_OK)
         return rb_fail(why, s, "step %d: %s", k + 1, rb_status_text(s));
@@ -368,6 +401,47 @@ static rb_status displace(judge *j, int k, rb_message *why)
     cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, 2 * n, 1.0,
                 rb_crack_flexibility(j->body), 2 * n, j->T, 1, 0.0,
                 j->again.D + (size_t)k * 2 * (size_t)n, 1);
+    return RB_OK;
+}
+
+/* Gaps, pressures and load of a contact that feels the crack in step k: by Betti's
+ * theorem the crack moves the surface of B by -C'D, C: of unit forces on the elements. */
+static rb_status check_wheel(judge *j, int k)
+{
+    const rb_crack_history *h = &j->r.history;
+    const rb_contact_problem *problem = &j->wheel.problem;
+    const int n = h->nodes, m = h->elements;
+    const double *p = h->wheel + k * m, *ends = j->track.ends,
+                 *D = j->again.D + (size_t)k * 2 * (size_t)n;
+    const double load =
+        rb_certificate_member(json_object_get(j->root, "contact"), "normal_load");
+    const double slack = TOLERANCE * problem->gap_length;
+    double carried = 0.0, weighted = 0.0, sum = 0.0;
+
+    memcpy(j->gap, problem->d_N, (size_t)m * sizeof *j->gap);
+    rb_contact_operator_add(problem->op, p, j->none, j->gap, j->slip);
+    for (int i = 0; i < m; i++) {
+        const double width = ends[i + 1] - ends[i], unit = 1.0 / width;
+        const rb_bem_edge_load strip = {1, ends + i, &unit, j->none};
+        const rb_status s =
+            rb_crack_load(j->body, &strip, j->track.x[k % j->track.n], 0.0, j->T);
+        if (s != RB_OK)
+            return s;
+        j->gap[i] += cblas_ddot(2 * n, j->T, 1, D, 1);
+        carried += p[i] * width;
+        weighted += p[i] * j->gap[i];
+        sum += p[i];
+    }
+    for (int i = 0; i < m; i++) { /* against the approach that fits the contact */
+        const double gap = j->gap[i] - weighted / sum;
+        if (p[i] < 0.0 || gap < -slack || (p[i] > 0.0 && gap > slack))
+            rb_certificate_violated(&j->c, "contact: element %d: gap %.3g, pressure %.3g",
+                                    i + 1, gap, p[i]);
+        j->again.max_pressure[k] = fmax(j->again.max_pressure[k], p[i]);
+    }
+    if (p[0] > 0.0 || p[m - 1] > 0.0)
+        rb_certificate_violated(&j->c, "the contact reaches an end of its elements");
+    rb_certificate_expect(&j->c, "contact: its load", 0, carried, load, 1e-9 * load);
     return RB_OK;
 }
 
@@ -586,10 +660,12 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK)
         s = rebuild(&j, &reason);
     if (s == RB_OK && !j.crack.unloaded)
-        s = check_contact(&j, words, inputs, why);
+        s = check_contact(&j, words, why);
     for (int k = 0; k < j.r.history.n && s == RB_OK; k++) {
         j.c.step = k + 1;
         s = displace(&j, k, &reason);
+        if (s == RB_OK && j.r.history.wheel)
+            s = check_wheel(&j, k);
         for (int i = 0; i < j.r.history.nodes && s == RB_OK; i++)
             check_node(&j, k, i);
         if (s == RB_OK) {
@@ -606,6 +682,8 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
     rb_crack_history_free(&j.again);
     rb_crack_free(j.body);
     free(j.T);
+    free(j.gap);
+    rb_rolling_model_free(&j.wheel);
     memset(&j.r.contact.solution, 0, sizeof j.r.contact.solution); /* it was lent */
     rb_case_crack_free(&j.r);
     return s != RB_OK && reason.text[0]

@@ -159,6 +159,14 @@ void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
         rb_report_json_set(&faces, "zone", lists_of(h, NULL, h->zone, NULL));
         rb_report_json_set(&faces, "fluid_volume_mm2",
                            rb_report_json_numbers(h->n, h->fluid_volume));
+        json_t *wheel = json_array();
+        for (int k = 0; k < h->n && h->wheel; k++)
+            rb_report_json_append(
+                &wheel, rb_report_json_numbers(h->elements, h->wheel + k * h->elements));
+        if (h->wheel)
+            rb_report_json_set(&faces, "contact_p_MPa", wheel);
+        else
+            json_decref(wheel);
     }
     rb_report_json_set(root, "faces", faces);
     if (r->contact.solution.n > 0)
