@@ -1045,7 +1045,7 @@ TEST(whatever_is_changed_is_noticed)
     assert_int_equal(t.missed, 0);
 }
 
-/* Of every other command, in one line. */
+/* Of every other command, in one line; of verify, which takes long: test_cli. */
 TEST(results_of_other_commands_are_refused)
 {
     static const char half[] = "--support halfplane --similar --load 500 "
@@ -1066,7 +1066,6 @@ TEST(results_of_other_commands_are_refused)
         "lcp lcp.txt --json",
         "friction two-blocks.dat --json",
         "compare two-blocks.dat --json",
-        "verify --json",
         "examples --json",
     };
     char line[500];

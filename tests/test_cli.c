@@ -375,6 +375,7 @@ TEST(verify_takes_no_operand)
     }
     json_decref(root);
     assert_int_equal(rollbem("verify --json"), 0);
+    write_file("r.json", out);
     root = json_loads(out, 0, NULL);
     all = json_object_get(root, "references");
     assert_true(json_array_size(all) > 100);
@@ -388,6 +389,7 @@ TEST(verify_takes_no_operand)
             CHECK_ABS(error * fabs(wanted), off, 1e-12 * fabs(wanted), "error of %zu", k);
     }
     json_decref(root);
+    check_refused("check r.json", 65, "(only single cases, histories, stress");
 }
 
 /* As first word the completion for bash offers every command that the help lists. */
