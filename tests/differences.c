@@ -39,7 +39,7 @@ int main(int argc, char **argv)
               steps = rb_case_has_steps(rb_case_resolved(c));
     const rb_status s =
         (steps ? compare_steps : compare_single)(c, first, every, &d, &why);
-    if (s == RB_OK && !(d.off <= atof(argv[3])))
+    if (!(d.off <= atof(argv[3])))
         printf("%.2g: %s\n", d.off, d.text);
     rb_case_free(c);
     return s == RB_OK ? 0 : fails(s == RB_EINVAL ? 2 : 1, why.text);

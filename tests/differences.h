@@ -247,6 +247,58 @@ static void difference_of_input(const difference_frame *f, const rb_case_number 
         rb_rolling_solution_free(&near[j]);
 }
 
+/* The derivatives of a case that is solved without a matrix against those of the same
+ * state with one: differences of such solutions are known only to the tolerance of their
+ * iteration over the step. */
+static rb_status compare_with_matrix(const rb_case *c, const rb_case_number *number,
+                                     differences *d, rb_message *why)
+{
+    rb_rolling_case rc = rb_case_resolved(c)->rc;
+    rb_case_derivatives by[2] = {{0}, {0}};
+    rb_rolling_solution at = {0};
+    rb_rolling_model model = {0}, dense = {0};
+
+    rc.contact.tol = rb_contact_defaults().tol;
+    rb_status s = rb_rolling_solve_model(&rc, &model, &at, why);
+    const int compares = s == RB_OK && !model.bodies.F && model.mesh.n < RB_ROLLING_LARGE;
+    if (compares)
+        s = rb_rolling_variant_with_matrix(&model, &dense, why);
+    for (int k = 0; k < 2 && compares && s == RB_OK; k++)
+        s = rb_case_differentiate(c, k ? &dense : &model, 0, NULL, &by[k], why);
+    for (int j = 0; j < by[0].n && compares && s == RB_OK; j++) {
+        const rb_case_derivative *fast = &by[0].of[j], *exact = &by[1].of[j];
+        const int side = !exact->d.has[0];
+        const double scale = number[j].input.scale;
+        if (fast->status != RB_OK || exact->status != RB_OK)
+            continue;
+        d->compared++;
+        for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+            const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+            const double usual =
+                1e11 * rb_sensitivity_rounding(&rc, r, rb_rolling_number(r, &at));
+            if (rb_sensitivity_has(r))
+                difference_note(d, rb_rolling_number(r, &fast->d.value[side]),
+                                rb_rolling_number(r, &exact->d.value[side]),
+                                usual / scale, "%s by %s without a matrix", r->name,
+                                fast->name);
+        }
+        for (int i = 0; i < 2 * at.n; i++) {
+            const rb_rolling_solution *x = &fast->d.value[side],
+                                      *y = &exact->d.value[side];
+            const int n = i % at.n;
+            difference_note(d, i < at.n ? x->p[n] : x->q[n], i < at.n ? y->p[n] : y->q[n],
+                            at.max_pressure / scale, "%s[%d] by %s without a matrix",
+                            i < at.n ? "p" : "q", n, fast->name);
+        }
+    }
+    rb_case_derivatives_free(&by[0]);
+    rb_case_derivatives_free(&by[1]);
+    rb_rolling_model_free(&dense);
+    rb_rolling_solution_free(&at);
+    rb_rolling_model_free(&model);
+    return s;
+}
+
 /* Every `every`-th input of a solved case, beginning with number `first`. */
 static rb_status compare_single(const rb_case *c, int first, int every, differences *d,
                                 rb_message *why)
@@ -275,6 +327,10 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
             for (double part = 1e-3; part > 1e-6 && d->compared == before; part *= 0.1)
                 difference_of_input(&f, &number[k], of, &at, part, d);
         }
+    if (number && rb_case_numbers(c, number, &numbers, why) == RB_OK) {
+        const rb_status t = compare_with_matrix(c, number, d, why);
+        s = s == RB_OK ? t : s;
+    }
     rb_case_derivatives_free(&all);
     rb_rolling_solution_free(&at);
     rb_rolling_model_free(&model);

@@ -303,14 +303,15 @@ double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_resul
     const char *unit = r->unit ? r->unit : "1";
     const double P = isnan(d.load) ? d.stress * d.half_width : d.load,
                  strain = d.half_width / d.radius;
+    const int is_share = r->error_bar == RB_SCALE_ONE && !r->is_mean;
     const int is_loss =
         r->is_mean || r->error_bar == RB_SCALE_POWER || r->error_bar == RB_SCALE_WORK;
-    const double usual = strcmp(unit, "mm") == 0     ? strain * d.half_width
-                         : strcmp(unit, "MPa") == 0  ? d.stress
-                         : strcmp(unit, "N/mm") == 0 ? (is_loss ? strain * P : P)
-                         : strcmp(unit, "N") == 0    ? P * d.half_width
-                         : strcmp(unit, "K") == 0    ? 1.0
-                                                     : strain;
+    const double usual = strcmp(unit, "mm") == 0              ? strain * d.half_width
+                         : strcmp(unit, "MPa") == 0           ? d.stress
+                         : strcmp(unit, "N/mm") == 0          ? (is_loss ? strain * P : P)
+                         : strcmp(unit, "N") == 0             ? P * d.half_width
+                         : strcmp(unit, "K") == 0 || is_share ? 1.0
+                                                              : strain;
 
     return ROUNDING * fmax(usual, fabs(value));
 }

@@ -141,21 +141,16 @@ static double long_part(const rb_sensitivity *s, const rb_sensitivity_rate *rate
 static rb_status tangent_at_creepage(const rb_sensitivity *s,
                                      const rb_sensitivity_rate *rate, rb_contact_state *y)
 {
-    rb_contact_state x;
+    const rb_contact_state *x = &s->model->state;
     const double part = long_part(s, rate);
-    rb_status status = rb_contact_state_alloc(s->n, &x);
+    const rb_status status = solve_moved(s, rate, part, y);
 
-    if (status == RB_OK)
-        status = solve_moved(s, rate, 0.0, &x);
-    if (status == RB_OK)
-        status = solve_moved(s, rate, part, y);
-    for (int i = 0; i < s->n && status == RB_OK; i++) {
-        y->p[i] = (y->p[i] - x.p[i]) / part;
-        y->q[i] = (y->q[i] - x.q[i]) / part;
+    for (int i = 0; i < s->n; i++) {
+        y->p[i] = (y->p[i] - x->p[i]) / part;
+        y->q[i] = (y->q[i] - x->q[i]) / part;
     }
-    y->delta = (y->delta - x.delta) / part;
-    y->xi = (y->xi - x.xi) / part;
-    rb_contact_state_free(&x);
+    y->delta = (y->delta - x->delta) / part;
+    y->xi = (y->xi - x->xi) / part;
     return status;
 }
 
