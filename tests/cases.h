@@ -16,20 +16,26 @@ static inline rb_rolling_case half_plane(rb_rolling_formulation formulation, int
     return rc;
 }
 
+/* B flat and of A's material, which is set before. */
+static inline void on_its_like(rb_rolling_case *rc)
+{
+    rc->b = rc->a;
+    rc->b.radius = INFINITY;
+    rc->elastic_b = 1;
+}
+
 /* The same on a plane of its own material: Carter's bodies. */
 static inline rb_rolling_case similar_planes(rb_rolling_formulation formulation,
                                              int elements)
 {
     rb_rolling_case rc = half_plane(formulation, elements);
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.load = 500.0;
     return rc;
 }
 
 /* The same at half the creepage of full sliding. */
-static inline rb_rolling_case carter(int elements)
+static inline rb_rolling_case carter_case(int elements)
 {
     rb_rolling_case rc = similar_planes(RB_STEADY, elements);
     rc.creep_ratio = 0.5;
@@ -43,9 +49,7 @@ static inline rb_rolling_case steel_wheel(int across)
     rc.a.poisson = 0.28;
     rc.a.young = 2.0 * 82000.0 * 1.28;
     rc.a.radius = 500.0;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 178.896;
     rc.zone = rb_rolling_hertz_half_width(&rc, rc.load) * (across + 10) / across;
@@ -89,8 +93,8 @@ static inline rb_rolling_case warm_sliding(rb_rolling_formulation formulation)
 }
 
 /* Similar planes whose friction falls with the slip velocity. */
-static inline rb_rolling_case falling(rb_rolling_formulation formulation, double fall,
-                                      double scale)
+static inline rb_rolling_case falling_case(rb_rolling_formulation formulation,
+                                           double fall, double scale)
 {
     rb_rolling_case rc = similar_planes(formulation, 24);
     rc.speed = 1000.0;

@@ -282,7 +282,7 @@ TEST(the_steepest_fall_is_that_of_the_formula)
 TEST(coefficients_forget_from_the_leading_edge_on)
 {
     for (int steady = 0; steady < 2; steady++) {
-        rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
+        rb_rolling_case rc = falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
         rc.creep_ratio = 0.5;
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) solution;
@@ -319,7 +319,7 @@ TEST(coefficients_forget_from_the_leading_edge_on)
 
 TEST(starts_slide_up_to_their_place)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const double *x = model.bodies.f.x;
@@ -339,7 +339,7 @@ TEST(bounds_start_where_they_are_told)
 {
     const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     case_of_model(&model)->friction.start = &start;
@@ -358,7 +358,7 @@ TEST(bounds_start_where_they_are_told)
 
 static rb_rolling_model steep_model(void)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 1.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 1.0);
     rc.contact_elements = 10;
     rc.creep_ratio = 0.6;
     return solved_model(&rc);

@@ -14,12 +14,9 @@ enum { ELEMENTS = 12, LARGE = RB_ROLLING_LARGE };
 
 static rb_rolling_case plane_ahead(int elastic_b, int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_TRANSIENT, elements);
     rc.a.poisson = 0.3;
     rc.elastic_b = elastic_b;
-    rc.formulation = RB_TRANSIENT;
-    rc.contact_elements = elements;
     return rc;
 }
 
@@ -213,13 +210,11 @@ TEST(memory_for_what_is_ahead_may_be_refused)
  */
 TEST(large_contacts_know_what_is_ahead)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STATIC, RB_ROLLING_LARGE);
     rc.a.young = 209920.0;
     rc.a.poisson = 0.3;
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 100.0;
-    rc.contact_elements = RB_ROLLING_LARGE;
     OWNED(rb_rolling_mesh) mesh;
     OWNED(rb_rolling_bodies) bodies;
     OWNED(rb_rolling_former_place) ahead;

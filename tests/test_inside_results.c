@@ -219,9 +219,7 @@ TEST(columns_are_those_of_the_state)
         rb_rolling_case rc = rolled_plane((rb_rolling_formulation)k);
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) s;
-        rc.b = rc.a;
-        rc.b.radius = INFINITY;
-        rc.elastic_b = 1;
+        on_its_like(&rc);
         CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
         const rb_contact_state *c = &model.state;
         const int n = s.n;

@@ -34,7 +34,7 @@ TEST(coarser_runs_have_half_and_seven_tenths)
 {
     static const int elements[] = {20, 28, 40}, steps[] = {4, 5, 7};
     static const double boundary[] = {3.0, 3.0, 1.5};
-    rb_rolling_case rc = carter(40);
+    rb_rolling_case rc = carter_case(40);
     assert_int_equal(rb_rolling_error_runs(&rc), 2);
     rc.elastic_b = 1;
     rc.b.support = RB_BEM_HUB;
@@ -60,7 +60,7 @@ TEST(coarser_runs_have_half_and_seven_tenths)
 
 TEST(too_few_elements_cannot_be_halved)
 {
-    rb_rolling_case rc = carter(12);
+    rb_rolling_case rc = carter_case(12);
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_OK);
     rc.contact_elements = 11;
@@ -80,7 +80,7 @@ TEST(too_few_elements_cannot_be_halved)
 
 TEST(the_power_of_an_edge_is_that_of_a_root)
 {
-    rb_rolling_case rc = carter(40);
+    rb_rolling_case rc = carter_case(40);
     CHECK_REL(rb_rolling_edge_power(&rc, 500.0, -0.01, 2.0, 0.25),
               0.3 * 500.0 * 0.01 * 0.125, 1e-12, "similar bodies");
     rc.elastic_b = 0;
@@ -146,7 +146,7 @@ static void check_bars(const rb_rolling_case *rc)
 
 TEST(every_scalar_has_its_bar)
 {
-    rb_rolling_case rc = carter(40);
+    rb_rolling_case rc = carter_case(40);
     check_bars(&rc);
     rc.elastic_b = 0;
     rc.creep_ratio = NAN;
@@ -160,7 +160,7 @@ TEST(a_history_has_bars_of_its_steps)
                  force[] = {0.0, -50.0, -60.0};
     const rb_rolling_program program = {
         .n = 3, .distance = distance, .load = load, .force = force};
-    rb_rolling_case rc = carter(24);
+    rb_rolling_case rc = carter_case(24);
     rb_rolling_model model;
     rb_rolling_history h, run[2];
     rb_message why = {""};
@@ -198,7 +198,7 @@ TEST(a_history_has_bars_of_its_steps)
     rb_rolling_history_free(&h);
     assert_null(h.errors);
 
-    rb_rolling_case memory = carter(24);
+    rb_rolling_case memory = carter_case(24);
     const rb_rolling_program timed = {.n = 2, .time = distance, .load = load};
     memory.formulation = RB_STATIC;
     memory.creep_ratio = NAN;
@@ -212,7 +212,7 @@ TEST(a_history_has_bars_of_its_steps)
 /* Each that makes coarser runs refuses a case that cannot be halved. */
 TEST(nothing_is_halved_below_its_least)
 {
-    rb_rolling_case rc = carter(4);
+    rb_rolling_case rc = carter_case(4);
     rb_rolling_solution s = {0};
     rb_rolling_errors errors;
     rb_rolling_curve curve, bars;

@@ -1,5 +1,6 @@
 /* Equal elements aligned with the contact and the second-order slip operator: Carter's
  * law, its dissipation, many elements, bodies with memory, what is refused. */
+#include "cases.h"
 #include "rollbem/closed_forms.h"
 #include "solved.h"
 
@@ -9,15 +10,12 @@
 /* nu = 1/2 on a rigid plane is uncoupled, a = 0.05 on R = 50. */
 static rb_rolling_case carter(int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STEADY, n);
     rc.a.poisson = 0.5;
     rc.half_width = 0.05;
     rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
-    rc.contact_elements = n;
     return rc;
 }
 

@@ -1,4 +1,5 @@
 /* A cylinder in a bore: outer race, journal, internal gear. */
+#include "cases.h"
 #include "refused.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/rolling.h"
@@ -9,15 +10,13 @@
 /* Similar bodies, the bore wider than the cylinder by a part of its radius. */
 static rb_rolling_case in_bore(double wider, rb_rolling_gap gap)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STATIC, 100);
     rc.a.poisson = 0.3;
     rc.b = rc.a;
     rc.b.radius = -(1.0 + wider) * rc.a.radius;
     rc.elastic_b = 1;
     rc.gap = gap;
     rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 100;
     return rc;
 }
 

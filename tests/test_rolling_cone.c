@@ -1,4 +1,5 @@
 /* The rolling problems through the cone solvers of src/friction: a third opinion. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
@@ -8,14 +9,11 @@
 /* Steady rolling of dissimilar bodies: W is not symmetric. */
 static rb_rolling_case dissimilar_rolling(void)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = half_plane(RB_STEADY, 40);
     rc.a.poisson = 0.28;
-    rc.a.support = RB_BEM_HALFPLANE;
     rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
     rc.half_width = 1e-3 * rc.a.radius;
     rc.creep_ratio = 0.5;
-    rc.contact_elements = 40;
     return rc;
 }
 

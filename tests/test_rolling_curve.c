@@ -1,4 +1,5 @@
 /* Curves: where their points lie, that each is its case, refusals. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -6,13 +7,9 @@
 
 static rb_rolling_case carter(int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_rolling_case rc = half_plane(RB_STATIC, elements);
+    on_its_like(&rc);
     rc.load = 500.0;
-    rc.contact_elements = elements;
     rc.speed = 1000.0;
     return rc;
 }

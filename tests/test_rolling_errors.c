@@ -15,7 +15,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
     static const double accuracy[] = {0.9, 0.05, 0.01};
     int before = 0;
     for (int k = 0; k < 3; k++) {
-        const rb_rolling_case rc = carter(24);
+        const rb_rolling_case rc = carter_case(24);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         rb_message why = {""};
@@ -37,7 +37,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
  * Johnson) is hundreds of mu a/R, and its error is judged by itself. */
 TEST(little_friction_asks_for_no_more_elements)
 {
-    rb_rolling_case rc = carter(40);
+    rb_rolling_case rc = carter_case(40);
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     rb_message why = {""};
@@ -61,7 +61,7 @@ TEST(what_is_no_accuracy_is_refused)
 {
     static const double accuracy[] = {0.0, 1.0, -0.1, NAN};
     for (int k = 0; k < 4; k++) {
-        const rb_rolling_case rc = carter(20);
+        const rb_rolling_case rc = carter_case(20);
         rb_rolling_solution s;
         rb_rolling_errors e;
         rb_message why = {""};
@@ -77,7 +77,7 @@ TEST(what_is_no_accuracy_is_refused)
 TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = carter(12);
+        rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
         rb_message why = {""};
@@ -97,7 +97,7 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
 {
     int none = 0, some = 0;
     for (int count = 50; count < 3000; count = count * 5 / 4) {
-        rb_rolling_case rc = carter(12);
+        rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
         rb_message why = {""};
@@ -124,7 +124,7 @@ TEST(a_given_force_has_an_accurate_creepage)
 {
     static const double accuracy[] = {0.1, 0.05, 0.02};
     for (int k = 0; k < 6; k++) {
-        rb_rolling_case rc = carter(12);
+        rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         rb_message why = {""};
@@ -143,7 +143,7 @@ TEST(a_given_force_has_an_accurate_creepage)
 /* Twice the elements make twice the steps: what is told is the solution of that case. */
 TEST(accuracy_takes_more_steps_too)
 {
-    rb_rolling_case rc = carter(12);
+    rb_rolling_case rc = carter_case(12);
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors errors;
     int elements;

@@ -1,5 +1,6 @@
 /* Every call that leads to an allocation sees it refused once, in small cases of all
  * kinds: it is told, and nothing is lost. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -8,13 +9,10 @@
 
 static rb_rolling_case plane(int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
+    rb_rolling_case rc = half_plane(RB_STEADY, elements);
     rc.half_width = 1.0;
     rc.creep_ratio = 0.5;
     rc.speed = 1000.0;
-    rc.contact_elements = elements;
     return rc;
 }
 

@@ -1,5 +1,6 @@
 /* Hertz, Carter, Bentall-Johnson, Cattaneo-Mindlin on the half-plane: no error but that
  * of the contact mesh. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -9,12 +10,10 @@
 /* nu = 1/2 on a rigid plane: a similar pair, so that Carter holds (theory.md 4.5). */
 static rb_rolling_case incompressible_wheel(void)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = half_plane(RB_STATIC, 200);
     rc.a.poisson = 0.5;
-    rc.a.support = RB_BEM_HALFPLANE;
     rc.gap = RB_GAP_PARABOLA;
     rc.half_width = 1e-4 * rc.a.radius;
-    rc.contact_elements = 200;
     return rc;
 }
 

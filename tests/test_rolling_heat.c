@@ -67,20 +67,15 @@ TEST(strip_meets_quadrature)
 /* Similar bodies that slide so fast that the strain does not count: H = mu p xi V. */
 static rb_rolling_case sliding(double peclet, int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STEADY, n);
     rc.a.poisson = 0.3;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.half_width = 5e-3;
     rc.mu = 1e-3;
     rc.creep = 0.1;
-    rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
-    rc.contact_elements = n;
     rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
     rc.speed = peclet * 2.0 * 50.0 / 3.5 / rc.half_width;
     return rc;

@@ -1,5 +1,6 @@
 /* An elastic third body: the brush law between rigid bodies, half-planes with a
  * tangential layer, and that meshes, formulations and solvers agree on it. */
+#include "cases.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
@@ -53,21 +54,16 @@ TEST(brushes_meet_their_law)
  * Lam = L_T E* / a. */
 static rb_rolling_case layered(double lam, int n, double ratio)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STEADY, n);
     rc.a.young = 200000.0;
     rc.a.poisson = 0.3;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.half_width = 0.05;
     rc.interlayer_tangential = lam * rc.half_width / rb_rolling_derive(&rc).modulus;
     rc.creep_ratio = ratio;
-    rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
-    rc.contact_elements = n;
     return rc;
 }
 

@@ -10,7 +10,7 @@
 
 TEST(each_element_has_the_coefficient_of_its_slip)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.7;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_contact_state *s = &model.state;
@@ -38,7 +38,7 @@ TEST(the_residual_is_that_of_the_law)
 {
     double largest = 0.0;
     for (int k = 0; k < 6; k++) {
-        rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+        rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
         rc.creep_ratio = 0.2 + 0.15 * k;
         rc.contact.tol = 1e-3;
         OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -54,7 +54,7 @@ TEST(the_residual_is_that_of_the_law)
 /* Warm surfaces lose heat_range's part of `heat`. */
 TEST(warm_elements_have_another_coefficient)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.0, 1.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.0, 1.0);
     rc.creep_ratio = 2.0;
     rc.heat_a = (rb_rolling_heat){
         .conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
@@ -79,7 +79,7 @@ TEST(warm_elements_have_another_coefficient)
 TEST(kappa_is_slope_times_answer)
 {
     for (int steady = 0; steady < 2; steady++) {
-        rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
+        rb_rolling_case rc = falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) s;
         rc.creep_ratio = 0.5;
@@ -126,7 +126,7 @@ TEST(forces_are_met_in_few_solves)
 {
     static const double ratios[] = {-0.7, 0.35, 0.0, 0.05};
     for (int k = 0; k < 8; k++) {
-        rb_rolling_case rc = falling(k % 2 ? RB_TRANSIENT : RB_STEADY, 0.1, 40.0);
+        rb_rolling_case rc = falling_case(k % 2 ? RB_TRANSIENT : RB_STEADY, 0.1, 40.0);
         const double wanted = ratios[k / 2] * 0.3 * 500.0;
         if (k < 4)
             rc.force = wanted;
@@ -149,7 +149,7 @@ TEST(forces_are_met_to_a_tenth_of_the_tolerance)
 {
     double worst = 0.0;
     for (int k = 0; k < 25; k++) {
-        rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
+        rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 40.0);
         rc.contact.tol = 1e-2;
         rc.force = -5.0 * (k + 0.5);
         OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -165,7 +165,7 @@ TEST(forces_are_met_to_a_tenth_of_the_tolerance)
  * maximum and its creepage. */
 TEST(the_largest_force_is_that_of_a_scan)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 4.0);
     rb_rolling_solution s;
     rb_message why = {""};
     double largest = 0.0, place = 0.0, told = 0.0, at = 0.0;
@@ -195,7 +195,7 @@ TEST(the_largest_force_is_that_of_a_scan)
 /* The axle is driven by nothing: Q R = -M. */
 TEST(a_free_axle_has_no_moment)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 40.0);
     rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
     rc.free_axle = 1;
     OWNED(rb_rolling_solution) s = solved(&rc);
@@ -213,7 +213,7 @@ TEST(steep_laws_are_solved_in_few_steps)
     for (int k = 0; k < 4; k++)
         for (int steady = 0; steady < 2; steady++) {
             rb_rolling_case rc =
-                falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
+                falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
             rc.creep_ratio = 0.6;
             rc.steps = steady ? 0 : 3;
             OWNED(rb_rolling_solution) s = solved(&rc);
@@ -228,7 +228,7 @@ TEST(steep_laws_are_solved_in_few_steps)
 TEST(newtons_method_needs_few_contact_problems)
 {
     for (int k = 1; k <= 3; k += 2) {
-        rb_rolling_case rc = falling(RB_STEADY, 0.12, 4.8 / k);
+        rb_rolling_case rc = falling_case(RB_STEADY, 0.12, 4.8 / k);
         rc.a.young = 2.0 * 82000.0 * 1.28;
         rc.a.poisson = 0.28;
         rc.a.radius = 460.0;
@@ -253,7 +253,7 @@ TEST(newtons_method_needs_few_contact_problems)
 
 TEST(all_solutions_of_one_are_one)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
     rb_message why = {""};
     rc.contact_elements = 12;
@@ -282,7 +282,7 @@ TEST(all_solutions_of_one_are_one)
 /* Starts that lead to no state within the tolerance are counted, and the others stay. */
 TEST(starts_that_fail_are_counted)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 200.0);
     OWNED(rb_rolling_solutions) all;
     rb_message why = {""};
     rc.contact_elements = 6;
@@ -299,7 +299,7 @@ TEST(starts_that_fail_are_counted)
 /* Each differs from the others, the largest force first, and is proven. */
 TEST(several_solutions_are_told_apart)
 {
-    rb_rolling_case rc = falling(RB_STEADY, 0.2, 0.2);
+    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 0.2);
     OWNED(rb_rolling_solutions) all;
     rc.creep_ratio = 0.3;
     OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -324,7 +324,7 @@ TEST(several_solutions_are_told_apart)
  */
 TEST(forces_that_only_great_speed_reaches_are_refused)
 {
-    rb_rolling_case rc = falling(RB_STEADY, -0.1, 40.0);
+    rb_rolling_case rc = falling_case(RB_STEADY, -0.1, 40.0);
     OWNED(rb_rolling_solution) s;
     rb_message why = {""};
     double told = 0.0, at = 0.0;
@@ -347,7 +347,7 @@ TEST(the_way_to_a_force_may_have_no_memory)
 {
     int refused = 0;
     for (int count = 40; count < 8000; count = count * 6 / 5) {
-        rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
+        rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 4.0);
         OWNED(rb_rolling_solution) s;
         rc.contact_elements = 8;
         rc.force = -199.0;
@@ -363,7 +363,7 @@ TEST(the_way_to_a_force_may_have_no_memory)
 
 TEST(kappa_of_no_pressure_is_nothing)
 {
-    rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 20.0);
+    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.2, 20.0);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
     double kappa;
@@ -379,7 +379,7 @@ TEST(transients_may_start_elsewhere)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.3};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling(RB_TRANSIENT, 0.1, 200.0);
+    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.1, 200.0);
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_solution) s = solved(&rc);
     rc.friction.start = &start;
@@ -392,7 +392,7 @@ TEST(a_transient_finds_the_solution_of_its_start)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.2};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 0.05);
+    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.2, 0.05);
     rc.creep_ratio = 2.0;
     rc.steps = 1;
     OWNED(rb_rolling_solution) s = solved(&rc);

@@ -1,5 +1,6 @@
 /* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -14,9 +15,7 @@ static rb_rolling_case rail(double slip_scale)
                              .poisson = 0.28,
                              .radius = 460.0,
                              .support = RB_BEM_HALFPLANE};
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.load = 3111.08;
     rc.formulation = RB_STEADY;
     rc.creep = 0.0009999;

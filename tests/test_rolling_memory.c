@@ -1,5 +1,6 @@
 /* Viscoelastic half-planes and layers in rolling contact: Hunter's exact solution, limits
  * of speed, figures of CONTACT, asymptotes of thick and thin layers. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -30,8 +31,7 @@ static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s
 /* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */
 static rb_rolling_case hunter(double f, double length, int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STEADY, n);
     rc.a.radius = 100.0;
     rc.a.young = 1000.0;
     rc.a.poisson = 0.3;
@@ -41,9 +41,7 @@ static rb_rolling_case hunter(double f, double length, int n)
     rc.gap = RB_GAP_PARABOLA;
     rc.mu = 0.0;
     rc.creep = 0.0;
-    rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = n;
     return rc;
 }
 

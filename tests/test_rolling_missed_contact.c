@@ -1,5 +1,6 @@
 /* Tables of the gap whose patches lie where no element stands: they are found, fitted,
  * refused where they cannot be. */
+#include "cases.h"
 #include "bumps.h"
 #include "solved.h"
 
@@ -280,14 +281,11 @@ TEST(places_beyond_the_wheel_are_not_looked_at)
     for (int i = 0; i < ROWS; i++)
         x[i] = 10.0 * (i - 30);
     y[1] = y[ROWS - 2] = -1.0;
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_TRANSIENT;
+    rb_rolling_case rc = half_plane(RB_TRANSIENT, 16);
     rc.half_width = 0.5;
     rc.mu = 0.0;
     rc.creep = 1e-3;
     rc.distance = 0.5;
-    rc.contact_elements = 16;
     rc.zone = 0.8;
     OWNED(rb_rolling_solution) even = solved(&rc);
     rc.irregularity = (rb_rolling_table){ROWS, x, y};

@@ -1,4 +1,5 @@
 /* Measured gaps: the spline through a table, its smoothing, and what is refused. */
+#include "cases.h"
 #include "check.h"
 #include "profiles.h"
 
@@ -10,16 +11,13 @@
 /* A wheel of 460 mm under p0 = 1 GPa, a = 8 mm (examples/rail). */
 static rb_rolling_case rail(void)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = half_plane(RB_STEADY, 100);
     rc.a.young = rc.b.young = 210000.0;
     rc.a.poisson = rc.b.poisson = 0.3;
     rc.a.radius = 460.0;
-    rc.a.support = RB_BEM_HALFPLANE;
     rc.elastic_b = 1;
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 12500.0;
-    rc.contact_elements = 100;
-    rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.4;
     return rc;
 }

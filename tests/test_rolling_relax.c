@@ -1,4 +1,5 @@
 /* Bodies that relax, step by step: static contact in time and transient rolling. */
+#include "cases.h"
 #include "check.h"
 #include "check.h"
 #include "rollbem/rolling.h"
@@ -371,9 +372,7 @@ static rb_rolling_case roller(int n)
 {
     rb_rolling_case rc = relaxing(n);
     rc.a.memory = (rb_rolling_memory){2, {0.01, 0.03}, {3.0, 0.5}};
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.speed = 200.0;
     rc.load = 100.0;
     rc.mu = 0.3;

@@ -1,4 +1,5 @@
 /* What follows from a solved model: creep curves, stress, dissipation, error bars. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 #include "numbers.h"
@@ -131,9 +132,7 @@ TEST(full_sliding_below_the_surface)
     rb_rolling_case rc = wheel_on_plane(0.3);
     OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.mu = 0.2;
     rc.formulation = RB_STEADY;
     rc.creep_ratio = -1.5;

@@ -1,5 +1,6 @@
 /* Shakedown of a half-plane that is rolled over (S1), against McEwen's closed stress
  * below Hertz's pressure with friction (Johnson, Contact Mechanics, 4.2 and 7.1). */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -41,20 +42,15 @@ static double needed_at(double mu, double z)
 
 static rb_rolling_case sliding(double mu)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STEADY, 60);
     rc.a.poisson = 0.3;
     rc.a.radius = 1e4;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.half_width = 1.0;
     rc.mu = mu;
-    rc.formulation = RB_STEADY;
     rc.creep = -1.0;
     rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 60;
     return rc;
 }
 

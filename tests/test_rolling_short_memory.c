@@ -1,6 +1,7 @@
 /* Each call that leads to an allocation sees one fail, in every task of the folder: the
  * answer is RB_ENOMEM, or the task does without; nothing is lost or freed twice (make
  * asan). */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -15,11 +16,8 @@ typedef struct {
 /* A wheel R = 50 of similar half-planes, of few elements. */
 static rb_rolling_case few(rb_rolling_formulation formulation, int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = formulation;
+    rb_rolling_case rc = half_plane(formulation, elements);
     rc.load = 500.0;
-    rc.contact_elements = elements;
     rc.zone = elements < 12 ? 1.0 : 0.0;
     if (formulation != RB_STATIC)
         rc.creep_ratio = 0.5;

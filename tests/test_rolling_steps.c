@@ -1,5 +1,6 @@
 /* What a sequence of steps must have in common with a single case, where it ends, what
  * its columns say, and what rides through the contact. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -136,14 +137,12 @@ TEST(shifts_add_up)
 /* Steel on a rigid plane, half-plane: beta/mu = 0.952. */
 static rb_rolling_case spence(int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = half_plane(RB_STATIC, elements);
 
-    rc.a.support = RB_BEM_HALFPLANE;
     rc.a.young = 209920.0;
     rc.a.poisson = 0.3;
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 100.0;
-    rc.contact_elements = elements;
     return rc;
 }
 

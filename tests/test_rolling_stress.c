@@ -1,5 +1,6 @@
 /* Stress below a contact: its parts, closed forms on the axis and far away, maxima and
  * where they are looked for. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -8,13 +9,11 @@
 
 static rb_rolling_case hertz(int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STATIC, elements);
     rc.a.poisson = 0.3;
     rc.mu = 0.0;
     rc.gap = RB_GAP_PARABOLA;
     rc.half_width = 1.0;
-    rc.contact_elements = elements;
     return rc;
 }
 

@@ -1,5 +1,6 @@
 /* Wear: volume, implicit steps of any length, the uniform pressure that a cylinder and a
  * punch wear to, fretting with a zone that sticks, turns of a wheel, going on. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/rolling.h"
@@ -10,17 +11,13 @@
 /* Similar half-planes, a = 1. */
 static rb_rolling_case cylinder(int elements, double zone)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = half_plane(RB_STATIC, elements);
     rc.a.young = 200000.0;
     rc.a.poisson = 0.3;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.load = rb_rolling_derive(&rc).modulus * M_PI / (4.0 * rc.a.radius);
     rc.zone = zone;
-    rc.contact_elements = elements;
     return rc;
 }
 

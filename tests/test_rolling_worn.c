@@ -1,5 +1,6 @@
 /* Wear of one small contact: each step recomputed from the one before it, and refusals.
  */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -8,14 +9,10 @@
 
 static rb_rolling_case plane(int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_rolling_case rc = half_plane(RB_STATIC, elements);
+    on_its_like(&rc);
     rc.gap = RB_GAP_PARABOLA;
     rc.load = 500.0;
-    rc.contact_elements = elements;
     rc.zone = 1.6;
     return rc;
 }

@@ -2,6 +2,7 @@
  * in closed form, the limits of a large and of a small yield stress, the law recomputed
  * from the printed columns alone, both solvers, histories, and what is refused. */
 
+#include "cases.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
@@ -25,9 +26,7 @@ static rb_rolling_case plastic_example(double hardening)
     rc.a.young = 2.0 * 82000.0 * 1.28;
     rc.a.poisson = 0.28;
     rc.a.datum = 200.0 * exp(0.28 / 0.72);
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    on_its_like(&rc);
     rc.a.radius = 500.0;
     rc.gap = RB_GAP_PARABOLA;
     rc.mu = 0.5;

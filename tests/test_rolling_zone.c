@@ -1,4 +1,5 @@
 /* The potential contact, the edges of the contact and elements fitted to them. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 #include "numbers.h"
@@ -9,15 +10,12 @@
 
 static rb_rolling_case halfplane(double poisson, double mu, int elements)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = half_plane(RB_STEADY, elements);
 
-    rc.a.support = RB_BEM_HALFPLANE;
     rc.a.young = 1000.0;
     rc.a.poisson = poisson;
     rc.gap = RB_GAP_PARABOLA;
     rc.mu = mu;
-    rc.formulation = RB_STEADY;
-    rc.contact_elements = elements;
     return rc;
 }
 
