@@ -56,31 +56,6 @@ static cplx slope_after(const rb_interior *in, int j)
            (0.5 * (rb_bem_mesh_length(in->mesh, j) + rb_bem_mesh_length(in->mesh, k)));
 }
 
-static void make_pieces(rb_interior *in)
-{
-    const rb_bem_mesh *mesh = in->mesh;
-    const double r0 = rb_bem_mesh_size(mesh);
-    const cplx per_t = -1.0 / (2.0 * M_PI * (1.0 + in->kap)),
-               per_s = I * in->shear / (M_PI * (1.0 + in->kap));
-    for (int j = 0; j < mesh->n; j++) {
-        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
-                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]),
-                     half = 0.5 * rb_bem_mesh_length(mesh, j);
-        const cplx before = slope_after(in, in->previous[j]), after = slope_after(in, j);
-        rb_piece *p = in->piece + 2 * j;
-        p[0].e = rb_element_make(mesh->x0[j], mesh->y0[j], mx, my, r0);
-        p[1].e = rb_element_make(mx, my, mesh->x1[j], mesh->y1[j], r0);
-        p[0].z1 = complex_of(mesh->x0[j], mesh->y0[j]);
-        p[1].z1 = complex_of(mx, my);
-        p[0].direction = p[1].direction = complex_of(p[0].e.tx, p[0].e.ty);
-        p[0].a_t = p[1].a_t = per_t * pair_of(in->t, j);
-        p[0].a_s = per_s * before;
-        p[1].a_s = per_s * after;
-        p[0].alpha = per_s * (pair_of(in->u, j) - half * before);
-        p[1].alpha = per_s * pair_of(in->u, j);
-    }
-}
-
 static void interior_free(rb_interior *in)
 {
     free(in->piece);
@@ -109,7 +84,26 @@ static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
     rb_bem_mesh_next(mesh, in->next);
     for (int j = 0; j < mesh->n; j++)
         in->previous[in->next[j]] = j;
-    make_pieces(in);
+    const double r0 = rb_bem_mesh_size(mesh);
+    const cplx per_t = -1.0 / (2.0 * M_PI * (1.0 + in->kap)),
+               per_s = I * in->shear / (M_PI * (1.0 + in->kap));
+    for (int j = 0; j < mesh->n; j++) {
+        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
+                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]),
+                     half = 0.5 * rb_bem_mesh_length(mesh, j);
+        const cplx before = slope_after(in, in->previous[j]), after = slope_after(in, j);
+        rb_piece *p = in->piece + 2 * j;
+        p[0].e = rb_element_make(mesh->x0[j], mesh->y0[j], mx, my, r0);
+        p[1].e = rb_element_make(mx, my, mesh->x1[j], mesh->y1[j], r0);
+        p[0].z1 = complex_of(mesh->x0[j], mesh->y0[j]);
+        p[1].z1 = complex_of(mx, my);
+        p[0].direction = p[1].direction = complex_of(p[0].e.tx, p[0].e.ty);
+        p[0].a_t = p[1].a_t = per_t * pair_of(in->t, j);
+        p[0].a_s = per_s * before;
+        p[1].a_s = per_s * after;
+        p[0].alpha = per_s * (pair_of(in->u, j) - half * before);
+        p[1].alpha = per_s * pair_of(in->u, j);
+    }
     return RB_OK;
 }
 

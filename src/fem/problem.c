@@ -9,23 +9,6 @@ static void scale(size_t n, double factor, double *x)
         x[i] *= factor;
 }
 
-/* f = F - K u, w = gap + H' u along the normals, both in their units. */
-static void fill_vectors(const rb_fem_structure *s, const double *load,
-                         const rb_fem_state *state, rb_fem_units units,
-                         rb_friction_problem *p)
-{
-    const int d = s->dimension, m = d * s->contacts;
-    memcpy(p->f, load, (size_t)s->dofs * sizeof *load);
-    rb_sparse_apply(-1.0, &s->K, state->u, 1.0, p->f);
-    rb_sparse_apply_transposed(1.0, &s->H, state->u, 0.0, p->w);
-    for (int k = 0; k < m; k++)
-        p->w[k] = k % d == 0 ? p->w[k] + s->gap[k / d] : 0.0;
-    memcpy(p->mu, s->mu, (size_t)s->contacts * sizeof *s->mu);
-    scale((size_t)s->dofs, 1.0 / units.force, p->f);
-    scale((size_t)m, 1.0 / units.length, p->w);
-    scale((size_t)p->K.p[s->dofs], units.length / units.force, p->K.x);
-}
-
 rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
                          const rb_fem_state *state, rb_friction_problem *problem,
                          rb_fem_units *units)
@@ -56,7 +39,17 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
         if (trace > 0.0)
             u.length = u.force * s->dofs / trace;
         *units = u;
-        fill_vectors(s, load, state, *units, problem);
+        /* f = F - K u, w = gap + H' u along the normals, both in their units. */
+        const int d = s->dimension, rows = d * s->contacts;
+        memcpy(problem->f, load, (size_t)s->dofs * sizeof *load);
+        rb_sparse_apply(-1.0, &s->K, state->u, 1.0, problem->f);
+        rb_sparse_apply_transposed(1.0, &s->H, state->u, 0.0, problem->w);
+        for (int k = 0; k < rows; k++)
+            problem->w[k] = k % d == 0 ? problem->w[k] + s->gap[k / d] : 0.0;
+        memcpy(problem->mu, s->mu, (size_t)s->contacts * sizeof *s->mu);
+        scale((size_t)s->dofs, 1.0 / units->force, problem->f);
+        scale((size_t)rows, 1.0 / units->length, problem->w);
+        scale((size_t)problem->K.p[s->dofs], units->length / units->force, problem->K.x);
     } else {
         rb_friction_problem_free(problem);
     }

@@ -92,19 +92,6 @@ static rb_status load_held(lemke *s)
     return st;
 }
 
-static void scale(lemke *s)
-{
-    const size_t m = (size_t)s->task->m;
-    double trace = 0.0;
-    for (size_t k = 0; k < m; k++)
-        trace += fabs(s->W[k * (m + 1)]);
-    s->unit = trace > 0.0 ? (double)m / trace : 1.0;
-    for (size_t k = 0; k < m * m; k++)
-        s->W[k] *= s->unit;
-    for (size_t k = 0; k < m; k++)
-        s->q[k] *= s->unit;
-}
-
 /* T -> -T in every contact; twice is nothing. */
 static void mirror(lemke *s)
 {
@@ -289,8 +276,17 @@ static rb_status try(lemke *s, const attempt *a)
                 load_local(s, s->task->shared->local);
             else
                 st = load_held(s);
-            if (st == RB_OK)
-                scale(s);
+            if (st == RB_OK) {
+                const size_t order = (size_t)s->task->m;
+                double trace = 0.0;
+                for (size_t k = 0; k < order; k++)
+                    trace += fabs(s->W[k * (order + 1)]);
+                s->unit = trace > 0.0 ? (double)order / trace : 1.0;
+                for (size_t k = 0; k < order * order; k++)
+                    s->W[k] *= s->unit;
+                for (size_t k = 0; k < order; k++)
+                    s->q[k] *= s->unit;
+            }
         }
     }
     return st == RB_OK ? run_attempt(s, a) : st;

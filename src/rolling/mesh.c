@@ -88,10 +88,14 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
     return RB_ENOMEM;
 }
 
-/* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
-static rb_status add_irregularity(const rb_rolling_case *rc, double passed, int n,
-                                  const double *x, double *gap)
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
+                               const double *x, double *gap)
 {
+    for (int i = 0; i < n; i++)
+        gap[i] = rb_rolling_initial_gap(rc, x[i]);
+    /* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
+    if (!(rc->irregularity.n > 0))
+        return RB_OK;
     const size_t rows = (size_t)rc->irregularity.n;
     const double *row = rc->irregularity.x;
     gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, rows);
@@ -106,14 +110,6 @@ static rb_status add_irregularity(const rb_rolling_case *rc, double passed, int 
     }
     gsl_spline_free(spline);
     return RB_OK;
-}
-
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
-                               const double *x, double *gap)
-{
-    for (int i = 0; i < n; i++)
-        gap[i] = rb_rolling_initial_gap(rc, x[i]);
-    return rc->irregularity.n > 0 ? add_irregularity(rc, passed, n, x, gap) : RB_OK;
 }
 
 int rb_rolling_is_convex(const rb_rolling_case *rc)
