@@ -380,7 +380,7 @@ static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
         if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]),
                   0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
             return rb_fail(why, RB_EINVAL,
-                           "outer elements = %d: so few elements are chords that cut the "
+                           "outer elements = %d: elements this long cut through the "
                            "hub of radius %g; use more, or 0",
                            cylinder->outer_elements, core);
     return RB_OK;
