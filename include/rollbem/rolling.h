@@ -745,6 +745,8 @@ rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lc
  * includes the friction law.  RB_ENOMEM. */
 rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
 
+/* The case that rolls without a force. */
+rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc);
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
  * solution is not changed, but the data that it keeps for further solves is. */
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,

@@ -40,14 +40,14 @@ rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *mo
     return s;
 }
 
-static rb_rolling_case without_force(const rb_rolling_model *model)
+rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc)
 {
-    rb_rolling_case rc = *model->rc;
+    rb_rolling_case freely = *rc;
 
-    rc.creep = rc.creep_ratio = rc.force = NAN;
-    rc.free_axle = 0;
-    rc.force_ratio = 0.0;
-    return rc;
+    freely.creep = freely.creep_ratio = freely.force = NAN;
+    freely.free_axle = 0;
+    freely.force_ratio = 0.0;
+    return freely;
 }
 
 /* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  The model
@@ -55,7 +55,7 @@ static rb_rolling_case without_force(const rb_rolling_model *model)
 static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage,
                                   rb_message *why)
 {
-    const rb_rolling_case rc = without_force(model);
+    const rb_rolling_case rc = rb_rolling_without_force(model->rc);
 
     rb_rolling_forget_free_rolling(model);
     model->freely = calloc(1, sizeof *model->freely);
@@ -74,7 +74,7 @@ static rb_status roll_freely_large(const rb_rolling_model *model, double *creepa
                                    rb_message *why)
 {
     const double *ends = model->mesh.ends;
-    const rb_rolling_case rc = without_force(model);
+    const rb_rolling_case rc = rb_rolling_without_force(model->rc);
     rb_rolling_plan plan = model->plan;
     rb_rolling_model freely;
     rb_rolling_mesh mesh;

@@ -135,7 +135,7 @@ static rb_status variants_create(const rb_rolling_model *base,
             return s;
         rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
         if (freely)
-            rc = rb_sensitivity_without_force(&rc);
+            rc = rb_rolling_without_force(&rc);
         s = rb_rolling_variant_create(base, &rc, v->results, &v->model[k], why);
     }
     return s;

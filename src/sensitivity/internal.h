@@ -40,8 +40,6 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
 /* Determines whether and how the elements move.  RB_ENOMEM. */
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
-/* The case that rolls without a force. */
-rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc);
 
 /* ---- jacobian.c -------------------------------------------------------------------- */
 

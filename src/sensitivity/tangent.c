@@ -292,17 +292,6 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
 
 /* ---- Making one -------------------------------------------------------------------- */
 
-/* The case that rolls without a force. */
-rb_rolling_case rb_sensitivity_without_force(const rb_rolling_case *rc)
-{
-    rb_rolling_case freely = *rc;
-
-    freely.creep = freely.creep_ratio = freely.force = NAN;
-    freely.free_axle = 0;
-    freely.force_ratio = 0.0;
-    return freely;
-}
-
 /* A model that was solved without a matrix, with one. */
 static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
 {
@@ -356,7 +345,7 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
 static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
-    const rb_rolling_case *rc = model->rc, freely = rb_sensitivity_without_force(rc);
+    const rb_rolling_case *rc = model->rc, freely = rb_rolling_without_force(rc);
     rb_rolling_model *v;
     rb_status status;
 
