@@ -57,6 +57,13 @@ static double arc_elements(const graded_side *side)
     return side_elements(side) - elements_until(side, side->clamped);
 }
 
+/* Rounded, where x.5 is as likely as any other: arcs and sides that are alike have it,
+ * and whichever way the last digit of an end has gone, there are as many elements. */
+static int whole(double elements)
+{
+    return (int)floor(elements + 0.5 + 1e-9);
+}
+
 /* Whole numbers of elements on the free and on the clamped part: as many as the grading
  * asks for, or `all` together. */
 static void count_elements(graded_side *side, int all)
@@ -64,9 +71,9 @@ static void count_elements(graded_side *side, int all)
     const double share = all > 0 ? all / side_elements(side) : 1.0;
     const int has_arc = side->clamped < side_length(side);
 
-    side->arc_n = has_arc ? (int)fmax(1.0, round(share * arc_elements(side))) : 0;
+    side->arc_n = has_arc ? (int)fmax(1.0, whole(share * arc_elements(side))) : 0;
     side->free_n =
-        all > 0 ? all - side->arc_n : (int)round(elements_until(side, side->clamped));
+        all > 0 ? all - side->arc_n : whole(elements_until(side, side->clamped));
     side->free_n = side->free_n > 0 ? side->free_n : 1;
 }
 
@@ -124,8 +131,8 @@ static void fit_growth(outer_layout *layout, int wanted)
     }
     const double right = side_elements(&layout->right),
                  left = side_elements(&layout->left);
-    count_elements(&layout->right, (int)round((wanted - 2) * right / (right + left)));
-    count_elements(&layout->left, (int)round((wanted - 2) * left / (right + left)));
+    count_elements(&layout->right, whole((wanted - 2) * right / (right + left)));
+    count_elements(&layout->left, whole((wanted - 2) * left / (right + left)));
 }
 
 /* Angle at which the mirror image of the upstream element ends, left of the contact: it
@@ -228,7 +235,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         const double half = fmax(0.5 * (high - low), size), centre = 0.5 * (low + high);
         interface_layout in = {.low = centre - half,
                                .high = centre + half,
-                               .middle_n = (int)ceil(2.0 * half / size)};
+                               .middle_n = (int)ceil(2.0 * half / size - 1e-9)};
         const double h = 2.0 * half / in.middle_n;
         in.right = interface_side(cylinder, in.high, h);
         in.left = interface_side(cylinder, -in.low, h);
