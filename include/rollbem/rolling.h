@@ -29,13 +29,13 @@ typedef enum {
 typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
 /* From how many equal elements on half-planes are solved by Fourier transforms, without a
  * matrix: steady rolling, with every friction law (on aligned meshes as fast as the
- * matrix at 150 elements, 2 to 4 times faster at 800); static contact and steps, where
- * sequences of similar bodies win from 1000 on only.  Below RB_ROLLING_LARGE a matrix can
- * be added where something needs it (rb_rolling_model_add_matrix); from there on it would
- * take seconds. */
+ * matrix at 150 elements, 2 to 4 times faster at 800); static contact, steps and wear (as
+ * fast at 300, twice as fast at 600, 2 to 5 times at 1200).  Below RB_ROLLING_LARGE a
+ * matrix can be added where something needs it (rb_rolling_model_add_matrix); from there
+ * on it would take seconds. */
 enum {
     RB_ROLLING_TRANSFORMS = 150,
-    RB_ROLLING_TRANSFORMS_STEPS = 1500,
+    RB_ROLLING_TRANSFORMS_STEPS = 400,
     RB_ROLLING_LARGE = 1500
 };
 /* How displacements of a wheel close to a load are computed: by its boundary elements
