@@ -205,7 +205,7 @@ static inline const char *python_of_pages(void)
             build ? build : "build") == 0)
         return NULL;
     for (size_t k = 0; k < sizeof known / sizeof *known && !found; k++)
-        if (run("%s -c 'import numpy' 2>/dev/null", known[k]) == 0)
+        if (run("%s -c 'import numpy; numpy.ndarray' 2>/dev/null", known[k]) == 0)
             found = known[k];
     return found;
 }
