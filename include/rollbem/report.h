@@ -274,7 +274,8 @@ void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
 void rb_report_json_crack_faces(struct json_t **root, const rb_case_crack_result *r);
 /* input_hash of a case and its crack. */
 struct json_t *rb_report_json_crack_hash(const rb_case *c, const rb_case_crack *crack);
-void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r);
+/* A summary of a few lines, below its notes. */
+void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colour);
 /* Pictures of the last pass: K over the position with the zones of the faces below; K_II
  * over K_I; the crack at the position nearest to `at` [half-widths] with magnified
  * displacements of its faces. */

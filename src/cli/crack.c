@@ -129,7 +129,8 @@ static const cli_case_file files[] = {{"plot", .draw = draw},
 
 static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_crack_summary(out, &((const crack_run *)run->own)->result);
+    rb_report_crack_summary(out, &((const crack_run *)run->own)->result,
+                            cli_is_coloured(stderr));
 }
 
 /* Options of the library, then those of the pictures. */

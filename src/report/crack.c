@@ -188,14 +188,14 @@ static void print_bar(FILE *out, const rb_case_crack_result *r, double error)
         fprintf(out, " (+- %.2g)", error);
 }
 
-void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r)
+void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colour)
 {
     const rb_case_crack_summary *s = &r->summary, *e = &r->errors;
     const char *K = rb_unit_name(r->units, "MPa.mm^0.5"),
                *mm = rb_unit_name(r->units, "mm");
 
     for (int k = 0; k < r->notes; k++)
-        fprintf(out, "note: %s\n", r->note[k]);
+        rb_report_note(out, r->note[k], colour);
     fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n",
             r->history.n / r->passes, r->passes, r->passes > 1 ? "es" : "", r->half_width,
             mm);

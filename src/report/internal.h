@@ -31,12 +31,14 @@ void rb_report_cell_headings(rb_report_cells *c, int parts,
                              const rb_report_columns *part);
 void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
                             const rb_report_columns *part);
-/* # lines with version, command, conventions. */
-/* The same of derivatives, where there are any. */
+/* The same of derivatives, where there are any; and what they are, as # lines. */
 void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row);
 void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s);
+/* # lines with version, command, conventions. */
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
+/* A note as a line of text, its first word in colour. */
+void rb_report_note(FILE *out, const char *text, int colour);
 /* Writes the notes as # lines. */
 void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,
                              const rb_rolling_solution *s);
