@@ -74,7 +74,7 @@ static void judge(int k, verdicts *v)
         print_error("case %d: rollbem %s\n    %.800s%.300s", k, command, out, err);
 }
 
-static void right_results_are_valid(void **state)
+TEST(right_results_are_valid)
 {
     const int from = asked("CERTIFICATES_FROM", 0), n = asked("CERTIFICATES", 150);
     verdicts v = {0};
@@ -98,7 +98,7 @@ static void right_results_are_valid(void **state)
  * contacts whose differences miss a part of the hysteresis, a contact that opens, three
  * elements in contact, heat beside the trailing edge; and an arc whose number of elements
  * rounding decided. */
-static void results_that_were_once_rejected_are_valid(void **state)
+TEST(results_that_were_once_rejected_are_valid)
 {
     static const int once[] = {1290, 3511, 3563, 5224, 5401,
                                5896, 5968, 7500, 8273, 204570};
@@ -111,10 +111,4 @@ static void results_that_were_once_rejected_are_valid(void **state)
     assert_int_equal(v.wrong, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(right_results_are_valid),
-        cmocka_unit_test(results_that_were_once_rejected_are_valid)};
-    return cmocka_run_group_tests(tests, enter, leave_folder);
-}
+RUN_TESTS(enter, leave_folder)

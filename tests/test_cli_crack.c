@@ -20,7 +20,7 @@ static double scale_of(const json_t *root)
     return sqrt(M_PI) * number_in(json_object_get(root, "contact"), "max_pressure");
 }
 
-static void edge_cracks(void **state)
+TEST(edge_cracks)
 {
     static const double want[][3] = {{90, 1.12152226, 0.0},
                                      {75, 1.068546, 0.173807},
@@ -41,7 +41,7 @@ static void edge_cracks(void **state)
     }
 }
 
-static void passes(void **state)
+TEST(passes)
 {
     static const struct {
         const char *load;
@@ -93,7 +93,7 @@ static void passes(void **state)
 /* K_I max and the fluid's pressure of an independent program, whose volume is that of the
  * last position with an open mouth; and with the place of closing 0.2724 p0 sqrt(pi a) in
  * the limit of 80 and 160 elements, of second order. */
-static void trapped(void **state)
+TEST(trapped)
 {
     static const double reference[][3] = {
         {10, 0.332, 1.088}, {20, 0.336, 1.104}, {40, 0.337, 1.104}};
@@ -128,7 +128,7 @@ static void trapped(void **state)
 }
 
 /* The same physics in other units, and through a case file. */
-static void units_and_case_files(void **state)
+TEST(units_and_case_files)
 {
     (void)state;
     json_t *mm = run_json(HERTZ "--mu 0 --remote-stress 20 --crack-mouth 0.2"),
@@ -158,7 +158,7 @@ static void units_and_case_files(void **state)
 }
 
 /* A wheel rolls without friction: transient and steady are the same load. */
-static void histories(void **state)
+TEST(histories)
 {
     (void)state;
     json_t *steady =
@@ -187,7 +187,7 @@ static void histories(void **state)
     json_decref(still);
 }
 
-static void error_bars(void **state)
+TEST(error_bars)
 {
     (void)state;
     json_t *root =
@@ -200,7 +200,7 @@ static void error_bars(void **state)
     json_decref(root);
 }
 
-static void below_the_surface(void **state)
+TEST(below_the_surface)
 {
     (void)state;
     json_t *root =
@@ -214,7 +214,7 @@ static void below_the_surface(void **state)
     json_decref(root);
 }
 
-static void pictures(void **state)
+TEST(pictures)
 {
     (void)state;
     assert_int_equal(rollbem(HERTZ
@@ -227,7 +227,7 @@ static void pictures(void **state)
 
 /* Supports, laws, meshes, heat, bores, gap tables, force control, steps and histories,
  * and every example that is a case: solved, or refused in one line. */
-static void loads_of_every_kind(void **state)
+TEST(loads_of_every_kind)
 {
 #define STEADY "--mu 0.3 --formulation steady --creep-ratio 0.5 "
     static const char *const through[] = {
@@ -288,7 +288,7 @@ static void loads_of_every_kind(void **state)
 
 /* Under a stiff wheel K_II falls by a sixth, between similar bodies by less; where the
  * crack is far from the contact nothing changes. */
-static void coupled(void **state)
+TEST(coupled)
 {
     static const struct {
         const char *bodies;
@@ -339,7 +339,7 @@ static void coupled(void **state)
 /* Friction of 0.4 between the faces turns the crack of 45 degrees upwards by 70.5 degrees
  * (pure K_II): a step of three half-widths leaves the body, the summary and the note say
  * so. */
-static void back_to_the_surface(void **state)
+TEST(back_to_the_surface)
 {
     static const char *const line = HERTZ
         "--mu 0 --crack-friction 0.4 --crack-angle 45 --paris 1e-12,3 --growth "
@@ -373,7 +373,7 @@ static void back_to_the_surface(void **state)
 #define VARIED                                                                           \
     "sweep cracks.ini --vary-1 'crack-length 0.5 1' --vary-2 'crack-angle 30 60' "
 
-static void studies(void **state)
+TEST(studies)
 {
     static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II",
                                         "K_II_min_at"};
@@ -453,7 +453,7 @@ static void studies(void **state)
                      64); /* known with its first solution only: the row says so */
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
     (void)state;
     check_refused(HERTZ "--crack-angle 0", 64, "outside body B");
@@ -485,20 +485,4 @@ static void refusals(void **state)
     check_refused("crack bad.ini", 65, "bad.ini");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(edge_cracks),
-                                       cmocka_unit_test(passes),
-                                       cmocka_unit_test(trapped),
-                                       cmocka_unit_test(units_and_case_files),
-                                       cmocka_unit_test(histories),
-                                       cmocka_unit_test(error_bars),
-                                       cmocka_unit_test(below_the_surface),
-                                       cmocka_unit_test(pictures),
-                                       cmocka_unit_test(loads_of_every_kind),
-                                       cmocka_unit_test(coupled),
-                                       cmocka_unit_test(back_to_the_surface),
-                                       cmocka_unit_test(studies),
-                                       cmocka_unit_test(refusals)};
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

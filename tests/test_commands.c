@@ -217,7 +217,7 @@ static int is_documented(int code)
     return code == 0 || code == 1 || code == 64 || code == 65;
 }
 
-static void long_commands_say_so(void **state)
+TEST(long_commands_say_so)
 {
     const int from = asked("COMMANDS_FROM", 0), n = asked("COMMANDS", 40);
     const double shown = asked("COMMANDS_SHOW", PROCESSOR);
@@ -259,8 +259,4 @@ static void long_commands_say_so(void **state)
     assert_true(ended[0] > n / 4);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(long_commands_say_so)};
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+RUN_TESTS(enter_folder, leave_folder)

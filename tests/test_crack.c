@@ -55,7 +55,7 @@ static void in_tension(double angle, int n, double K[2])
     rb_crack_free(c);
 }
 
-static void edge_cracks_in_tension(void **state)
+TEST(edge_cracks_in_tension)
 {
     static const double reference[][3] = {{90, 1.12152226, 0.0},
                                           {75, 1.068546, 0.173807},
@@ -81,7 +81,7 @@ static void edge_cracks_in_tension(void **state)
 }
 
 /* A crack and its mirror image: K_I alike, K_II turned. */
-static void mirror_images(void **state)
+TEST(mirror_images)
 {
     double left[2], right[2];
     in_tension(50.0, 20, right);
@@ -92,7 +92,7 @@ static void mirror_images(void **state)
 
 /* Far below the surface both tips have the closed form of the full plane; near it the
  * upper one has more. */
-static void cracks_below_the_surface(void **state)
+TEST(cracks_below_the_surface)
 {
     const double x = 0.0, angle = 60.0 * M_PI / 180.0;
     const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
@@ -120,7 +120,7 @@ static void cracks_below_the_surface(void **state)
 /* ---- Closed crack in the full plane ------------------------------------------------ */
 
 /* The play operator: unit pressure, friction 0.3, a shear that goes back and forth. */
-static void history_of_a_closed_crack(void **state)
+TEST(history_of_a_closed_crack)
 {
     static const double tau[] = {.2, .5, .8, .6, .4, .1, -.3, -.5, 0, .2, .8},
                         want[] = {0, .2, .5, .5, .5, .4, 0, -.2, -.2, -.1, .5};
@@ -168,7 +168,7 @@ static void set_hertz(double ratio, hertz *h)
 }
 
 /* All of it slips: K_II is an integral of tau - mu sigma, 0.15965661352 by quadrature. */
-static void sliding_under_a_contact(void **state)
+TEST(sliding_under_a_contact)
 {
     double error[3];
     hertz load;
@@ -189,7 +189,7 @@ static void sliding_under_a_contact(void **state)
 }
 
 /* p_f = sigma + 4 G V_0/(pi (kappa + 1) a^2), K_I = (p_f - sigma) sqrt(pi a). */
-static void trapped_in_the_full_plane(void **state)
+TEST(trapped_in_the_full_plane)
 {
     const double sigma = 0.7, volume = 0.02, a = 0.5, kappa = 3.0 - 4.0 * 0.3;
     const double want = sigma + 4.0 * volume / (M_PI * (kappa + 1.0) * a * a);
@@ -217,7 +217,7 @@ static void trapped_in_the_full_plane(void **state)
 
 /* Nodal forces against the stress of bem, near the load and beyond the switch to the
  * series: the body below is the mirror image of the one above. */
-static void stress_of_strips(void **state)
+TEST(stress_of_strips)
 {
     enum { N = 8 };
     static const double at[] = {0.3, -2.9, 3.1, 40.0};
@@ -276,7 +276,7 @@ static double surface_slope(int n, const double complex *z, const double complex
 
 /* Betti: the work of a strip's stress on the opening and sliding of a crack is what the
  * crack lifts the surface below the strip, times its pressure. */
-static void betti(void **state)
+TEST(betti)
 {
     enum { N = 20 };
     const double x = 0.0, width = 0.3, left = 1.1, right = 2.9;
@@ -351,7 +351,7 @@ static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int 
  * those of STRIPS strips.  Of 20 elements the largest K_II is 2.6e-4 to 3.5e-4 away from
  * it, as second order says: from the limit of many elements four times as far as that
  * of 40. */
-static void passes_of_a_contact(void **state)
+TEST(passes_of_a_contact)
 {
     static const double reference[][11] = {
         {.1, 0, -.09154, .15226, .0002, -.02567, .03211, .15226, -.00518, -.09116,
@@ -392,7 +392,7 @@ static void passes_of_a_contact(void **state)
  * independent program (tests share nothing with it): 80 constant displacement
  * discontinuities, collocated; real fields of dislocations, the surface freed by
  * Flamant's solution integrated over it; active sets and projected Gauss-Seidel. */
-static void below_the_surface_under_carter(void **state)
+TEST(below_the_surface_under_carter)
 {
     static const struct {
         int step;
@@ -462,7 +462,7 @@ static double by_steps(int n, int positions, const double *x, double *pressure)
 }
 
 /* An independent program that knows positions alone. */
-static void trapped_fluid_by_positions(void **state)
+TEST(trapped_fluid_by_positions)
 {
     static const double reference[][4] = {
         {10, 61, 0.332, 1.088}, {20, 121, 0.336, 1.104}, {40, 241, 0.337, 1.104}};
@@ -485,7 +485,7 @@ static void trapped_fluid_by_positions(void **state)
 
 /* A pass that locates where the mouth closes: K_I does not depend on the positions, is
  * that of many small steps, and converges with the elements. */
-static void trapped_fluid(void **state)
+TEST(trapped_fluid)
 {
     double x[600], pressure, K_I[3];
     int positions = 0;
@@ -520,7 +520,7 @@ static void trapped_fluid(void **state)
 }
 
 /* The pressure of the contact at the mouth acts on the faces: under it they are open. */
-static void pressure_at_the_mouth(void **state)
+TEST(pressure_at_the_mouth)
 {
     pass p;
     run(20, 0.1, 0.0, RB_CRACK_PRESSURE, STEPS, 1, &p);
@@ -534,7 +534,7 @@ static void pressure_at_the_mouth(void **state)
 
 /* A path with a vertex on its straight line is the straight crack, whatever the share of
  * quadrature and closed forms. */
-static void a_kink_of_no_angle(void **state)
+TEST(a_kink_of_no_angle)
 {
     const double x = 0.0;
     const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
@@ -628,7 +628,7 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
     rb_crack_free(c);
 }
 
-static void kinks(void **state)
+TEST(kinks)
 {
     static const double angles[] = {15.0, 30.0, 45.0, 60.0};
     for (size_t k = 0; k < sizeof angles / sizeof *angles; k++) {
@@ -644,7 +644,7 @@ static void kinks(void **state)
 
 /* Under K_I alone straight on, under K_II alone at 70.5 degrees with 2/sqrt(3) K_II; the
  * largest over the steps counts. */
-static void directions(void **state)
+TEST(directions)
 {
     double x[3] = {0.0}, K_I[] = {2.0, 0.0, 0.0}, K_II[] = {0.0, 1.0, -1.5},
            none[3] = {0.0};
@@ -682,7 +682,7 @@ static void refuses(rb_crack_shape shape, const char *word)
         fail_msg("'%s' does not say '%s'", why.text, word);
 }
 
-static void bad_input(void **state)
+TEST(bad_input)
 {
     rb_crack_shape shape = edge_crack(30.0, 20, 0.1);
     shape.elements = 2;
@@ -715,7 +715,7 @@ static void bad_input(void **state)
     rb_crack_free(c);
 }
 
-static void no_memory(void **state)
+TEST(no_memory)
 {
     const double x = 0.0;
     const rb_crack_shape shape = edge_crack(30.0, 8, 0.1);
@@ -746,27 +746,4 @@ static void no_memory(void **state)
     assert_true(done);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edge_cracks_in_tension),
-        cmocka_unit_test(mirror_images),
-        cmocka_unit_test(cracks_below_the_surface),
-        cmocka_unit_test(history_of_a_closed_crack),
-        cmocka_unit_test(sliding_under_a_contact),
-        cmocka_unit_test(trapped_in_the_full_plane),
-        cmocka_unit_test(stress_of_strips),
-        cmocka_unit_test(passes_of_a_contact),
-        cmocka_unit_test(below_the_surface_under_carter),
-        cmocka_unit_test(betti),
-        cmocka_unit_test(trapped_fluid_by_positions),
-        cmocka_unit_test(trapped_fluid),
-        cmocka_unit_test(pressure_at_the_mouth),
-        cmocka_unit_test(a_kink_of_no_angle),
-        cmocka_unit_test(kinks),
-        cmocka_unit_test(directions),
-        cmocka_unit_test(bad_input),
-        cmocka_unit_test(no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -41,7 +41,7 @@ static double last(rb_api *a, const char *name)
     return x[rows - 1];
 }
 
-static void straight_growth(void **state)
+TEST(straight_growth)
 {
     static const char *const grown[] = {"paris",   "1e-12,2", "grow-steps",     "2",
                                         "grow-to", "1.6",     "crack-friction", "0.2",
@@ -71,7 +71,7 @@ static void straight_growth(void **state)
 }
 
 /* Cycles over the number of increments: second order. */
-static void cycles_converge(void **state)
+TEST(cycles_converge)
 {
     static const char *const steps[] = {"3", "6", "12"};
     double N[3];
@@ -90,7 +90,7 @@ static void cycles_converge(void **state)
 }
 
 /* C in m and Pa m^0.5 gives the same passes. */
-static void growth_in_other_units(void **state)
+TEST(growth_in_other_units)
 {
     char law[60];
     snprintf(law, sizeof law, "%.17g,3", 1e-12 * 1e-3 / gsl_pow_3(1e6 * sqrt(1e-3)));
@@ -107,7 +107,7 @@ static void growth_in_other_units(void **state)
 }
 
 /* Across the largest tension the first turn is the kink angle of the first pass. */
-static void turns(void **state)
+TEST(turns)
 {
     static const char *const words[] = {"paris",      "1e-12,3", "growth", "tension",
                                         "grow-steps", "2",       NULL};
@@ -124,7 +124,7 @@ static void turns(void **state)
 
 /* A piece an increment, with elements of its own beside those that are asked for: growth
  * of many turns comes to its end. */
-static void turns_many_times(void **state)
+TEST(turns_many_times)
 {
     static const char *const words[] = {"paris",       "1e-12,3",    "growth",
                                         "tension",     "grow-steps", "24",
@@ -139,7 +139,7 @@ static void turns_many_times(void **state)
     rb_api_free(a);
 }
 
-static void rests_below_the_threshold(void **state)
+TEST(rests_below_the_threshold)
 {
     static const char *const words[] = {"paris", "1e-12,3", "threshold", "100", NULL};
     int rows, columns;
@@ -151,7 +151,7 @@ static void rests_below_the_threshold(void **state)
     rb_api_free(a);
 }
 
-static void bad_growth(void **state)
+TEST(bad_growth)
 {
     static const struct {
         const char *name[2], *value[2], *says;
@@ -170,16 +170,4 @@ static void bad_growth(void **state)
     rb_api_free(a);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(straight_growth),
-        cmocka_unit_test(cycles_converge),
-        cmocka_unit_test(growth_in_other_units),
-        cmocka_unit_test(turns),
-        cmocka_unit_test(turns_many_times),
-        cmocka_unit_test(rests_below_the_threshold),
-        cmocka_unit_test(bad_growth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

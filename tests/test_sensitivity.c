@@ -127,7 +127,7 @@ static int compare_input(const words *w, const rb_case_derivative *d,
     return same;
 }
 
-static void derivatives_are_those_of_solutions(void **state)
+TEST(derivatives_are_those_of_solutions)
 {
     for (size_t k = 0; k < sizeof regimes / sizeof *regimes; k++) {
         rb_message why = {""};
@@ -151,7 +151,7 @@ static void derivatives_are_those_of_solutions(void **state)
 }
 
 /* A layer that yields needs the matrix that its solution has not. */
-static void a_model_without_a_matrix_is_given_one(void **state)
+TEST(a_model_without_a_matrix_is_given_one)
 {
     static const words w[] = {
         {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
@@ -186,7 +186,7 @@ static void a_model_without_a_matrix_is_given_one(void **state)
 /* ---- Forward and adjoint
  * --------------------------------------------------------------- */
 
-static void forward_is_adjoint(void **state)
+TEST(forward_is_adjoint)
 {
     static const size_t some[] = {1, 2, 6, 8, 12};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
@@ -238,7 +238,7 @@ static void forward_is_adjoint(void **state)
 /* ---- By gap and mu of every element ------------------------------------------------ */
 
 /* All coefficients together are mu, and the gap of a radius is x^2/(2R). */
-static void vectors_add_up(void **state)
+TEST(vectors_add_up)
 {
     static const words some[] = {
         {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola",
@@ -248,7 +248,13 @@ static void vectors_add_up(void **state)
           "load", "500", "mesh", "uniform", "zone", "1.2", ROLLING, "young-b", "70000",
           "force-ratio", "-0.5"}},
         {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03",
-          "mesh", "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}}};
+          "mesh", "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}},
+        /* solved without a matrix */
+        {{"support", "halfplane", "datum",    "100",  "datum-b",
+          "100",     "gap",       "parabola", "load", "500",
+          "mesh",    "uniform",   "zone",     "1.2",  ROLLING,
+          "similar", "yes",       "creep",    "1e-3", "contact-elements",
+          "300"}}};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -306,7 +312,7 @@ static double carter_error(const char *elements, const char *mesh)
     return sqrt(sum / 19.0);
 }
 
-static void carter_slopes(void **state)
+TEST(carter_slopes)
 {
     CHECK_MAX(carter_error("50", "aligned"), 2.45e-2, "50 elements");
     CHECK_MAX(carter_error("100", "aligned"), 1.03e-2, "100 elements");
@@ -317,7 +323,7 @@ static void carter_slopes(void **state)
 
 /* Elements of an automatic zone grow with Hertz's half-width: derivatives are those of
  * solves that choose their own zones. */
-static void equal_elements_move_with_their_zone(void **state)
+TEST(equal_elements_move_with_their_zone)
 {
     static const words moving[] = {
         {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "similar",
@@ -344,7 +350,7 @@ static void equal_elements_move_with_their_zone(void **state)
 
 /* Contacts of half-planes are similar: with a creepage ratio Q is proportional to P, and
  * lengths to the root of P R, so on any elements that move with the contact. */
-static void fitted_elements_move_with_the_edges(void **state)
+TEST(fitted_elements_move_with_the_edges)
 {
     static const char *const meshes[] = {"uniform", "aligned", "fitted"};
     for (int k = 0; k < 6; k++) {
@@ -377,7 +383,7 @@ static void fitted_elements_move_with_the_edges(void **state)
 }
 
 /* On fitted elements by mu, against solves that are fitted anew. */
-static void fitted_slopes_are_those_of_fitted_solves(void **state)
+TEST(fitted_slopes_are_those_of_fitted_solves)
 {
     const words w = {{"support", "halfplane", "load", "500", ROLLING, "mesh", "fitted",
                       "contact-elements", "120", "young-b", "70000", "creep", "1e-3"}};
@@ -410,7 +416,7 @@ static void fitted_slopes_are_those_of_fitted_solves(void **state)
 
 /* The creepage at which an element begins to slip: on one side the slope of one element
  * more in stick. */
-static void both_sides_of_a_border(void **state)
+TEST(both_sides_of_a_border)
 {
     const words w = {{PLANES, ROLLING, "similar", "yes"}};
     rb_message why = {""};
@@ -458,7 +464,7 @@ static void both_sides_of_a_border(void **state)
 }
 
 /* Numbers at an end of their range have the other side alone. */
-static void ends_of_ranges(void **state)
+TEST(ends_of_ranges)
 {
     const words w = {{PLANES, ROLLING, "similar", "yes", "creep", "-5e-4"}};
     rb_message why = {""};
@@ -483,7 +489,7 @@ static void ends_of_ranges(void **state)
 /* ---- Units and refusals
  * ------------------------------------------------------------------ */
 
-static void units_of_derivatives(void **state)
+TEST(units_of_derivatives)
 {
     static const char *const names[] = {"load"};
     rb_message why = {""};
@@ -502,7 +508,7 @@ static void units_of_derivatives(void **state)
     rb_case_free(c);
 }
 
-static void steps_are_refused(void **state)
+TEST(steps_are_refused)
 {
     const words w = {{PLANES, "formulation", "static", "increments", "3"}};
     rb_message why = {""};
@@ -516,21 +522,4 @@ static void steps_are_refused(void **state)
     rb_case_free(c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives_are_those_of_solutions),
-        cmocka_unit_test(a_model_without_a_matrix_is_given_one),
-        cmocka_unit_test(forward_is_adjoint),
-        cmocka_unit_test(vectors_add_up),
-        cmocka_unit_test(carter_slopes),
-        cmocka_unit_test(equal_elements_move_with_their_zone),
-        cmocka_unit_test(fitted_elements_move_with_the_edges),
-        cmocka_unit_test(fitted_slopes_are_those_of_fitted_solves),
-        cmocka_unit_test(both_sides_of_a_border),
-        cmocka_unit_test(ends_of_ranges),
-        cmocka_unit_test(units_of_derivatives),
-        cmocka_unit_test(steps_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -32,7 +32,7 @@ static const words histories[] = {
       "similar", "yes", "history", "tests/data/slopes_history.tsv"}},
 };
 
-static void histories_have_derivatives(void **state)
+TEST(histories_have_derivatives)
 {
     for (size_t h = 0; h < sizeof histories / sizeof *histories; h++) {
         rb_message why = {""};
@@ -49,7 +49,7 @@ static void histories_have_derivatives(void **state)
 }
 
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
-static void single_cases_have_derivatives(void **state)
+TEST(single_cases_have_derivatives)
 {
     static const words cases[] = {
         {{PLANES, "formulation", "steady", "young-b", "70000", "creep", "1e-3", "mesh",
@@ -79,7 +79,7 @@ static void single_cases_have_derivatives(void **state)
     }
 }
 
-static void refusals_of_histories(void **state)
+TEST(refusals_of_histories)
 {
     static const struct {
         words w;
@@ -108,7 +108,7 @@ static void refusals_of_histories(void **state)
 /* ---- Curves ------------------------------------------------------------------------ */
 
 /* Every point has the derivatives of the single case that it is. */
-static void points_are_single_cases(void **state)
+TEST(points_are_single_cases)
 {
     static const struct {
         words w;
@@ -192,13 +192,4 @@ static void points_are_single_cases(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(histories_have_derivatives),
-        cmocka_unit_test(single_cases_have_derivatives),
-        cmocka_unit_test(refusals_of_histories),
-        cmocka_unit_test(points_are_single_cases),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

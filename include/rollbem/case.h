@@ -223,7 +223,7 @@ typedef struct {
     int degenerate;                   /* number of elements on the border of two zones */
     rb_sensitivity_elements elements; /* whether elements move when an input changes */
     int n_x; /* number of elements; 0: over_x was not computed (law that depends on the
-                state, or no matrix) */
+                state, an element on a border, or RB_ROLLING_LARGE elements and more) */
     double
         *over_x; /* for every rb_case_over_x in turn n_x derivatives with respect to the
                     gap at each element [unit/length], then n_x with respect to its

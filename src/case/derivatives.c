@@ -128,22 +128,34 @@ const char *const rb_case_over_x_names[RB_CASE_OVER_X_N] = {
     [RB_CASE_OVER_X_APPROACH] = "approach",
     [RB_CASE_OVER_X_CREEPAGE] = "creepage"};
 
-/* One adjoint solve each (D3). */
+/* One adjoint solve each (D3), by the matrix of the model or, if it was solved without
+ * one, of a copy. */
 static rb_status differentiate_over_x(const rb_sensitivity *s,
                                       const rb_rolling_model *model,
                                       rb_case_derivatives *all, rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
-    const int n = p->n;
+    const int n = p->n, has_matrix = model->bodies.F != NULL;
+    rb_rolling_model copy = {.mesh = {.n = 0}};
+    rb_sensitivity *of_copy = NULL;
     rb_contact_state weight = {0};
     rb_sensitivity_rate adjoint = {0};
     rb_status status = RB_OK;
 
-    if (!model->bodies.F || rb_rolling_law_depends_on_state(model->rc) || all->degenerate)
+    if ((!has_matrix && n >= RB_ROLLING_LARGE) ||
+        rb_rolling_law_depends_on_state(model->rc) || all->degenerate)
         return RB_OK;
-    all->over_x = rb_alloc((size_t)n, 2 * RB_CASE_OVER_X_N);
-    status = all->over_x ? rb_contact_state_alloc(n, &weight) : RB_ENOMEM;
+    if (!has_matrix) {
+        status = rb_rolling_variant_with_matrix(model, &copy, why);
+        if (status == RB_OK)
+            status = rb_sensitivity_create(&copy, 1, &of_copy, why);
+        s = of_copy;
+    }
+    if (status == RB_OK && !(all->over_x = rb_alloc((size_t)n, 2 * RB_CASE_OVER_X_N)))
+        status = RB_ENOMEM;
+    if (status == RB_OK)
+        status = rb_contact_state_alloc(n, &weight);
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(n, &adjoint);
     for (int k = 0; k < RB_CASE_OVER_X_N && status == RB_OK; k++) {
@@ -175,6 +187,8 @@ static rb_status differentiate_over_x(const rb_sensitivity *s,
     all->n_x = status == RB_OK ? n : 0;
     rb_sensitivity_rate_free(&adjoint);
     rb_contact_state_free(&weight);
+    rb_sensitivity_free(of_copy);
+    rb_rolling_model_free(&copy);
     return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives")
                                : RB_OK;
 }
