@@ -19,11 +19,10 @@ typedef struct {
 static const ability abilities[] = {
     {"none", {NULL}},
     {"friction falls with slip",
-     {"friction-law", "exponential", "mu-fall", ".1", "slip-scale", "2", "speed",
-      "1000"}},
+     {"friction-law", "exponential", "mu-fall", ".1", "slip-scale", "2", "speed", "1000"}},
     {"... and with memory",
-     {"friction-law", "exponential", "mu-fall", ".1", "slip-scale", "2", "speed", "1000",
-      "memory", ".05"}},
+     {"friction-law", "exponential", "mu-fall", ".1", "slip-scale", "2", "speed", "1000", "memory",
+      ".05"}},
     {"friction falls by heat, .1", {HEAT, "-.1,0,.01"}},
     {"friction falls by heat, .2", {HEAT, "-.2,0,.01"}},
     {"normal interlayer", {"interlayer-normal", "1e-6"}},
@@ -34,11 +33,10 @@ enum { ABILITIES = sizeof abilities / sizeof *abilities, MOST_SIZES = 6 };
 
 static const struct {
     const char *name, *word[6];
-} kinds[] = {
-    {"similar, aligned", {NULL}},
-    {"similar, equal", {"mesh", "uniform"}},
-    {"unlike, aligned", {"young-b", "70000", "poisson-b", ".3"}},
-    {"unlike, equal", {"young-b", "70000", "poisson-b", ".3", "mesh", "uniform"}}};
+} kinds[] = {{"similar, aligned", {NULL}},
+             {"similar, equal", {"mesh", "uniform"}},
+             {"unlike, aligned", {"young-b", "70000", "poisson-b", ".3"}},
+             {"unlike, equal", {"young-b", "70000", "poisson-b", ".3", "mesh", "uniform"}}};
 
 static rb_status set_words(rb_case *c, int most, const char *const *word, rb_message *why)
 {
@@ -80,8 +78,7 @@ static double seconds(int n, int kind, const ability *with)
         rb_case *c = case_with(n, kind, with, &why);
         rb_case_result result = {0};
         const double start = processor_seconds();
-        if (!c ||
-            rb_case_solve(rb_case_resolved(c), NULL, NULL, &result, &why) != RB_OK) {
+        if (!c || rb_case_solve(rb_case_resolved(c), NULL, NULL, &result, &why) != RB_OK) {
             fprintf(stderr, "bench_abilities: %s\n", why.text);
             exit(70);
         }

@@ -28,8 +28,7 @@ typedef void fill_columns(const rb_bem_mesh *mesh, int j, const rb_points *point
 static void closed_form(const rb_column_variant *variant, const rb_bem_mesh *mesh, int j,
                         const rb_points *points, double *const out[4])
 {
-    const rb_element e =
-        rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], 1.0);
+    const rb_element e = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], 1.0);
     const rb_constants k = rb_constants_make(&e, material);
     variant->fill(&k, &e, j, points, out);
 }
@@ -67,18 +66,15 @@ static void scalar_closed_form(const rb_bem_mesh *mesh, int j, const rb_points *
 {
     const double nu = material.poisson, C = 1 / (8 * M_PI * material.shear * (1 - nu)),
                  D = -1 / (4 * M_PI * (1 - nu)), kap = 3 - 4 * nu;
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
-                 h = hypot(dx, dy), tx = dx / h, ty = dy / h, a = 0.5 * h;
-    const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
-                 my = 0.5 * (mesh->y0[j] + mesh->y1[j]);
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j], h = hypot(dx, dy),
+                 tx = dx / h, ty = dy / h, a = 0.5 * h;
+    const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]), my = 0.5 * (mesh->y0[j] + mesh->y1[j]);
     const double cc = tx * tx - ty * ty, ss = 2 * tx * ty;
     for (int i = 0; i < points->n; i++) {
         const double rx = mx - points->x[i], ry = my - points->y[i];
         const double X = rx * tx + ry * ty, d = rx * ty - ry * tx, x1 = X - a, x2 = X + a;
-        const double q1 = x1 * x1 + d * d, q2 = x2 * x2 + d * d, l1 = log(q1),
-                     l2 = log(q2);
-        const double Th = i == j ? 0.0 : atan2(d, x1) - atan2(d, x2),
-                     Lam = 0.5 * (l2 - l1);
+        const double q1 = x1 * x1 + d * d, q2 = x2 * x2 + d * d, l1 = log(q1), l2 = log(q2);
+        const double Th = i == j ? 0.0 : atan2(d, x1) - atan2(d, x2), Lam = 0.5 * (l2 - l1);
         const double L = 0.5 * (x2 * l2 - x1 * l1) - 2 * a + d * Th;
         const double dQ = d * (x2 / q2 - x1 / q1), dP = d * d * (1 / q2 - 1 / q1);
         const double m = 2 * (1 - nu) * Th, k = (1 - 2 * nu) * Lam;
@@ -119,8 +115,8 @@ static gauss_element gauss_element_make(const rb_bem_mesh *mesh, int j)
     return g;
 }
 
-RB_INLINE void gauss_add(const gauss_element *g, int k, double px, double py,
-                         int own_logarithm, rb_influence *to)
+RB_INLINE void gauss_add(const gauss_element *g, int k, double px, double py, int own_logarithm,
+                         rb_influence *to)
 {
     const double rx = g->x[k] - px, ry = g->y[k] - py, rr = rx * rx + ry * ry;
     const double over = 1 / rr, wt = g->weight[k] * g->D, wu = g->weight[k] * g->C;
@@ -151,8 +147,8 @@ static void send(double *to, const double *from, int count)
 }
 
 /* The inner loop is the compiler's to vectorise. */
-RB_INLINE void gauss(const rb_bem_mesh *mesh, int j, const rb_points *points,
-                     int own_logarithm, double *const out[4])
+RB_INLINE void gauss(const rb_bem_mesh *mesh, int j, const rb_points *points, int own_logarithm,
+                     double *const out[4])
 {
     enum { block = 32 }; /* divides n */
     const gauss_element g = gauss_element_make(mesh, j);
@@ -188,8 +184,7 @@ static void gauss_libm(const rb_bem_mesh *mesh, int j, const rb_points *points,
 #elif defined(__clang__)
 #define WIDEST __attribute__((target("avx512f,avx512dq,avx512vl")))
 #else
-#define WIDEST                                                                           \
-    __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
+#define WIDEST __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
 
 WIDEST static void gauss_wide(const rb_bem_mesh *mesh, int j, const rb_points *points,
@@ -198,8 +193,7 @@ WIDEST static void gauss_wide(const rb_bem_mesh *mesh, int j, const rb_points *p
     gauss(mesh, j, points, 1, out);
 }
 
-static void gauss_4(const rb_bem_mesh *mesh, int j, const rb_points *points,
-                    double *const out[4])
+static void gauss_4(const rb_bem_mesh *mesh, int j, const rb_points *points, double *const out[4])
 {
     if (strcmp(rb_column_variant_get(0)->name, "AVX-512") == 0)
         gauss_wide(mesh, j, points, out);
@@ -249,8 +243,7 @@ static rb_bem_mesh circle(int elements)
     if (rb_bem_mesh_alloc(elements, &mesh) != RB_OK)
         exit(70);
     for (int j = 0; j < elements; j++) {
-        const double a = 2 * M_PI * j / elements,
-                     b = 2 * M_PI * ((j + 1) % elements) / elements;
+        const double a = 2 * M_PI * j / elements, b = 2 * M_PI * ((j + 1) % elements) / elements;
         mesh.x0[j] = cos(a);
         mesh.y0[j] = sin(a);
         mesh.x1[j] = cos(b);
@@ -260,8 +253,8 @@ static rb_bem_mesh circle(int elements)
 }
 
 /* ns per pair of element and point, into A with room for both matrices */
-static double once(fill_columns *fill, const rb_bem_mesh *mesh, const rb_points *points,
-                   double *A, int with_G)
+static double once(fill_columns *fill, const rb_bem_mesh *mesh, const rb_points *points, double *A,
+                   int with_G)
 {
     const size_t ld = 2 * (size_t)mesh->n;
     const double start = processor_seconds();
@@ -288,16 +281,15 @@ static void show(const char *what, double value, const char *unit, const char *g
 
 static void assembly(void)
 {
-    way ways[] = {
-        {"streaming stores alone, H", stores_only, 0, {0}, 0},
-        {"streaming stores alone, H and G", stores_only, 1, {0}, 0},
-        {"closed form, best, H", best_variant, 0, {0}, 0},
-        {"closed form, best, H and G", best_variant, 1, {0}, 0},
-        {"closed form, AVX2, H and G", avx2_variant, 1, {0}, 0},
-        {"closed form, plain, H and G", plain_variant, 1, {0}, 0},
-        {"closed form, scalar with libm, H and G", scalar_closed_form, 1, {0}, 0},
-        {"Gauss, 4 points, vectorised with our logarithm", gauss_4, 1, {0}, 0},
-        {"Gauss, 4 points, libm's logarithm", gauss_libm, 1, {0}, 0}};
+    way ways[] = {{"streaming stores alone, H", stores_only, 0, {0}, 0},
+                  {"streaming stores alone, H and G", stores_only, 1, {0}, 0},
+                  {"closed form, best, H", best_variant, 0, {0}, 0},
+                  {"closed form, best, H and G", best_variant, 1, {0}, 0},
+                  {"closed form, AVX2, H and G", avx2_variant, 1, {0}, 0},
+                  {"closed form, plain, H and G", plain_variant, 1, {0}, 0},
+                  {"closed form, scalar with libm, H and G", scalar_closed_form, 1, {0}, 0},
+                  {"Gauss, 4 points, vectorised with our logarithm", gauss_4, 1, {0}, 0},
+                  {"Gauss, 4 points, libm's logarithm", gauss_libm, 1, {0}, 0}};
     enum { count = sizeof ways / sizeof *ways };
     rb_bem_mesh mesh = circle(n);
     double *x = rb_alloc(n, 2), *y = x + n, *A = rb_large_alloc(2 * n, 4 * n);
@@ -314,8 +306,7 @@ static void assembly(void)
     for (int round = 0; round < rounds; round++)
         for (int w = 0; w < count; w++)
             ways[w].ns[round] = once(ways[w].fill, &mesh, &points, A, ways[w].with_G);
-    printf("assembly, %d elements, one thread, %s, ns per pair\n", n,
-           rb_bem_vector_name());
+    printf("assembly, %d elements, one thread, %s, ns per pair\n", n, rb_bem_vector_name());
     for (int w = 0; w < count; w++) {
         ways[w].middle = median(rounds, ways[w].ns);
         show(ways[w].name, ways[w].middle, "ns", "");
@@ -358,10 +349,8 @@ static double lu_alone(int order)
 
 static rb_bem_mesh wheel(int elements, int n_c)
 {
-    const rb_bem_cylinder cylinder = {.radius = 1.0,
-                                      .support = RB_BEM_ARC,
-                                      .arc = 0.5,
-                                      .outer_elements = elements - n_c - 1};
+    const rb_bem_cylinder cylinder = {
+        .radius = 1.0, .support = RB_BEM_ARC, .arc = 0.5, .outer_elements = elements - n_c - 1};
     double *ends = rb_alloc((size_t)n_c + 2, 1);
     rb_bem_mesh mesh;
     for (int i = 0; i < n_c + 2; i++)
@@ -393,14 +382,12 @@ static void pipeline(int elements, int repeat)
         rb_bem_flexibility_free(&f);
         rb_bem_system_free(system);
     }
-    printf("mesh to flexibility, dense, n = %d, n_c = %d, all threads\n", mesh.n,
-           mesh.contact_n);
+    printf("mesh to flexibility, dense, n = %d, n_c = %d, all threads\n", mesh.n, mesh.contact_n);
     show("assembly", 1e3 * median(repeat, assemble), "ms", "");
     show("LU and condition", 1e3 * median(repeat, factor), "ms", "");
     show("condensation", 1e3 * median(repeat, condense), "ms", "");
     show("dgetrf alone", 1e3 * median(repeat, alone), "ms", "");
-    show("all / dgetrf alone", median(repeat, ratio), "times",
-         elements >= 4000 ? "<= 1.15" : "");
+    show("all / dgetrf alone", median(repeat, ratio), "times", elements >= 4000 ? "<= 1.15" : "");
     rb_bem_mesh_free(&mesh);
 }
 

@@ -60,14 +60,13 @@ int main(int argc, char **argv)
             if (run > 2 && solve > 0.1)
                 continue;
             start = processor_seconds();
-            if (rb_friction_solve("auto", &local, NULL,
-                                  &(rb_friction_solution){r, r + m, NULL}, NULL) != RB_OK)
+            if (rb_friction_solve("auto", &local, NULL, &(rb_friction_solution){r, r + m, NULL},
+                                  NULL) != RB_OK)
                 return 1;
             solve = fmin(solve, processor_seconds() - start);
         }
         printf("| %s | %d | %d | %s | %s | %.2g |\n", packings[k].name, global.contacts,
-               global.dofs, row_seconds(condense).text, row_seconds(solve).text,
-               condense / solve);
+               global.dofs, row_seconds(condense).text, row_seconds(solve).text, condense / solve);
         fflush(stdout);
         worst = fmax(worst, condense / solve);
         free(r);

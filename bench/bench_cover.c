@@ -66,9 +66,8 @@ int main(int argc, char **argv)
     static const struct {
         rb_rolling_mesh_kind mesh;
         const char *name;
-    } meshes[] = {{RB_MESH_UNIFORM, "equal"},
-                  {RB_MESH_ALIGNED, "aligned"},
-                  {RB_MESH_FITTED, "fitted"}};
+    } meshes[] = {
+        {RB_MESH_UNIFORM, "equal"}, {RB_MESH_ALIGNED, "aligned"}, {RB_MESH_FITTED, "fitted"}};
     const int count = argc > 1 ? argc - 1 : 4;
 
     fast_blas(argv);
@@ -85,16 +84,13 @@ int main(int argc, char **argv)
                 spent[how] = seconds(n, meshes[m].mesh, (way)how, &creepage[how]);
             printf("| %s | %s | ", row_count(n).text, meshes[m].name);
             if (n > 960)
-                printf("| %s | %s | %.1f | | | %.6f |\n",
-                       row_seconds(spent[BY_WAVES]).text,
-                       row_seconds(spent[HALFPLANE]).text,
-                       spent[BY_WAVES] / spent[HALFPLANE], creepage[BY_WAVES]);
+                printf("| %s | %s | %.1f | | | %.6f |\n", row_seconds(spent[BY_WAVES]).text,
+                       row_seconds(spent[HALFPLANE]).text, spent[BY_WAVES] / spent[HALFPLANE],
+                       creepage[BY_WAVES]);
             else
                 printf("%s | %s | %s | %.1f | %.1f | %.6f | %.6f |\n",
-                       row_seconds(spent[BY_ELEMENTS]).text,
-                       row_seconds(spent[BY_WAVES]).text,
-                       row_seconds(spent[HALFPLANE]).text,
-                       spent[BY_WAVES] / spent[HALFPLANE],
+                       row_seconds(spent[BY_ELEMENTS]).text, row_seconds(spent[BY_WAVES]).text,
+                       row_seconds(spent[HALFPLANE]).text, spent[BY_WAVES] / spent[HALFPLANE],
                        spent[BY_ELEMENTS] / spent[BY_WAVES], creepage[BY_ELEMENTS],
                        creepage[BY_WAVES]);
             fflush(stdout);

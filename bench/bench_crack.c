@@ -44,9 +44,9 @@ int main(int argc, char **argv)
                                           .fluid = (rb_crack_fluid)fluid};
         const double before = rb_seconds();
         s = rb_crack_pass(crack, &passage, &h, &why);
-        printf("%d elements, %d positions, %s: matrices %.4f s, pass %.4f s\n",
-               shape.elements, POSITIONS, fluid == RB_CRACK_DRY ? "dry" : "trapped fluid",
-               assembled - start, rb_seconds() - before);
+        printf("%d elements, %d positions, %s: matrices %.4f s, pass %.4f s\n", shape.elements,
+               POSITIONS, fluid == RB_CRACK_DRY ? "dry" : "trapped fluid", assembled - start,
+               rb_seconds() - before);
         rb_crack_history_free(&h);
     }
     rb_crack_free(crack);

@@ -38,8 +38,8 @@ static double curve_seconds(const rb_rolling_case *rc, double *force)
         rb_rolling_curve curve;
         rb_message why;
         const double start = processor_seconds();
-        if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.0015, 1.5, POINTS},
-                                   &curve, &why) != RB_OK)
+        if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.0015, 1.5, POINTS}, &curve, &why) !=
+            RB_OK)
             stop(&why);
         best = fmin(best, processor_seconds() - start);
         for (int i = 0; i < SAMPLES; i++)
@@ -49,8 +49,7 @@ static double curve_seconds(const rb_rolling_case *rc, double *force)
     return best;
 }
 
-static double separate_seconds(const rb_rolling_case *rc, const double *force,
-                               double *difference)
+static double separate_seconds(const rb_rolling_case *rc, const double *force, double *difference)
 {
     const double start = processor_seconds();
     *difference = 0.0;
@@ -77,14 +76,13 @@ int main(int argc, char **argv)
            POINTS);
     for (int k = 0; k < 4; k++) {
         const int similar = k % 2 == 0, fitted = k / 2;
-        const rb_rolling_case rc =
-            steady(similar, fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM);
+        const rb_rolling_case rc = steady(similar, fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM);
         double force[SAMPLES], difference;
         const double together = curve_seconds(&rc, force);
         const double apart = separate_seconds(&rc, force, &difference);
         printf("| %s, %s | %s | %s | %.0f | %s |\n", similar ? "similar" : "dissimilar",
-               fitted ? "fitted" : "equal", row_seconds(together).text,
-               row_seconds(apart).text, apart / together, row_power(1, difference).text);
+               fitted ? "fitted" : "equal", row_seconds(together).text, row_seconds(apart).text,
+               apart / together, row_power(1, difference).text);
     }
     return 0;
 }

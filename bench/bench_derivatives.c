@@ -15,10 +15,9 @@ static double seconds(void)
 
 static int measure(const char *name, const char *young_b)
 {
-    static const char *const words[][2] = {
-        {"support", "halfplane"},    {"load", "500"},
-        {"formulation", "steady"},   {"mesh", "fitted"},
-        {"contact-elements", "200"}, {"creep-ratio", "0.5"}};
+    static const char *const words[][2] = {{"support", "halfplane"},    {"load", "500"},
+                                           {"formulation", "steady"},   {"mesh", "fitted"},
+                                           {"contact-elements", "200"}, {"creep-ratio", "0.5"}};
     double solve = 1e30, derive = 1e30;
     int inputs = 0;
     rb_message why = {""};

@@ -11,8 +11,8 @@
 #include <time.h>
 
 enum { POINTS = 24, NUMBERS = 5 };
-static const char *const names[NUMBERS] = {"mu", "mu-fall", "slip-scale",
-                                           "interlayer-tangential", "creep-offset"};
+static const char *const names[NUMBERS] = {"mu", "mu-fall", "slip-scale", "interlayer-tangential",
+                                           "creep-offset"};
 static const double truth[NUMBERS] = {0.24, 0.16, 1.5, 0.1, 2e-5}, NOISE = 0.004;
 static rb_message why;
 
@@ -75,16 +75,15 @@ int main(int argc, char **argv)
     rb_blas_threads(1);
     if (argc > 2)
         state ^= strtoull(argv[2], NULL, 10) * 0x9E3779B97F4A7C15ULL;
-    for (int k = 0; argc > 2 && k < 100;
-         k++) /* the first numbers follow the seed closely */
+    for (int k = 0; argc > 2 && k < 100; k++) /* the first numbers follow the seed closely */
         normal();
     for (int k = 0; k < POINTS; k++) {
         creep[k] = 1e-3 * (k < 12 ? -0.05 * (k + 1) : -0.7 - 5.3 * (k - 12) / 11.0);
         exact[k] = force_at(creep[k] + truth[NUMBERS - 1]);
     }
     for (int set = 0; set < sets; set++) {
-        const rb_case_data data = {
-            POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, force, NULL, NULL, NULL, NULL};
+        const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, force, NULL, NULL,
+                                   NULL,   NULL};
         rb_case_fit fit = {.n = NUMBERS, .level = 0.95};
         rb_case *c = new_case(RB_CASE_CURVE);
         for (int k = 0; k < POINTS; k++)

@@ -109,8 +109,8 @@ static double best_seconds(int (*run)(void *context), void *context)
 
 /* Text files as Siconos itself stores them; everything else, and what Lemke needs, dense
  * or sparse from our W. */
-static FrictionContactProblem *their_problem(const char *path,
-                                             const rb_friction_problem *p, int dense)
+static FrictionContactProblem *their_problem(const char *path, const rb_friction_problem *p,
+                                             int dense)
 {
     const int m = p->dimension * p->contacts;
     if (!dense && strstr(path, ".dat"))
@@ -125,8 +125,7 @@ static FrictionContactProblem *their_problem(const char *path,
         else
             for (int k = p->Ws.p[j]; k < p->Ws.p[j + 1]; k++)
                 NM_zentry(M, p->Ws.i[k], j, p->Ws.x[k], 0.0);
-    return frictionContactProblem_new_with_data(p->dimension, p->contacts, M, p->q,
-                                                p->mu);
+    return frictionContactProblem_new_with_data(p->dimension, p->contacts, M, p->q, p->mu);
 }
 
 typedef struct {
@@ -150,16 +149,14 @@ static int their_run(void *context)
 }
 
 /* In the child: seconds and r go to the pipe. */
-static void child(const char *path, const rb_friction_problem *p, int id, double tol,
-                  int out)
+static void child(const char *path, const rb_friction_problem *p, int id, double tol, int out)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
     FrictionContactProblem *f = their_problem(path, p, id == SICONOS_FRICTION_2D_LEMKE);
     SolverOptions *options = solver_options_create(id);
     options->dparam[SICONOS_DPARAM_TOL] = tol;
-    options->iparam[SICONOS_IPARAM_MAX_ITER] =
-        id == SICONOS_FRICTION_3D_NSN_AC ? 200 : 100000;
+    options->iparam[SICONOS_IPARAM_MAX_ITER] = id == SICONOS_FRICTION_3D_NSN_AC ? 200 : 100000;
     if (id == SICONOS_FRICTION_3D_NSN_AC)
         options->iparam[SICONOS_FRICTION_3D_NSN_LINESEARCH] =
             SICONOS_FRICTION_3D_NSN_LINESEARCH_GOLDSTEINPRICE;
@@ -183,8 +180,7 @@ static int read_all(int in, void *to, size_t size)
 }
 
 /* Seconds of a run that meets (13) at tol, else INFINITY. */
-static double their_seconds(const char *path, const rb_friction_problem *p, int id,
-                            double tol)
+static double their_seconds(const char *path, const rb_friction_problem *p, int id, double tol)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 1), seconds = INFINITY;
@@ -204,14 +200,13 @@ static double their_seconds(const char *path, const rb_friction_problem *p, int 
         }
         close(ends[1]);
         double taken;
-        const int answered = read_all(ends[0], &taken, sizeof taken) &&
-                             read_all(ends[0], r, m * sizeof *r);
+        const int answered =
+            read_all(ends[0], &taken, sizeof taken) && read_all(ends[0], r, m * sizeof *r);
         close(ends[0]);
         waitpid(pid, NULL, 0);
         if (!answered)
             break;
-        if (rb_friction_error(p, r, NULL, NULL, &error) == RB_OK &&
-            error.residual <= tol) {
+        if (rb_friction_error(p, r, NULL, NULL, &error) == RB_OK && error.residual <= tol) {
             seconds = taken;
             break;
         }
@@ -232,14 +227,12 @@ typedef struct {
 static int our_run(void *context)
 {
     const our_call *c = context;
-    return (c->handle
-                ? rb_friction_handle_solve(c->handle, "auto", &c->options, &c->at, NULL)
-                : rb_friction_solve("auto", c->problem, &c->options, &c->at, NULL)) ==
-           RB_OK;
+    return (c->handle ? rb_friction_handle_solve(c->handle, "auto", &c->options, &c->at, NULL)
+                      : rb_friction_solve("auto", c->problem, &c->options, &c->at, NULL)) == RB_OK;
 }
 
-static double our_seconds(const rb_friction_problem *p, rb_friction_handle *handle,
-                          double tol, rb_friction_info *info)
+static double our_seconds(const rb_friction_problem *p, rb_friction_handle *handle, double tol,
+                          rb_friction_info *info)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 3);
@@ -326,18 +319,16 @@ static void compare_file(const char *name, const char *path, const rb_friction_p
 
 static void conclude(tally *t)
 {
-    printf("solved: rollbem auto %d of %d, any Siconos solver %d\n", t->ours, FILES,
-           t->any);
+    printf("solved: rollbem auto %d of %d, any Siconos solver %d\n", t->ours, FILES, t->any);
     for (int flat = 0; flat < 2; flat++)
         for (int s = 0; s < THEIRS; s++)
             printf("%-11s solves %2d; Siconos / rollbem, median over files both solve: "
                    "%.1f\n",
                    theirs[flat][s].name, t->solved[flat][s],
                    median(t->n[flat][s], t->ratio[flat][s]));
-    printf(
-        "the fastest Siconos solver of each file / rollbem auto, median %.1f, geometric "
-        "mean %.1f\n\n",
-        median(t->best_n, t->best), geometric_mean(t->best_n, t->best));
+    printf("the fastest Siconos solver of each file / rollbem auto, median %.1f, geometric "
+           "mean %.1f\n\n",
+           median(t->best_n, t->best), geometric_mean(t->best_n, t->best));
 }
 
 /* An argument: only files whose names have it in them. */

@@ -37,10 +37,8 @@ static void stop(const rb_message *why)
 /* Contact elements of 1/n of the circumference, so that no others are smaller. */
 static rb_bem_mesh wheel(int n)
 {
-    const rb_bem_cylinder cylinder = {.radius = 50.0,
-                                      .support = RB_BEM_HUB,
-                                      .hub_ratio = 0.3,
-                                      .outer_elements = 3 * n / 4};
+    const rb_bem_cylinder cylinder = {
+        .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.3, .outer_elements = 3 * n / 4};
     double ends[CONTACT + 2];
     rb_bem_mesh mesh;
     rb_message why;
@@ -123,10 +121,9 @@ int main(int argc, char **argv)
         rb_bem_mesh_free(&mesh);
         if (n <= dense_to) {
             run(n, 1, &dense);
-            printf("%s | %s | %.0f | %s | %.0f MB, %.0f MB |\n",
-                   row_seconds(dense.seconds).text, row_seconds(h.seconds).text,
-                   dense.seconds / h.seconds, row_power(1, difference(&h, &dense)).text,
-                   h.megabytes, dense.megabytes);
+            printf("%s | %s | %.0f | %s | %.0f MB, %.0f MB |\n", row_seconds(dense.seconds).text,
+                   row_seconds(h.seconds).text, dense.seconds / h.seconds,
+                   row_power(1, difference(&h, &dense)).text, h.megabytes, dense.megabytes);
         } else {
             printf("| %s | | | %.0f MB |\n", row_seconds(h.seconds).text, h.megabytes);
         }

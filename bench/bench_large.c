@@ -59,10 +59,9 @@ static double solve_seconds(int n, int shown)
     const double seconds = solution_seconds(&rc, &s);
 
     if (shown)
-        printf("| %s%s | %s | %d | %s | %s | %s |\n", row_count(n).text,
-               s.large ? "" : " (matrix)", row_count(s.contact).text, s.iterations,
-               row_seconds(seconds).text, row_power(1, s.residual).text,
-               row_power(2, fabs(-s.force_ratio / 0.64 - 1.0)).text);
+        printf("| %s%s | %s | %d | %s | %s | %s |\n", row_count(n).text, s.large ? "" : " (matrix)",
+               row_count(s.contact).text, s.iterations, row_seconds(seconds).text,
+               row_power(1, s.residual).text, row_power(2, fabs(-s.force_ratio / 0.64 - 1.0)).text);
     fflush(stdout);
     rb_rolling_solution_free(&s);
     return seconds;
@@ -87,9 +86,8 @@ static void both_meshes(int count, const int *n)
                 stop("the edges did not come to rest");
             rb_rolling_solution_free(&s);
         }
-        printf("| %s | %s | %s | %.1f | %s |\n", row_count(n[k]).text,
-               row_seconds(seconds[1]).text, row_seconds(seconds[0]).text,
-               seconds[1] / seconds[0], row_power(1, error).text);
+        printf("| %s | %s | %s | %.1f | %s |\n", row_count(n[k]).text, row_seconds(seconds[1]).text,
+               row_seconds(seconds[0]).text, seconds[1] / seconds[0], row_power(1, error).text);
         fflush(stdout);
     }
 }
@@ -116,8 +114,7 @@ static void apply_both(int n)
     const rb_rolling_case rc = carter(n);
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
-    double t[2][REPEATS], *r = rb_alloc(2 * (size_t)n, 1),
-                          *w = rb_alloc(2 * (size_t)n + 2, 1);
+    double t[2][REPEATS], *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)n + 2, 1);
 
     if (!r || !w || rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL) != RB_OK)
         stop("no memory");
@@ -139,8 +136,7 @@ static void apply_both(int n)
     printf("\n| | matrix | transforms | ratio | difference of q/p0 "
            "|\n|---|---|---|---|---|\n"
            "| one product, %s elements | %s | %s | %.0f | |\n",
-           row_count(n).text, row_seconds(slow).text, row_seconds(fast).text,
-           slow / fast);
+           row_count(n).text, row_seconds(slow).text, row_seconds(fast).text, slow / fast);
     free(r);
     free(w);
     rb_rolling_mesh_free(&mesh);
@@ -167,8 +163,7 @@ static void solve_both(int n, int unlike)
     dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     start = processor_seconds();
     if (rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, NULL) != RB_OK ||
-        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) !=
-            RB_OK ||
+        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) != RB_OK ||
         rb_contact_state_alloc(n, &state) != RB_OK)
         stop("no memory");
     dense.contact.solver = RB_SOLVER_NEWTON;
@@ -177,8 +172,7 @@ static void solve_both(int n, int unlike)
     const double slow = processor_seconds() - start;
     double difference = 0.0;
     for (int i = 0; i < n; i++)
-        difference =
-            fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
+        difference = fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
     printf("| one solution, %s bodies, %s elements | %s | %s | %.0f | %s |\n",
            unlike ? "unlike" : "similar", row_count(n).text, row_seconds(slow).text,
            row_seconds(fast).text, slow / fast, row_power(1, difference).text);

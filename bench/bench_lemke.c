@@ -83,9 +83,8 @@ static flexibility make_flexibility(int n)
     flexibility f = {n, 2.6 / n, need(n + 1, n), need(n + 1, n)};
     for (int j = 0; j < n; j++)
         for (int i = 0; i <= n; i++)
-            strip(midpoint(&f, i), midpoint(&f, j) - 0.5 * f.h,
-                  midpoint(&f, j) + 0.5 * f.h, f.Fn + i + (size_t)j * (n + 1),
-                  f.Fc + i + (size_t)j * (n + 1));
+            strip(midpoint(&f, i), midpoint(&f, j) - 0.5 * f.h, midpoint(&f, j) + 0.5 * f.h,
+                  f.Fn + i + (size_t)j * (n + 1), f.Fc + i + (size_t)j * (n + 1));
     return f;
 }
 
@@ -128,8 +127,8 @@ static problem make_kwak(int nc, double mu, double creep_ratio)
     problem p = {n, need(n, n), need(n, 1)};
     double *X = need(nc, 2 * nc + 1), *Y = need(nc, 2 * nc + 1);
     eliminate_tractions(&f, creep_ratio * mu, X);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, nc, 2 * nc + 1, nc, 1.0, f.Fc,
-                m, X, nc, 0.0, Y, nc);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, nc, 2 * nc + 1, nc, 1.0, f.Fc, m, X, nc,
+                0.0, Y, nc);
     for (int j = 0; j < nc; j++)
         for (int i = 0; i < nc; i++) {
             const size_t at = i + (size_t)j * nc, inv = at + (size_t)nc * nc;
@@ -281,8 +280,7 @@ static double siconos(const problem *p, int *pivots, double *residual)
 {
     double *M = need(p->n, p->n), *z = need(p->n, 1), *w = need(p->n, 1);
     memcpy(M, p->M, (size_t)p->n * (size_t)p->n * sizeof *M);
-    LinearComplementarityProblem lcp = {
-        p->n, NM_create_from_data(NM_DENSE, p->n, p->n, M), p->q};
+    LinearComplementarityProblem lcp = {p->n, NM_create_from_data(NM_DENSE, p->n, p->n, M), p->q};
     SolverOptions *options = solver_options_create(SICONOS_LCP_LEMKE);
     options->iparam[SICONOS_IPARAM_MAX_ITER] = 100 * p->n;
     int info = 0;
@@ -312,8 +310,7 @@ static double delayed(const problem *p, int runs, rb_lcp_info *info)
     double *z = need(p->n, 1), *seconds = need(runs, 1);
     for (int k = 0; k < runs; k++) {
         const double start = cpu_seconds();
-        const rb_status s =
-            rb_lcp_lemke(&(rb_lcp_problem){p->n, p->M, p->n, p->q}, NULL, z, info);
+        const rb_status s = rb_lcp_lemke(&(rb_lcp_problem){p->n, p->M, p->n, p->q}, NULL, z, info);
         seconds[k] = cpu_seconds() - start;
         if (s != RB_OK)
             fprintf(stderr, "bench_lemke: %s: %s\n", rb_status_text(s), info->msg.text);
@@ -327,8 +324,8 @@ static double delayed(const problem *p, int runs, rb_lcp_info *info)
 
 static void line(const char *name, double seconds, int pivots, double reference)
 {
-    printf("  %-26s %6d pivots %9.1f us/pivot  ratio %6.1f\n", name, pivots,
-           1e6 * seconds / pivots, seconds / pivots / reference);
+    printf("  %-26s %6d pivots %9.1f us/pivot  ratio %6.1f\n", name, pivots, 1e6 * seconds / pivots,
+           seconds / pivots / reference);
 }
 
 static double without_inverse(int nc, int runs)
@@ -360,8 +357,8 @@ static void compare(int nc, int runs)
     int other;
     const double ours = delayed(&p, runs, &info), plain = rank_one(&p, &way, &other);
     const double per_pivot = ours / info.iters;
-    printf("Kwak's form, n_c = %d, order %d: solved in %.3f s, residual %.1e\n", nc, p.n,
-           ours, info.res);
+    printf("Kwak's form, n_c = %d, order %d: solved in %.3f s, residual %.1e\n", nc, p.n, ours,
+           info.res);
     line("delayed update (rollbem)", ours, info.iters, per_pivot);
     line("rank-1 update, same pivots", plain, way.count, per_pivot);
     if (other)
@@ -369,8 +366,7 @@ static void compare(int nc, int runs)
 #ifdef HAVE_SICONOS
     int pivots;
     double residual;
-    const double pivoted = without_inverse(nc, runs),
-                 theirs = siconos(&p, &pivots, &residual);
+    const double pivoted = without_inverse(nc, runs), theirs = siconos(&p, &pivots, &residual);
     line("Siconos lcp_lexicolemke", theirs, pivots, per_pivot);
     printf("  whole solve: rollbem %.4g s, its pivoted form %.4g s, Siconos %.4g s: %.1f "
            "and "
@@ -424,10 +420,9 @@ static timing own(const char *name, const lcp_family *f, const double *dense)
         rb_lcp_info info = {0};
         const double start = cpu_seconds();
         const rb_status s =
-            dense
-                ? rb_lcp_lemke(&(rb_lcp_problem){f->n, dense, f->n, f->q}, &opt, z, &info)
-                : rb_lcp_solve(name, &(rb_lcp_mixed_problem){.M = &f->M, .q = f->q}, &opt,
-                               z, &info);
+            dense ? rb_lcp_lemke(&(rb_lcp_problem){f->n, dense, f->n, f->q}, &opt, z, &info)
+                  : rb_lcp_solve(name, &(rb_lcp_mixed_problem){.M = &f->M, .q = f->q}, &opt, z,
+                                 &info);
         if (s != RB_OK)
             break;
         t.seconds = fmin(t.seconds, cpu_seconds() - start);
@@ -461,8 +456,7 @@ static double run_theirs(int k, const lcp_family *f, const double *dense)
         memcpy(M, dense, n * n * sizeof *M);
         memcpy(q, f->q, n * sizeof *q);
         memset(z, 0, n * sizeof *z);
-        LinearComplementarityProblem lcp = {
-            f->n, NM_create_from_data(NM_DENSE, f->n, f->n, M), q};
+        LinearComplementarityProblem lcp = {f->n, NM_create_from_data(NM_DENSE, f->n, f->n, M), q};
         SolverOptions *options = solver_options_create(theirs[k].id);
         options->iparam[SICONOS_IPARAM_MAX_ITER] = 100 * f->n;
         options->dparam[SICONOS_DPARAM_TOL] = 1e-10;
@@ -566,8 +560,8 @@ static void families(void)
                 double *column = need((size_t)f.n, 1);
                 if (scaled)
                     lcp_family_scale(&f, 12.0, column);
-                worst = fmax(worst, family_row(lcp_families[kind].name, &f,
-                                               scaled ? ", scaled" : ""));
+                worst =
+                    fmax(worst, family_row(lcp_families[kind].name, &f, scaled ? ", scaled" : ""));
                 free(column);
                 lcp_family_free(&f);
             }

@@ -101,10 +101,9 @@ static double solve(const rb_rolling_case *rc)
     if (rb_rolling_model_create(rc, &model, &why) != RB_OK)
         stop(why.text);
     for (int i = 0; i < model.state.n; i++)
-        unknowns += (model.state.zone[i] != RB_ZONE_SEPARATED) +
-                    (model.state.zone[i] == RB_ZONE_STICK);
-    const double formula =
-        rb_rolling_bytes(rc, model.mesh.n, boundary_of(&model), unknowns);
+        unknowns +=
+            (model.state.zone[i] != RB_ZONE_SEPARATED) + (model.state.zone[i] == RB_ZONE_STICK);
+    const double formula = rb_rolling_bytes(rc, model.mesh.n, boundary_of(&model), unknowns);
     rb_rolling_model_free(&model);
     return formula;
 }
@@ -114,8 +113,7 @@ static double curve(const rb_rolling_case *rc)
     rb_rolling_curve c;
     rb_message why;
 
-    if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.1, 1.2, 4}, &c, &why) !=
-        RB_OK)
+    if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.1, 1.2, 4}, &c, &why) != RB_OK)
         stop(why.text);
     rb_rolling_curve_free(&c);
     return rb_rolling_bytes(rc, rc->contact_elements, 0, 2 * rc->contact_elements);
@@ -147,8 +145,8 @@ static int see_row(int k, const rb_rolling_row *found, void *context)
     if (st->rc && row->status != RB_OK)
         stop("a case of the study is not solved");
     if (st->rc)
-        st->formula = KEPT * rb_rolling_bytes(st->rc, st->rc->contact_elements, 0,
-                                              row->contact + row->stick);
+        st->formula =
+            KEPT * rb_rolling_bytes(st->rc, st->rc->contact_elements, 0, row->contact + row->stick);
     return 0;
 }
 
@@ -157,8 +155,7 @@ enum { WINDOW = 1 << 14 };
 
 static double sweep(const rb_rolling_case *rc, int count)
 {
-    study st = {.rc = rc,
-                .formula = (sizeof(rb_rolling_row) + 1.0) * fmin(count, WINDOW)};
+    study st = {.rc = rc, .formula = (sizeof(rb_rolling_row) + 1.0) * fmin(count, WINDOW)};
     const rb_rolling_sweep run = {
         .count = count, .workers = 1, .make = make_case, .see = see_row, .context = &st};
 
@@ -247,9 +244,8 @@ int main(int argc, char **argv)
             least = fmin(least, ratio[size]);
             most = fmax(most, ratio[size]);
         }
-        printf("| %s | %s, %s | %.2f, %.2f |\n", paths[k].name,
-               row_count(paths[k].n[0]).text, row_count(paths[k].n[1]).text, ratio[0],
-               ratio[1]);
+        printf("| %s | %s, %s | %.2f, %.2f |\n", paths[k].name, row_count(paths[k].n[0]).text,
+               row_count(paths[k].n[1]).text, ratio[0], ratio[1]);
         fflush(stdout);
     }
     printf("ratios from %.2f to %.2f (wanted: 0.8 to 1.2)\n", least, most);

@@ -40,8 +40,8 @@ typedef struct {
 } champion;
 
 /* The best part and the best solver on the problem, if better than auto itself. */
-static void find_best(const rb_friction_problem *p, const rb_friction_info *of_auto,
-                      double *r, champion *part, champion *any)
+static void find_best(const rb_friction_problem *p, const rb_friction_info *of_auto, double *r,
+                      champion *part, champion *any)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     int count;
@@ -53,8 +53,8 @@ static void find_best(const rb_friction_problem *p, const rb_friction_info *of_a
     for (int k = 1; k < count; k++) {
         rb_friction_info info;
         opt.context = is_part(&all[k]) ? &part->flops : &any->flops;
-        if (rb_friction_solve(all[k].name, p, &opt,
-                              &(rb_friction_solution){r, r + m, NULL}, &info) != RB_OK)
+        if (rb_friction_solve(all[k].name, p, &opt, &(rb_friction_solution){r, r + m, NULL},
+                              &info) != RB_OK)
             continue;
         if (is_part(&all[k]) && info.flops < part->flops)
             *part = (champion){info.flops, all[k].name};
@@ -70,9 +70,8 @@ static double first_member(const rb_friction_problem *p, double *r)
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
     opt.max_iters = p->form == RB_FRICTION_GLOBAL ? 15 : 100;
-    const rb_status s =
-        rb_friction_solve(p->form == RB_FRICTION_GLOBAL ? "nsn-ac" : "nsgs-aa", p, &opt,
-                          &(rb_friction_solution){r, r + m, NULL}, &info);
+    const rb_status s = rb_friction_solve(p->form == RB_FRICTION_GLOBAL ? "nsn-ac" : "nsgs-aa", p,
+                                          &opt, &(rb_friction_solution){r, r + m, NULL}, &info);
     return s == RB_OK ? info.flops : INFINITY;
 }
 
@@ -84,8 +83,8 @@ static void measure(const char *name, const rb_friction_problem *p, tally *t)
     rb_friction_info info;
     champion part, any;
     opt.seconds = SECONDS;
-    const rb_status s = rb_friction_solve("auto", p, &opt,
-                                          &(rb_friction_solution){r, r + m, NULL}, &info);
+    const rb_status s =
+        rb_friction_solve("auto", p, &opt, &(rb_friction_solution){r, r + m, NULL}, &info);
     find_best(p, &info, r, &part, &any);
     const double flops = info.flops, ratio = flops / part.flops;
     const double first = first_member(p, r);
@@ -93,8 +92,8 @@ static void measure(const char *name, const rb_friction_problem *p, tally *t)
     t->solved += s == RB_OK;
     t->beyond += ratio > 3.0;
     t->worst = fmax(t->worst, ratio);
-    printf("%-40.40s %8d %7.2f s %10.3g %-16s %6.2f %-16s %6.2f", name, p->contacts,
-           info.seconds, flops, part.name, ratio, any.name, flops / any.flops);
+    printf("%-40.40s %8d %7.2f s %10.3g %-16s %6.2f %-16s %6.2f", name, p->contacts, info.seconds,
+           flops, part.name, ratio, any.name, flops / any.flops);
     if (isfinite(first)) {
         t->first++;
         t->first_beyond += flops > 1.1 * first;
@@ -160,8 +159,8 @@ int main(int argc, char **argv)
 {
     fast_blas(argv);
     tally t = {0};
-    printf("%-40s %8s %9s %10s %-16s %6s %-16s %6s %6s\n", "problem", "contacts", "auto",
-           "flops", "best part", "ratio", "best solver", "ratio", "first");
+    printf("%-40s %8s %9s %10s %-16s %6s %-16s %6s %6s\n", "problem", "contacts", "auto", "flops",
+           "best part", "ratio", "best solver", "ratio", "first");
     for (int k = 1; k < argc; k++)
         measure_file(argv[k], argv[k], &t);
     if (argc == 1) {
@@ -170,7 +169,6 @@ int main(int argc, char **argv)
     }
     printf("%d problems, %d solved; auto / best part at most %.2f, above 3 on %d; auto / "
            "first member at most %.2f, above 1.1 on %d of %d\n",
-           t.problems, t.solved, t.worst, t.beyond, t.worst_first, t.first_beyond,
-           t.first);
+           t.problems, t.solved, t.worst, t.beyond, t.worst_first, t.first_beyond, t.first);
     return 0;
 }

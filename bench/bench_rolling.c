@@ -66,11 +66,10 @@ static void stages(void)
     for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
         const rb_rolling_case rc = wheel(contact[k]);
         rb_rolling_solution s = median_solution(&rc);
-        printf("| %d | %d | %s | %s | %s | %s | %s | %s |\n", boundary_elements(&rc),
-               contact[k], row_seconds(s.seconds_assembly).text,
-               row_seconds(s.seconds_factor).text, row_seconds(s.seconds_condense).text,
-               row_seconds(s.seconds_lcp).text, row_seconds(s.seconds_total).text,
-               row_power(1, s.residual).text);
+        printf("| %d | %d | %s | %s | %s | %s | %s | %s |\n", boundary_elements(&rc), contact[k],
+               row_seconds(s.seconds_assembly).text, row_seconds(s.seconds_factor).text,
+               row_seconds(s.seconds_condense).text, row_seconds(s.seconds_lcp).text,
+               row_seconds(s.seconds_total).text, row_power(1, s.residual).text);
         rb_rolling_solution_free(&s);
     }
 }

@@ -45,11 +45,8 @@ static double seconds(int count, int workers, double *processor)
 {
     int unsolved = 0;
     rb_message why;
-    const rb_rolling_sweep sweep = {.count = count,
-                                    .workers = workers,
-                                    .make = make,
-                                    .see = see,
-                                    .context = &unsolved};
+    const rb_rolling_sweep sweep = {
+        .count = count, .workers = workers, .make = make, .see = see, .context = &unsolved};
     const double start = rb_seconds(), before = processor_seconds();
 
     if (rb_rolling_sweep_run(&sweep, &why) != RB_OK) {

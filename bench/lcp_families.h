@@ -100,8 +100,7 @@ static void lcp_obstacle(lcp_family *f, int n)
             for (int e = 0; e < 5; e++) {
                 const int dx = (e == 1) - (e == 2), dy = (e == 3) - (e == 4);
                 const double X = h * (x + dx + 1), Y = h * (y + dy + 1);
-                const int outside =
-                    x + dx < 0 || x + dx >= side || y + dy < 0 || y + dy >= side;
+                const int outside = x + dx < 0 || x + dx >= side || y + dy < 0 || y + dy >= side;
                 const double r2 = (X - 0.4) * (X - 0.4) + (Y - 0.5) * (Y - 0.5);
                 const double psi = outside ? 0.0 : 0.5 - 4.0 * r2;
                 w += (e == 0 ? 4.0 : -1.0) * psi;
@@ -145,8 +144,8 @@ static void lcp_option(lcp_family *f, int n)
             lcp_add(f, i, i - 1, down);
         if (i < n - 1)
             lcp_add(f, i, i + 1, up);
-        f->q[i] = own * pay + down * fmax(1.0 - (s - ds), 0.0) +
-                  up * fmax(1.0 - (s + ds), 0.0) - pay;
+        f->q[i] =
+            own * pay + down * fmax(1.0 - (s - ds), 0.0) + up * fmax(1.0 - (s + ds), 0.0) - pay;
     }
 }
 

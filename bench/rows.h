@@ -37,8 +37,7 @@ static inline row_cell row_power(int digits, double value)
 {
     row_cell cell;
     const int power = value > 0.0 ? (int)floor(log10(value)) : 0;
-    snprintf(cell.text, sizeof cell.text, "%.*fe%d", digits - 1, value / pow(10.0, power),
-             power);
+    snprintf(cell.text, sizeof cell.text, "%.*fe%d", digits - 1, value / pow(10.0, power), power);
     return cell;
 }
 
@@ -47,8 +46,8 @@ static inline row_cell row_count(int n)
 {
     row_cell cell;
     if (n >= 1000000)
-        snprintf(cell.text, sizeof cell.text, "%d %03d %03d", n / 1000000,
-                 n / 1000 % 1000, n % 1000);
+        snprintf(cell.text, sizeof cell.text, "%d %03d %03d", n / 1000000, n / 1000 % 1000,
+                 n % 1000);
     else if (n >= 1000)
         snprintf(cell.text, sizeof cell.text, "%d %03d", n / 1000, n % 1000);
     else

@@ -20,8 +20,7 @@ static rb_case *new_case(void)
 static void require_resolved(const rb_case *c)
 {
     const rb_resolved_case *resolved = rb_case_resolved(c);
-    fuzz_require(resolved->rc.mu >= 0.0 && isfinite(resolved->rc.mu),
-                 "0 <= mu < infinity");
+    fuzz_require(resolved->rc.mu >= 0.0 && isfinite(resolved->rc.mu), "0 <= mu < infinity");
     fuzz_require(resolved->rc.contact_elements > 0, "there are elements");
     fuzz_require(isfinite(resolved->derived.modulus), "E* is a number");
 }
@@ -37,8 +36,7 @@ static void resolve(rb_case *c)
 
 void fuzz_ini(const uint8_t *data, size_t size)
 {
-    static const rb_case_purpose purposes[] = {RB_CASE_SINGLE, RB_CASE_CURVE,
-                                               RB_CASE_WEAR};
+    static const rb_case_purpose purposes[] = {RB_CASE_SINGLE, RB_CASE_CURVE, RB_CASE_WEAR};
     char *text = fuzz_text(data, size);
     rb_case *c = new_case();
     rb_message why = {""};
@@ -59,19 +57,17 @@ static void resolve_with_file(const char *const (*option)[2], int n, const uint8
     rb_message why = {""};
     fuzz_keep("table", data, size);
     for (int k = 0; k < n; k++)
-        fuzz_require(
-            rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
-            "the options of the target are options");
+        fuzz_require(rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
+                     "the options of the target are options");
     resolve(c);
     rb_case_free(c);
 }
 
 void fuzz_gap(const uint8_t *data, size_t size)
 {
-    static const char *const options[][2] = {
-        {"support", "halfplane"},   {"load", "100"},
-        {"contact-elements", "12"}, {"zone", "1"},
-        {"gap-smoothing", "1e-5"},  {"gap", "table"}};
+    static const char *const options[][2] = {{"support", "halfplane"},   {"load", "100"},
+                                             {"contact-elements", "12"}, {"zone", "1"},
+                                             {"gap-smoothing", "1e-5"},  {"gap", "table"}};
     resolve_with_file(options, 6, data, size);
     resolve_with_file(options + 5, 1, data, size);
     static const char *const others[][2] = {{"irregularity", "table"}};
@@ -84,8 +80,7 @@ void fuzz_history(const uint8_t *data, size_t size)
 {
     static const char *const rolling[][2] = {
         {"formulation", "transient"}, {"support", "halfplane"}, {"history", "table"}};
-    static const char *const in_place[][2] = {{"formulation", "static"},
-                                              {"history", "table"}};
+    static const char *const in_place[][2] = {{"formulation", "static"}, {"history", "table"}};
     resolve_with_file(rolling, 3, data, size);
     resolve_with_file(in_place, 2, data, size);
 }
@@ -102,8 +97,7 @@ void fuzz_table(const uint8_t *data, size_t size)
         for (int k = 0; k < t.rows * t.columns; k++)
             fuzz_require(isfinite(t.x[k]), "the numbers of a table are finite");
         for (int j = 0; t.name && j < t.columns; j++)
-            fuzz_require(rb_io_table_column(&t, t.name[j]) ==
-                             t.x + (size_t)j * (size_t)t.rows,
+            fuzz_require(rb_io_table_column(&t, t.name[j]) == t.x + (size_t)j * (size_t)t.rows,
                          "a column is found by its name");
         for (int j = 0; j < t.columns; j++)
             rb_io_table_convert(&t, j, "mm", RB_UNITS_SI);

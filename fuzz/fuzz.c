@@ -95,10 +95,10 @@ FILE *__wrap_fopen(const char *path, const char *mode)
 
 /* With FUZZ_IN_PROCESS, HDF5 works in this process: a process for each file takes a
  * hundred times as long.  Where HDF5 crashes, so does this process then. */
-rb_status __real_rb_io_in_child(const char *name, io_work *work, const void *context,
-                                char **bytes, size_t *size, rb_message *why);
-rb_status __wrap_rb_io_in_child(const char *name, io_work *work, const void *context,
-                                char **bytes, size_t *size, rb_message *why);
+rb_status __real_rb_io_in_child(const char *name, io_work *work, const void *context, char **bytes,
+                                size_t *size, rb_message *why);
+rb_status __wrap_rb_io_in_child(const char *name, io_work *work, const void *context, char **bytes,
+                                size_t *size, rb_message *why);
 
 /* What the end of a process would close. */
 static void close_files(void)
@@ -113,8 +113,8 @@ static void close_files(void)
         H5Fclose(id[--n]);
 }
 
-rb_status __wrap_rb_io_in_child(const char *name, io_work *work, const void *context,
-                                char **bytes, size_t *size, rb_message *why)
+rb_status __wrap_rb_io_in_child(const char *name, io_work *work, const void *context, char **bytes,
+                                size_t *size, rb_message *why)
 {
     const char *here = getenv("FUZZ_IN_PROCESS");
     if (!here || !*here)

@@ -81,10 +81,9 @@ static const char *const names[] = {"p",
                                     "nothing",
                                     ""};
 
-static const char *const words[] = {
-    "status",           "formulation", "solver", "lcp-form",
-    "task.solver",      "normal_load", "carter", "task.iterations",
-    "error.half_width", "hertz_load",  ""};
+static const char *const words[] = {"status",           "formulation", "solver", "lcp-form",
+                                    "task.solver",      "normal_load", "carter", "task.iterations",
+                                    "error.half_width", "hertz_load",  ""};
 
 enum {
     SETTINGS = sizeof settings / sizeof settings[0],

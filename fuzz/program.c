@@ -43,13 +43,11 @@ void fuzz_options(const uint8_t *data, size_t size)
     char *text = fuzz_text(data, size), *argv[WORDS_MAX + 1] = {"rollbem"};
     int argc = 1;
     begin();
-    for (char *word = strtok(text, "\n"); word && argc < WORDS_MAX;
-         word = strtok(NULL, "\n"))
+    for (char *word = strtok(text, "\n"); word && argc < WORDS_MAX; word = strtok(NULL, "\n"))
         argv[argc++] = word;
     rb_case *c = cli_case_create(RB_CASE_SINGLE);
     fuzz_require(c != NULL, "there is memory");
-    const cli_spec spec = {
-        "rollbem", "", NULL, {rb_case_options(c), cli_example_set()}, 2};
+    const cli_spec spec = {"rollbem", "", NULL, {rb_case_options(c), cli_example_set()}, 2};
     cli_args args = {0};
     *(const char **)spec.sets[1].target = NULL; /* --example of the run before */
     fuzz_require(known(cli_case_parse(&spec, argc, argv, c, &args)),
@@ -174,11 +172,11 @@ static const char *result_of_kind(int kind, size_t *size)
         {"stress", "--shift", "1e-4", "--grid", "2x2", "--shakedown", "--json"},
         {"--creep-ratio", "0.4", "--formulation", "steady", "--mesh", "uniform"},
         {NULL},
-        {"crack", "--crack-elements", "4", "--steps", "24", "--fluid", "trapped",
-         "--states", "--json"}};
-    static char *const common[] = {
-        "--support", "halfplane",          "--load", "100",      "--mu",     "0.3",
-        "--quiet",   "--contact-elements", "5",      "--output", "reference"};
+        {"crack", "--crack-elements", "4", "--steps", "24", "--fluid", "trapped", "--states",
+         "--json"}};
+    static char *const common[] = {"--support", "halfplane", "--load",   "100",
+                                   "--mu",      "0.3",       "--quiet",  "--contact-elements",
+                                   "5",         "--output",  "reference"};
     if (!text[kind]) {
         char *argv[40] = {"rollbem"};
         int argc = 1;
@@ -237,8 +235,7 @@ void fuzz_check(const uint8_t *data, size_t size)
         const char *whole = result_of_kind(kind, &n);
         text = edited(&b, whole, &n);
     }
-    if (!asks_for_more(text, "outer-elements", 200.0) &&
-        !asks_for_more(text, "hub-ratio", 0.9) &&
+    if (!asks_for_more(text, "outer-elements", 200.0) && !asks_for_more(text, "hub-ratio", 0.9) &&
         !asks_for_more(text, "crack-elements", 100.0)) {
         fuzz_keep("result", text, n);
         const int code = cli_check(2, argv);

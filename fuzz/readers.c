@@ -18,8 +18,7 @@ static void require_matrix(rb_io_matrix *m)
     const rb_triplets *t = &m->entries;
     fuzz_require(m->rows > 0 && m->cols > 0, "a matrix has rows and columns");
     for (int k = 0; !m->dense && k < t->nz; k++)
-        fuzz_require(t->row[k] >= 0 && t->row[k] < m->rows && t->col[k] >= 0 &&
-                         t->col[k] < m->cols,
+        fuzz_require(t->row[k] >= 0 && t->row[k] < m->rows && t->col[k] >= 0 && t->col[k] < m->cols,
                      "entries lie in the matrix");
     /* a few numbers may name the size of a matrix that has no room as a dense one */
     if ((double)m->rows * m->cols > 1e6)
@@ -53,8 +52,8 @@ void fuzz_siconos(const uint8_t *data, size_t size)
         require_finite(lcp.q, lcp.n, "q is finite");
     }
     rb_io_lcp_free(&lcp);
-    for (rb_friction_file kind = RB_FRICTION_FILE_SICONOS;
-         kind <= RB_FRICTION_FILE_SICONOS_GLOBAL; kind++)
+    for (rb_friction_file kind = RB_FRICTION_FILE_SICONOS; kind <= RB_FRICTION_FILE_SICONOS_GLOBAL;
+         kind++)
         if (kind != RB_FRICTION_FILE_SICONOS_SOCLCP)
             read_friction(kind);
     rb_friction_soclcp_data cones = {0};

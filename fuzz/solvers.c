@@ -50,8 +50,7 @@ static void require_listed(int n, const double *M, const double *q, const double
         fuzz_require(isfinite(z[i]), "an enumerated solution is finite");
         size = fmaxl(size, fmaxl(terms, fabsl(z[i])));
     }
-    fuzz_require(residual(n, M, q, z) <= 1e-9 * size + DBL_MIN,
-                 "an enumerated solution solves");
+    fuzz_require(residual(n, M, q, z) <= 1e-9 * size + DBL_MIN, "an enumerated solution solves");
 }
 
 static void require_same(const double *got, const double *kept, size_t n)
@@ -89,8 +88,7 @@ void fuzz_lemke(const uint8_t *data, size_t size)
     rb_sparse_free(&a);
     rb_lcp_solutions all = {0};
     rb_message why = {""};
-    const rb_status s =
-        rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, &why);
+    const rb_status s = rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, &why);
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < all.count; k++)
         require_listed(n, M, q, all.z + k * n);

@@ -12,8 +12,8 @@
 
 /* Elements first ... first + n - 1 on a circle about (0, 0); turn: +1 counter-clockwise
  * (outer contour), -1 clockwise (hole).  The first end is at the angle `from`. */
-static inline void put_circle(rb_bem_mesh *mesh, int first, int n, double radius,
-                              int turn, double from)
+static inline void put_circle(rb_bem_mesh *mesh, int first, int n, double radius, int turn,
+                              double from)
 {
     for (int k = 0; k < n; k++) {
         const double a = from + turn * 2.0 * M_PI * k / n,
@@ -52,8 +52,7 @@ static inline double midpoint_y(const rb_bem_mesh *mesh, int j)
     return 0.5 * (mesh->y0[j] + mesh->y1[j]);
 }
 
-static inline void give(rb_bem_mesh *mesh, int j, rb_bem_condition what, double x,
-                        double y)
+static inline void give(rb_bem_mesh *mesh, int j, rb_bem_condition what, double x, double y)
 {
     mesh->condition[2 * j] = mesh->condition[2 * j + 1] = what;
     mesh->value[2 * j] = x;

@@ -25,8 +25,7 @@ static inline void on_its_like(rb_rolling_case *rc)
 }
 
 /* The same on a plane of its own material: Carter's bodies. */
-static inline rb_rolling_case similar_planes(rb_rolling_formulation formulation,
-                                             int elements)
+static inline rb_rolling_case similar_planes(rb_rolling_formulation formulation, int elements)
 {
     rb_rolling_case rc = half_plane(formulation, elements);
     on_its_like(&rc);
@@ -93,8 +92,8 @@ static inline rb_rolling_case warm_sliding(rb_rolling_formulation formulation)
 }
 
 /* Similar planes whose friction falls with the slip velocity. */
-static inline rb_rolling_case falling_case(rb_rolling_formulation formulation,
-                                           double fall, double scale)
+static inline rb_rolling_case falling_case(rb_rolling_formulation formulation, double fall,
+                                           double scale)
 {
     rb_rolling_case rc = similar_planes(formulation, 24);
     rc.speed = 1000.0;
@@ -108,8 +107,7 @@ static inline rb_rolling_case falling_case(rb_rolling_formulation formulation,
 
 static inline double falling_mu(const rb_rolling_case *rc, double v)
 {
-    return rc->mu +
-           rc->friction.fall[0] * exp(-log(2.0) * v / rc->friction.slip_scale[0]);
+    return rc->mu + rc->friction.fall[0] * exp(-log(2.0) * v / rc->friction.slip_scale[0]);
 }
 
 #endif

@@ -21,19 +21,19 @@
 /* A test: TEST(what_it_claims) { ... }.  They run in the order of the file. */
 #define TEST(name) TEST_WITH(NULL, NULL, name)
 /* The same with what is done before it and behind it. */
-#define TEST_WITH(before, behind, name)                                                  \
-    static void name(void **state);                                                      \
-    __attribute__((constructor)) static void add_##name(void)                            \
-    {                                                                                    \
-        const struct CMUnitTest test = {#name, name, before, behind, NULL};              \
-        add_test_(__LINE__, &test);                                                      \
-    }                                                                                    \
+#define TEST_WITH(before, behind, name)                                                            \
+    static void name(void **state);                                                                \
+    __attribute__((constructor)) static void add_##name(void)                                      \
+    {                                                                                              \
+        const struct CMUnitTest test = {#name, name, before, behind, NULL};                        \
+        add_test_(__LINE__, &test);                                                                \
+    }                                                                                              \
     static void name(void **state)
 /* At the end of the file: main, with what is done before all of them and behind them. */
-#define RUN_TESTS(before, behind)                                                        \
-    int main(void)                                                                       \
-    {                                                                                    \
-        return run_all_tests(before, behind);                                            \
+#define RUN_TESTS(before, behind)                                                                  \
+    int main(void)                                                                                 \
+    {                                                                                              \
+        return run_all_tests(before, behind);                                                      \
     }
 
 static struct {
@@ -57,8 +57,8 @@ static inline void add_test_(int line, const struct CMUnitTest *test)
 
 static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
 {
-    return _cmocka_run_group_tests("tests", all_tests_.test, (size_t)all_tests_.count,
-                                   before, behind);
+    return _cmocka_run_group_tests("tests", all_tests_.test, (size_t)all_tests_.count, before,
+                                   behind);
 }
 
 /* OWNED(rb_bem_mesh) mesh: it is freed, by rb_bem_mesh_free, where its block ends. */
@@ -74,17 +74,15 @@ static inline void free_scratch_(void *address)
 }
 
 /* |got - want| <= tol; the rest is a printf format naming the case. */
-#define CHECK_ABS(got, want, tol, ...)                                                   \
-    check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)
+#define CHECK_ABS(got, want, tol, ...) check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)
 /* |got - want| <= tol |want| */
-#define CHECK_REL(got, want, tol, ...)                                                   \
+#define CHECK_REL(got, want, tol, ...)                                                             \
     check_close_(got, want, (tol)*fabs(want), __FILE__, __LINE__, __VA_ARGS__)
 /* got <= bound */
 #define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
 #define CHECK_STATUS(got, want) assert_int_equal(got, want)
 
-static inline void check_fail_(const char *file, int line, const char *format,
-                               va_list args)
+static inline void check_fail_(const char *file, int line, const char *format, va_list args)
 {
     char text[400];
     vsnprintf(text, sizeof text, format, args);
@@ -92,15 +90,15 @@ static inline void check_fail_(const char *file, int line, const char *format,
     _fail(file, line);
 }
 
-static inline void check_close_(double got, double want, double tol, const char *file,
-                                int line, const char *format, ...)
+static inline void check_close_(double got, double want, double tol, const char *file, int line,
+                                const char *format, ...)
 {
     if (fabs(got - want) <= tol)
         return;
     va_list args;
     va_start(args, format);
-    print_error("got %.17g, want %.17g, difference %.3g > %.3g: ", got, want,
-                fabs(got - want), tol);
+    print_error("got %.17g, want %.17g, difference %.3g > %.3g: ", got, want, fabs(got - want),
+                tol);
     check_fail_(file, line, format, args);
     va_end(args);
 }
@@ -135,8 +133,7 @@ static inline void tally_count(tally *t, double error, double bar)
 /* 95 of 100 hold the error, half of them are not too wide. */
 static inline void tally_check(const tally *t, const char *of)
 {
-    CHECK_MAX(1.0 - (double)t->held / t->all, 0.05, "%s: held %d of %d", of, t->held,
-              t->all);
+    CHECK_MAX(1.0 - (double)t->held / t->all, 0.05, "%s: held %d of %d", of, t->held, t->all);
     CHECK_MAX(0.5, (double)t->narrow / t->all, "%s: too wide in the median", of);
 }
 

@@ -56,9 +56,8 @@ static void expect(const char *law, double got, double want, double tol)
 /* ---- What the program wrote -------------------------------------------------------- */
 
 enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
-static const char *const column_names[COLUMNS] = {"x_mm",  "h_mm",  "gap_mm", "p_MPa",
-                                                  "q_MPa", "un_mm", "ut_mm",  "shift_mm",
-                                                  "slip",  "zone"};
+static const char *const column_names[COLUMNS] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
+                                                  "un_mm", "ut_mm", "shift_mm", "slip",  "zone"};
 enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE, YIELD_NEGATIVE, YIELD_POSITIVE };
 
 typedef struct {
@@ -166,14 +165,12 @@ static rows rows_from_file(const char *path)
         }
         const int n = numbers_of(line, value, WIDEST);
         if (r.columns && n != r.columns)
-            violated(path, "row %d has %d numbers, expected %d", r.rows + 1, n,
-                     r.columns);
+            violated(path, "row %d has %d numbers, expected %d", r.rows + 1, n, r.columns);
         r.columns = r.columns ? r.columns : n;
         r.x = realloc(r.x, (size_t)(r.rows + 1) * (size_t)r.columns * sizeof *r.x);
         if (!r.x)
             cannot("find memory for", path);
-        memcpy(r.x + (size_t)r.rows * (size_t)r.columns, value,
-               (size_t)r.columns * sizeof *value);
+        memcpy(r.x + (size_t)r.rows * (size_t)r.columns, value, (size_t)r.columns * sizeof *value);
         r.rows++;
     }
     fclose(file);
@@ -315,15 +312,14 @@ static double mu_by_law(const contact *c, double x, double v, double T)
                                                  : 1.0 / (1.0 + s * s));
     }
     if (listed(inputs, "mu-heat", 0) != 0.0)
-        mu += listed(inputs, "mu-heat", 0) *
-              fmin(1.0, fmax(0.0, (T - listed(inputs, "mu-heat", 1)) /
-                                      listed(inputs, "mu-heat", 2)));
+        mu +=
+            listed(inputs, "mu-heat", 0) *
+            fmin(1.0, fmax(0.0, (T - listed(inputs, "mu-heat", 1)) / listed(inputs, "mu-heat", 2)));
     return mu;
 }
 
 /* The last row of a history, or the options themselves. */
-static double wanted(const contact *c, const rows *controls, const char *column,
-                     const char *key)
+static double wanted(const contact *c, const rows *controls, const char *column, const char *key)
 {
     const int j = controls ? column_of(controls->header, column) : -1;
     if (j >= 0 && controls->rows > 0)
@@ -369,15 +365,13 @@ static double largest(int n, const double *x)
 static double length_scale(const contact *c, const table *t)
 {
     const double h = largest(t->n, t->column[H]);
-    return largest(t->n, t->column[P]) * h / c->modulus *
-           (1.0 + log(1.0 + c->a.radius / h));
+    return largest(t->n, t->column[P]) * h / c->modulus * (1.0 + log(1.0 + c->a.radius / h));
 }
 
 static double tolerance(const contact *c)
 {
     const double tol = number(c->inputs, "tol"), reached = number(c->summary, "residual");
-    return 10.0 *
-           fmax(isnan(tol) ? 1e-10 : tol, isnan(reached) ? 0.0 : fmin(reached, 1e-8));
+    return 10.0 * fmax(isnan(tol) ? 1e-10 : tol, isnan(reached) ? 0.0 : fmin(reached, 1e-8));
 }
 
 /* ---- Laws, element by element ------------------------------------------------------ */
@@ -388,8 +382,7 @@ static void check_elements(const table *t)
     for (int i = 0; i < t->n; i++)
         for (int j = 0; j < COLUMNS; j++)
             if (!isfinite(t->column[j][i]))
-                violated("finite", "%s of element %d is no number", column_names[j],
-                         i + 1);
+                violated("finite", "%s of element %d is no number", column_names[j], i + 1);
     for (int i = 0; i < t->n; i++)
         if (!(h[i] > 0.0))
             violated("mesh", "length of element %d is %g", i + 1, h[i]);
@@ -409,8 +402,8 @@ static void check_contact(const contact *c, const table *t)
         if (gap[i] < -length)
             violated("gap >= 0", "element %d: %g (allowed %.2g)", i + 1, gap[i], length);
         if (p[i] > 0.0 && fabs(gap[i]) > length)
-            violated("p gap = 0", "element %d: p = %g, gap = %g (allowed %.2g)", i + 1,
-                     p[i], gap[i], length);
+            violated("p gap = 0", "element %d: p = %g, gap = %g (allowed %.2g)", i + 1, p[i],
+                     gap[i], length);
         if ((p[i] > 0.0) != (zone[i] != SEPARATED))
             violated("zone", "element %d: p = %g, zone %g", i + 1, p[i], zone[i]);
     }
@@ -420,8 +413,7 @@ static void check_contact(const contact *c, const table *t)
 
 /* The coefficients by the law, from the printed slip and temperatures; with memory of a
  * transient only their range is known. */
-static void check_law(contact *c, const table *t, const json_t *object,
-                      const rows *controls)
+static void check_law(contact *c, const table *t, const json_t *object, const rows *controls)
 {
     const json_t *printed = json_object_get(object, "mu");
     const json_t *warmth = json_object_get(object, "temperature_K");
@@ -442,8 +434,7 @@ static void check_law(contact *c, const table *t, const json_t *object,
         const double v = open ? 0.0 : V * fabs(t->column[SLIP][i]);
         const double T = open ? T0 : json_number_value(json_array_get(warmth, (size_t)i));
         double mu = mu_by_law(c, x, v, T);
-        c->mu_of[i] =
-            !printed ? mu : json_number_value(json_array_get(printed, (size_t)i));
+        c->mu_of[i] = !printed ? mu : json_number_value(json_array_get(printed, (size_t)i));
         if (c->mu_of[i] < 0.0 || c->mu_of[i] > most * (1.0 + 1e-12))
             violated("friction law", "element %d: mu = %g", i + 1, c->mu_of[i]);
         if (d > 0.0 && c->moves && c->formulation == TRANSIENT)
@@ -470,22 +461,17 @@ static void check_friction(const contact *c, const table *t)
     for (int i = 0; i < t->n; i++) {
         const double bound = c->mu_of[i] * p[i];
         if (fabs(q[i]) > bound + stress)
-            violated("Coulomb", "element %d: |q| = %.17g, mu p = %.17g", i + 1,
-                     fabs(q[i]), bound);
+            violated("Coulomb", "element %d: |q| = %.17g, mu p = %.17g", i + 1, fabs(q[i]), bound);
         if (zone[i] == STICK && fabs(shift[i]) > length)
-            violated("stick", "element %d slips by %g (allowed %.2g)", i + 1, shift[i],
-                     length);
-        if (zone[i] == SLIP_NEGATIVE &&
-            (fabs(q[i] + bound) > stress || shift[i] < -length))
-            violated("slip", "element %d, zone 2: q = %g, mu p = %g, shift %g", i + 1,
-                     q[i], bound, shift[i]);
-        if (zone[i] == SLIP_POSITIVE &&
-            (fabs(q[i] - bound) > stress || shift[i] > length))
-            violated("slip", "element %d, zone 3: q = %g, mu p = %g, shift %g", i + 1,
-                     q[i], bound, shift[i]);
-        if (c->formulation != STATIC && slip[i] * shift[i] < 0.0)
-            violated("slip", "element %d: %g against a shift of %g", i + 1, slip[i],
+            violated("stick", "element %d slips by %g (allowed %.2g)", i + 1, shift[i], length);
+        if (zone[i] == SLIP_NEGATIVE && (fabs(q[i] + bound) > stress || shift[i] < -length))
+            violated("slip", "element %d, zone 2: q = %g, mu p = %g, shift %g", i + 1, q[i], bound,
                      shift[i]);
+        if (zone[i] == SLIP_POSITIVE && (fabs(q[i] - bound) > stress || shift[i] > length))
+            violated("slip", "element %d, zone 3: q = %g, mu p = %g, shift %g", i + 1, q[i], bound,
+                     shift[i]);
+        if (c->formulation != STATIC && slip[i] * shift[i] < 0.0)
+            violated("slip", "element %d: %g against a shift of %g", i + 1, slip[i], shift[i]);
     }
 }
 
@@ -502,9 +488,8 @@ static double plastic_slip(const contact *c, int n, int i)
     const double u = yielded_at(c, n, i), next = yielded_at(c, n, i + 1);
     if (c->formulation == STATIC)
         return u;
-    return strcmp(of, "second") == 0
-               ? 1.5 * u - 2.0 * next + 0.5 * yielded_at(c, n, i + 2)
-               : u - next;
+    return strcmp(of, "second") == 0 ? 1.5 * u - 2.0 * next + 0.5 * yielded_at(c, n, i + 2)
+                                     : u - next;
 }
 
 /* The interface yields at its yield stress, hardened or softened by what has yielded, and
@@ -512,11 +497,9 @@ static double plastic_slip(const contact *c, int n, int i)
 static void check_yield(const contact *c, const table *t)
 {
     const double *q = t->column[Q], *shift = t->column[SHIFT], *zone = t->column[ZONE];
-    const double tau = number(c->inputs, "yield-stress"),
-                 k = number(c->inputs, "hardening");
+    const double tau = number(c->inputs, "yield-stress"), k = number(c->inputs, "hardening");
     const double eps = tolerance(c), length = 10.0 * eps * length_scale(c, t);
-    const double stress =
-        eps * fmax(c->mu, 1e-3) * largest(t->n, t->column[P]) + fabs(k) * length;
+    const double stress = eps * fmax(c->mu, 1e-3) * largest(t->n, t->column[P]) + fabs(k) * length;
     int yields = 0;
     if (!c->plastic != isnan(tau))
         violated("plastic_mm", "the column does not follow --yield-stress");
@@ -526,23 +509,20 @@ static void check_yield(const contact *c, const table *t)
         const int slips = zone[i] == SLIP_NEGATIVE || zone[i] == SLIP_POSITIVE;
         yields += zone[i] >= YIELD_NEGATIVE;
         if (fabs(q[i]) > yield + stress)
-            violated("yield stress", "element %d: |q| = %.17g, bound %.17g", i + 1,
-                     fabs(q[i]), yield);
+            violated("yield stress", "element %d: |q| = %.17g, bound %.17g", i + 1, fabs(q[i]),
+                     yield);
         if (zone[i] >= YIELD_NEGATIVE &&
             (fabs(fabs(q[i]) - yield) > stress ||
              (zone[i] == YIELD_NEGATIVE ? -shift[i] : shift[i]) > length))
-            violated("yield", "element %d, zone %g: q = %g, bound %g, shift %g", i + 1,
-                     zone[i], q[i], yield, shift[i]);
-        if (zone[i] != SEPARATED &&
-            (plastic < -length || plastic > fabs(shift[i]) + length))
-            violated("plastic slip", "element %d: %g of a shift of %g", i + 1, plastic,
-                     shift[i]);
+            violated("yield", "element %d, zone %g: q = %g, bound %g, shift %g", i + 1, zone[i],
+                     q[i], yield, shift[i]);
+        if (zone[i] != SEPARATED && (plastic < -length || plastic > fabs(shift[i]) + length))
+            violated("plastic slip", "element %d: %g of a shift of %g", i + 1, plastic, shift[i]);
         if (!slips && zone[i] != SEPARATED && fabs(plastic - fabs(shift[i])) > length)
-            violated("plastic slip", "element %d does not slip: %g of a shift of %g",
-                     i + 1, plastic, shift[i]);
+            violated("plastic slip", "element %d does not slip: %g of a shift of %g", i + 1,
+                     plastic, shift[i]);
         if (plastic > length && fabs(fabs(q[i]) - yield) > stress)
-            violated("plastic slip", "element %d: %g below the yield stress", i + 1,
-                     plastic);
+            violated("plastic slip", "element %d: %g below the yield stress", i + 1, plastic);
     }
     if (c->plastic)
         expect("yield", number(c->summary, "yield"), yields, 0.0);
@@ -614,8 +594,8 @@ static void check_edges(const contact *c, const table *t, const sums *s)
     const double from = number(c->summary, "contact_from");
     const double to = number(c->summary, "contact_to");
     const double a = number(c->summary, "half_width"), tiny = 1e-12 * c->a.radius;
-    if (s->first > 0 && !(from >= x[s->first - 1] - tiny &&
-                          from <= x[s->first] + 0.5 * h[s->first] + tiny))
+    if (s->first > 0 &&
+        !(from >= x[s->first - 1] - tiny && from <= x[s->first] + 0.5 * h[s->first] + tiny))
         violated("contact_from", "%g, first loaded element at %g", from, x[s->first]);
     if (s->last >= 0 && s->last + 1 < t->n &&
         !(to <= x[s->last + 1] + tiny && to >= x[s->last] - 0.5 * h[s->last] - tiny))
@@ -654,8 +634,7 @@ static void check_ratios(const contact *c, const table *t)
         const double ratio = number(c->summary, "creepage") * c->radius / (c->mu * a);
         double most = c->moves ? c->mu * P_ : 0.0;
         for (int i = 0; i < t->n && !c->moves; i++)
-            most += c->surface_normals ? 0.0
-                                       : c->mu_of[i] * t->column[P][i] * t->column[H][i];
+            most += c->surface_normals ? 0.0 : c->mu_of[i] * t->column[P][i] * t->column[H][i];
         if (c->surface_normals && !c->moves) /* turned tractions carry P */
             most = c->mu_of[0] * P_;
         if (!c->surface_normals || is_law(c->inputs, "constant"))
@@ -704,12 +683,10 @@ static void check_heat(const contact *c, const table *t, const json_t *object)
             continue;
         warmest = fmax(warmest, one);
         if (fabs(one - other) > 1e-9 * (rise + fabs(T_a)))
-            violated("temperature", "element %d: %g and %g in contact", i + 1, one,
-                     other);
+            violated("temperature", "element %d: %g and %g in contact", i + 1, one, other);
     }
     /* 1e-12 K: the rounding of a contact that sticks, as above */
-    if (!(most >= warmest - 1e-12 * fabs(warmest) &&
-          most <= warmest + 0.2 * rise + 1e-12))
+    if (!(most >= warmest - 1e-12 * fabs(warmest) && most <= warmest + 0.2 * rise + 1e-12))
         violated("max_temperature", "%g, the largest in contact is %g", most, warmest);
     const double diffusivity = conductivity / number(c->inputs, "heat-capacity");
     const double peclet =
@@ -724,8 +701,7 @@ static double wanted_load(const contact *c, const rows *controls)
 {
     const double half_width = number(c->inputs, "half-width");
     const double load = wanted(c, controls, "load", "load");
-    return isnan(load) ? pi * c->modulus * half_width * half_width / (4.0 * c->radius)
-                       : load;
+    return isnan(load) ? pi * c->modulus * half_width * half_width / (4.0 * c->radius) : load;
 }
 
 static void check_normal_control(const contact *c, const rows *controls)
@@ -735,8 +711,7 @@ static void check_normal_control(const contact *c, const rows *controls)
     if (!isnan(load))
         expect("wanted load", number(c->summary, "normal_load"), load, 1e-10 * load);
     else if (!isnan(approach))
-        expect("wanted approach", number(c->summary, "approach"), approach,
-               1e-12 * approach);
+        expect("wanted approach", number(c->summary, "approach"), approach, 1e-12 * approach);
 }
 
 static void check_tangential_control(const contact *c, const rows *controls)
@@ -749,15 +724,12 @@ static void check_tangential_control(const contact *c, const rows *controls)
     const int column = controls && (column_of(controls->header, "creep") >= 0 ||
                                     column_of(controls->header, "creep_ratio") >= 0);
     if (!isnan(shift) && c->formulation == STATIC)
-        expect("wanted shift", number(c->summary, "tangential_shift"), shift,
-               1e-12 * fabs(shift));
+        expect("wanted shift", number(c->summary, "tangential_shift"), shift, 1e-12 * fabs(shift));
     if (!isnan(force) && c->mu > 0.0)
         expect("wanted force", number(c->summary, "tangential_load"), force,
-               1e-10 * fmax(c->mu * load, fabs(force)) +
-                   (c->surface_normals ? 1e-8 * load : 0.0));
+               1e-10 * fmax(c->mu * load, fabs(force)) + (c->surface_normals ? 1e-8 * load : 0.0));
     if (!isnan(force_ratio) && c->mu > 0.0)
-        expect("wanted force ratio", number(c->summary, "force_ratio"), force_ratio,
-               1e-10);
+        expect("wanted force ratio", number(c->summary, "force_ratio"), force_ratio, 1e-10);
     if (column) /* of a step it is the mean between two rows */
         return;
     const double creep = number(c->inputs, "creep");
@@ -812,8 +784,7 @@ static void check_kinematics(const contact *c, const table *t)
         const double worn = json_number_value(json_array_get(c->worn, (size_t)i));
         const double g0 = initial_gap(c, x[i]) + worn;
         if (!isnan(g0) && !c->surface_normals)
-            expect("gap = g0 + un - approach", t->column[GAP][i], g0 + un[i] - delta,
-                   length);
+            expect("gap = g0 + un - approach", t->column[GAP][i], g0 + un[i] - delta, length);
     }
     if (c->steps || c->surface_normals)
         return;
@@ -829,21 +800,18 @@ static void check_kinematics(const contact *c, const table *t)
                    length / dx + 1e-12 * fabs(xi));
         } else {
             const double xi = number(c->summary, "creepage");
-            const char *of =
-                json_string_value(json_object_get(c->inputs, "slip-operator"));
+            const char *of = json_string_value(json_object_get(c->inputs, "slip-operator"));
             const int second = of && strcmp(of, "second") == 0;
             if (!second)
                 expect("shift = xi dx - (ut' - ut)", t->column[SHIFT][i],
                        xi * dx + ut[i] - ut[i + 1], length + 1e-12 * fabs(xi) * dx);
             else if (i > 0 && i + 2 < t->n) /* the ends need displacements not printed */
                 expect("shift = xi dx + A_t ut", t->column[SHIFT][i],
-                       xi * dx + (1.0 - EDGE) / 4.0 * ut[i - 1] +
-                           (3.0 + 3.0 * EDGE) / 4.0 * ut[i] -
-                           (5.0 + 3.0 * EDGE) / 4.0 * ut[i + 1] +
-                           (1.0 + EDGE) / 4.0 * ut[i + 2] + local_slip(c, t, i),
+                       xi * dx + (1.0 - EDGE) / 4.0 * ut[i - 1] + (3.0 + 3.0 * EDGE) / 4.0 * ut[i] -
+                           (5.0 + 3.0 * EDGE) / 4.0 * ut[i + 1] + (1.0 + EDGE) / 4.0 * ut[i + 2] +
+                           local_slip(c, t, i),
                        3.0 * length + 1e-12 * fabs(xi) * dx);
-            expect("slip = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx,
-                   length / dx);
+            expect("slip = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx, length / dx);
         }
     }
 }
@@ -858,8 +826,7 @@ static long double y_ln_y(long double y)
 /* Displacements under p and q of table t at the abscissa x: for each body
  * -2 (1 - nu^2)/(pi E) int ln(|x - s|/d) ds of the same direction, +-c int sgn(x - s) ds
  * of the other one, c = (1 - 2 nu)(1 + nu)/(2E), B with the opposite sign of c. */
-static void flamant(const contact *c, const table *t, double x, long double *un,
-                    long double *ut)
+static void flamant(const contact *c, const table *t, double x, long double *un, long double *ut)
 {
     const body *const bodies[] = {&c->a, &c->b};
     *un = *ut = 0.0L;
@@ -874,10 +841,10 @@ static void flamant(const contact *c, const table *t, double x, long double *un,
             const long double E = bodies[k]->young, nu = bodies[k]->poisson;
             if (E == 0.0L)
                 continue;
-            const long double direct = -2.0L * (1.0L - nu * nu) / (pi * E) *
-                                       (log_integral - h * logl(bodies[k]->datum));
-            const long double cross = (k == 0 ? 1.0L : -1.0L) * (1.0L - 2.0L * nu) *
-                                      (1.0L + nu) / (2.0L * E) * sign_integral;
+            const long double direct =
+                -2.0L * (1.0L - nu * nu) / (pi * E) * (log_integral - h * logl(bodies[k]->datum));
+            const long double cross = (k == 0 ? 1.0L : -1.0L) * (1.0L - 2.0L * nu) * (1.0L + nu) /
+                                      (2.0L * E) * sign_integral;
             *un += direct * p + cross * q;
             *ut += direct * q - cross * p;
         }
@@ -1001,8 +968,7 @@ static double fed_by_surface(const table *t)
     for (int i = 1; i + 1 < t->n; i++) {
         const double d = x[i] - x[i - 1], e = x[i + 1] - x[i];
         const double slope =
-            (un[i + 1] * d * d - un[i - 1] * e * e + un[i] * (e * e - d * d)) /
-            (d * e * (d + e));
+            (un[i + 1] * d * d - un[i - 1] * e * e + un[i] * (e * e - d * d)) / (d * e * (d + e));
         fed -= t->column[P][i] * t->column[H][i] * slope;
     }
     return fed;
@@ -1038,11 +1004,11 @@ static double fed_by_levers(const contact *c, const table *t)
  * M/R are forces in other directions, and would miss xi M/R (theory.md V4). */
 static void check_energy(const contact *c, const table *t)
 {
-    const double lost = number(c->summary, "dissipation") +
-                        number(c->summary, "hysteresis") + lost_beside_edges(c, t);
+    const double lost = number(c->summary, "dissipation") + number(c->summary, "hysteresis") +
+                        lost_beside_edges(c, t);
     const double creepage = fed_by_creepage(c, t), surface = fed_by_surface(t);
-    const int wheels = !is_flat(c->inputs, "support") ||
-                       (c->b.young > 0.0 && !is_flat(c->inputs, "support-b"));
+    const int wheels =
+        !is_flat(c->inputs, "support") || (c->b.young > 0.0 && !is_flat(c->inputs, "support-b"));
     const double *p = t->column[P], *h = t->column[H], *x = t->column[X];
     double by_curvature = work_of_profile(c, t), size = 0.0, P_ = 0.0;
     for (int i = 0; i < t->n; i++) {
@@ -1107,8 +1073,7 @@ static void check_resistance(const contact *c, const table *t)
     for (int i = 0; i < t->n; i++) {
         const double x = t->column[X][i];
         const double sine = c->surface_normals ? x / c->a.radius : 0.0;
-        const double upwards =
-            t->column[P][i] * sqrt(1.0 - sine * sine) + t->column[Q][i] * sine;
+        const double upwards = t->column[P][i] * sqrt(1.0 - sine * sine) + t->column[Q][i] * sine;
         moment += x * upwards * t->column[H][i];
         size += fabs(x * upwards) * t->column[H][i];
     }
@@ -1119,13 +1084,11 @@ static void check_resistance(const contact *c, const table *t)
         return;
     if (!has_memory(c->inputs, "") && !has_memory(c->inputs, "-b") && lag != 0.0)
         violated("hysteresis", "of elastic bodies is %g", lag);
-    if (strcmp(word(c->inputs, "yield-stress"), "none") ==
-        0) /* plastic work is no slip */
+    if (strcmp(word(c->inputs, "yield-stress"), "none") == 0) /* plastic work is no slip */
         check_energy(c, t);
     const json_t *axle = json_object_get(c->inputs, "free-axle");
     if (json_is_true(axle))
-        expect("free axle", number(c->summary, "torque_a"), 0.0,
-               1e-10 * c->mu * P_ * c->a.radius);
+        expect("free axle", number(c->summary, "torque_a"), 0.0, 1e-10 * c->mu * P_ * c->a.radius);
 }
 
 static void check_errors(const contact *c)
@@ -1153,12 +1116,11 @@ static void check_table(const contact *c, const table *json, const char *path)
     if (t.n != json->n)
         violated("table", "%d rows, JSON has %d", t.n, json->n);
     for (int j = 0; j < COLUMNS; j++) {
-        const double tol =
-            rounded ? 10.0 * tolerance(c) * largest(t.n, t.column[j]) : 0.0;
+        const double tol = rounded ? 10.0 * tolerance(c) * largest(t.n, t.column[j]) : 0.0;
         for (int i = 0; i < t.n && i < json->n; i++)
             if (!(fabs(t.column[j][i] - json->column[j][i]) <= tol))
-                violated("table", "%s of element %d: %.17g, in JSON %.17g",
-                         column_names[j], i + 1, t.column[j][i], json->column[j][i]);
+                violated("table", "%s of element %d: %.17g, in JSON %.17g", column_names[j], i + 1,
+                         t.column[j][i], json->column[j][i]);
     }
     table_free(&t);
 }
@@ -1268,13 +1230,11 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
 {
     const double mu = largest_mu(inputs, number(curve, "mu"));
     for (size_t i = 0; i < json_array_size(json_object_get(curve, "creepage")); i++) {
-        const double P_ = entry(curve, "normal_load", i),
-                     Q_ = entry(curve, "tangential_load", i);
+        const double P_ = entry(curve, "normal_load", i), Q_ = entry(curve, "tangential_load", i);
         const double ratio = entry(curve, "force_ratio", i);
         const double stick = entry(curve, "stick_ratio", i);
         const double xi = entry(curve, "creepage", i), D = entry(curve, "dissipation", i);
-        if (!(P_ > 0.0) ||
-            (fabs(Q_) > (mu * (1.0 + 1e-9) + 1e-12) * P_ && !surface_normals))
+        if (!(P_ > 0.0) || (fabs(Q_) > (mu * (1.0 + 1e-9) + 1e-12) * P_ && !surface_normals))
             violated("curve", "point %zu: P = %g, Q = %g, mu = %g", i + 1, P_, Q_, mu);
         if (mu > 0.0 && !is_table_law(inputs))
             expect("curve, force_ratio", ratio, Q_ / (mu * P_), 1e-12);
@@ -1284,8 +1244,7 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
         if (!(D >= -1e-3 * P_ * fmax(fabs(xi), 1e-3)))
             violated("curve", "point %zu: dissipation %g", i + 1, D);
         if (!(entry(curve, "residual", i) <= 1e-8))
-            violated("curve", "point %zu: residual %g", i + 1,
-                     entry(curve, "residual", i));
+            violated("curve", "point %zu: residual %g", i + 1, entry(curve, "residual", i));
     }
 }
 
@@ -1308,9 +1267,9 @@ static void check_stress(const json_t *inputs, const json_t *at)
             continue;
         const double mean = 0.5 * (xx + yy), shear = hypot(0.5 * (xx - yy), xy);
         const double third = (xx + yy + zz) / 3.0;
-        const double mises = sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) +
-                                         (zz - xx) * (zz - xx)) +
-                                  3.0 * xy * xy);
+        const double mises =
+            sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
+                 3.0 * xy * xy);
         const double tol = 1e-11 * (fabs(xx) + fabs(yy) + fabs(xy)) + 1e-300;
         expect("szz", zz, nu * (xx + yy), tol);
         expect("max_shear", entry(at, "max_shear_MPa", i), shear, tol);
@@ -1323,8 +1282,8 @@ static void check_stress(const json_t *inputs, const json_t *at)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static void check_case(const json_t *root, const char *table_path,
-                       const char *summary_path, const rows *controls)
+static void check_case(const json_t *root, const char *table_path, const char *summary_path,
+                       const rows *controls)
 {
     contact c = contact_of(root, controls);
     const json_t *object = json_object_get(root, "table");

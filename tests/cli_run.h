@@ -56,8 +56,8 @@ static inline void check_refused(const char *arguments, int code, const char *pa
     const size_t n = strlen(err);
     if (got != code || strncmp(err, "rollbem: ", 9) != 0 || !strstr(err, part) ||
         strchr(err, '\n') != err + n - 1 || out[0])
-        print_error("rollbem %s\nexit %d, want %d with '%s'; stderr: %s\n", arguments,
-                    got, code, part, err);
+        print_error("rollbem %s\nexit %d, want %d with '%s'; stderr: %s\n", arguments, got, code,
+                    part, err);
     assert_int_equal(got, code);
     assert_int_equal(strncmp(err, "rollbem: ", 9), 0);
     assert_non_null(strstr(err, part));
@@ -68,8 +68,8 @@ static inline void check_refused(const char *arguments, int code, const char *pa
 
 /* For a shell: waits until process $p catches a signal, by the last digit of its mask: a
  * signal that comes before, a shell's `&` makes it ignore. */
-#define WHEN_CAUGHT(digits)                                                              \
-    "until grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status || [ $((n+=1)) -gt 500 ]; "  \
+#define WHEN_CAUGHT(digits)                                                                        \
+    "until grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status || [ $((n+=1)) -gt 500 ]; "            \
     "do sleep 0.01; done; "
 #define INT_CAUGHT "2367abef" /* bit 1 */
 #define HUP_CAUGHT "37bf"     /* bits 0 and 1: without nohup both are caught */

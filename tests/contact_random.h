@@ -60,10 +60,8 @@ static inline void set_rolling_matrices(const kind *of, double *S)
             const int d = i - j;
             F[i + j * ldf] = GAP / STRESS * (3.0 + normal_kernel(d));
             F[i + (n + j) * ldf] = -GAP / STRESS * cross_kernel(of, d);
-            S[i + j * n] =
-                SLIP / STRESS * (cross_kernel(of, d) - cross_kernel(of, d + 1));
-            S[i + (n + j) * n] =
-                SLIP / STRESS * (normal_kernel(d) - normal_kernel(d + 1));
+            S[i + j * n] = SLIP / STRESS * (cross_kernel(of, d) - cross_kernel(of, d + 1));
+            S[i + (n + j) * n] = SLIP / STRESS * (normal_kernel(d) - normal_kernel(d + 1));
         }
 }
 
@@ -113,8 +111,7 @@ static inline void random_problem(const kind *of, rb_contact_problem *p)
     rb_contact_operator *op;
     double *bound = rb_alloc((size_t)n, 1), total = 0.0;
 
-    CHECK_STATUS(rb_contact_operator_dense(n, F, n + PADDING, random_matrices(of), &op),
-                 RB_OK);
+    CHECK_STATUS(rb_contact_operator_dense(n, F, n + PADDING, random_matrices(of), &op), RB_OK);
     CHECK_STATUS(rb_contact_problem_alloc(op, p), RB_OK);
     p->stress = STRESS;
     p->gap_length = GAP;
@@ -164,8 +161,8 @@ static inline rb_contact_options options_of(rb_contact_solver solver)
 }
 
 /* Gap and slip of element i, by a loop. */
-static inline void move(const rb_contact_problem *p, const rb_contact_state *s, int i,
-                        double *gap, double *slip)
+static inline void move(const rb_contact_problem *p, const rb_contact_state *s, int i, double *gap,
+                        double *slip)
 {
     const double *S = rb_contact_operator_matrix(p->op).S;
     const int n = p->n;
@@ -210,13 +207,11 @@ static inline double conflict(double a, double b)
 /* Coulomb's law of a slip under the bound of |q|: a slip goes against q. */
 static inline double coulomb(double slip, double q, double bound)
 {
-    return fmax(conflict(fmax(slip, 0.0), bound + q),
-                conflict(fmax(-slip, 0.0), bound - q));
+    return fmax(conflict(fmax(slip, 0.0), bound + q), conflict(fmax(-slip, 0.0), bound - q));
 }
 
 /* Coulomb's law and the layer's, scaled, from p, q, plastic, delta and xi. */
-static inline double friction_residual(const rb_contact_problem *p,
-                                       const rb_contact_state *s)
+static inline double friction_residual(const rb_contact_problem *p, const rb_contact_state *s)
 {
     const double mu_stress = STRESS * (p->mu > 0.0 ? p->mu : 1.0);
     double worst = 0.0, next = 0.0, second = 0.0;
@@ -228,8 +223,7 @@ static inline double friction_residual(const rb_contact_problem *p,
         const double q = s->q[i] / mu_stress, bound = p->bound[i] * s->p[i] / mu_stress;
         worst = fmax(worst, coulomb((slip - plastic) / SLIP, q, bound));
         if (p->yield) {
-            const double u =
-                p->recall[0] * next + p->recall[1] * second + p->own * fabs(plastic);
+            const double u = p->recall[0] * next + p->recall[1] * second + p->own * fabs(plastic);
             const double yield = fmax(p->yield[i] + p->hardening * u, 0.0);
             worst = fmax(worst, coulomb(plastic / SLIP, q, yield / mu_stress));
             second = next;
@@ -250,8 +244,7 @@ static inline double residual_of(const rb_contact_problem *p, const rb_contact_s
         worst = fmax(worst, conflict(gap / GAP, s->p[i] / STRESS));
     }
     if (p->load_given)
-        worst = fmax(
-            worst, fabs(sum_of(p->n, p->load_N, s->p, p->load_T, s->q) / p->load - 1.0));
+        worst = fmax(worst, fabs(sum_of(p->n, p->load_N, s->p, p->load_T, s->q) / p->load - 1.0));
     if (p->force_given) {
         const double error = force_error(p, s, &most);
         worst = fmax(worst, fabs(error) / most);
@@ -266,8 +259,8 @@ static inline void check_zones(const rb_contact_problem *p, const rb_contact_sta
         const double limit = p->bound[i] * s->p[i], tiny = 1e-7 * STRESS;
         double gap, slip;
         move(p, s, i, &gap, &slip);
-        CHECK_ABS(s->lambda[i], s->zone[i] == RB_ZONE_STICK && !p->yield ? 0.0 : slip,
-                  1e-7 * SLIP, "lambda %d, zone %d", i, s->zone[i]);
+        CHECK_ABS(s->lambda[i], s->zone[i] == RB_ZONE_STICK && !p->yield ? 0.0 : slip, 1e-7 * SLIP,
+                  "lambda %d, zone %d", i, s->zone[i]);
         if (s->zone[i] == RB_ZONE_SEPARATED)
             CHECK_ABS(fabs(s->p[i]) + fabs(s->q[i]), 0.0, tiny, "separated %d", i);
         if (s->zone[i] == RB_ZONE_SLIP_NEGATIVE)
@@ -307,8 +300,7 @@ static inline void check_outcome(const rb_contact_problem *p, const rb_contact_s
         const char *carries = strstr(why->text, "carries at most");
         assert_non_null(carries);
         assert_int_equal(sscanf(why->text, "force Q = %lf", &Q), 1);
-        assert_int_equal(sscanf(carries + strcspn(carries, "0123456789"), "%lf", &most),
-                         1);
+        assert_int_equal(sscanf(carries + strcspn(carries, "0123456789"), "%lf", &most), 1);
         assert_true(fabs(Q) > most);
     } else {
         assert_true(status > 0 && strstr(why->text, "scaled residual"));
@@ -322,8 +314,7 @@ typedef struct {
     int freed, products;
 } by_products;
 
-static inline void apply(void *context, const double *r, const double **gap,
-                         const double **slip)
+static inline void apply(void *context, const double *r, const double **gap, const double **slip)
 {
     by_products *k = context;
     const int n = k->n;

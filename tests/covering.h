@@ -50,8 +50,7 @@ static inline void covering_start(covering *c)
 }
 
 /* The place of the values that row has at factors f < g < h (h not read for pairs). */
-static inline unsigned char *covering_place(const covering *c, const int *row, int f,
-                                            int g, int h)
+static inline unsigned char *covering_place(const covering *c, const int *row, int f, int g, int h)
 {
     const size_t values = (size_t)c->first[c->factors];
     size_t at = (size_t)(c->first[f] + row[f]) * values + (size_t)(c->first[g] + row[g]);
@@ -69,8 +68,7 @@ static inline int covering_count(const covering *c, const int *row, int k, int m
         if (f != k && row[f] != COVERING_OPEN)
             set[n++] = f;
     for (int i = 0; i < n; i++)
-        for (int j = c->strength == 2 ? i : i + 1; j < (c->strength == 2 ? i + 1 : n);
-             j++) {
+        for (int j = c->strength == 2 ? i : i + 1; j < (c->strength == 2 ? i + 1 : n); j++) {
             int f = set[i], g = set[j], h = k;
             if (c->strength == 2) {
                 f = set[i] < k ? set[i] : k;
@@ -151,8 +149,7 @@ static inline void covering_visit(covering *c, void (*visit)(const int *row))
     for (int f = 0; f < c->factors; f++)
         for (int g = f + 1; g < c->factors; g++)
             for (int h = triples ? g + 1 : g; h < (triples ? c->factors : g + 1); h++)
-                for (int v = 0;
-                     v < c->levels[f] * c->levels[g] * (triples ? c->levels[h] : 1);
+                for (int v = 0; v < c->levels[f] * c->levels[g] * (triples ? c->levels[h] : 1);
                      v++) {
                     int seed[COVERING_FACTORS], row[COVERING_FACTORS];
                     for (int k = 0; k < COVERING_FACTORS; k++)
@@ -161,8 +158,7 @@ static inline void covering_visit(covering *c, void (*visit)(const int *row))
                     seed[g] = v / c->levels[f] % c->levels[g];
                     if (triples)
                         seed[h] = v / (c->levels[f] * c->levels[g]);
-                    if (*covering_place(c, seed, f, g, h) || c->forbidden(seed) ||
-                        c->spared(seed))
+                    if (*covering_place(c, seed, f, g, h) || c->forbidden(seed) || c->spared(seed))
                         continue;
                     if (!covering_row(c, seed, row)) {
                         c->unreachable++;

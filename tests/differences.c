@@ -32,13 +32,11 @@ int main(int argc, char **argv)
             rb_case_set(c, name, value, RB_GIVEN_ARGUMENT, &why) != RB_OK)
             return fails(1, why.text);
     }
-    if (rb_case_set_number(c, "tol", 1e-13, &why) != RB_OK ||
-        rb_case_resolve(c, &why) != RB_OK)
+    if (rb_case_set_number(c, "tol", 1e-13, &why) != RB_OK || rb_case_resolve(c, &why) != RB_OK)
         return fails(1, why.text);
     const int first = atoi(argv[1]), every = atoi(argv[2]),
               steps = rb_case_has_steps(rb_case_resolved(c));
-    const rb_status s =
-        (steps ? compare_steps : compare_single)(c, first, every, &d, &why);
+    const rb_status s = (steps ? compare_steps : compare_single)(c, first, every, &d, &why);
     if (!(d.off <= atof(argv[3])))
         printf("%.2g: %s\n", d.off, d.text);
     rb_case_free(c);

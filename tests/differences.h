@@ -19,8 +19,7 @@ typedef struct {
 } differences;
 
 static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
-                    difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0,
-                                           -1.0 / 12.0};
+                    difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
 /* size: of the value, for a change of the input by all of its own; NAN: both NAN. */
 static void difference_note(differences *d, double got, double want, double size,
@@ -35,8 +34,7 @@ static void difference_note(differences *d, double got, double want, double size
     va_start(args, format);
     const int n = vsnprintf(d->text, sizeof d->text, format, args);
     va_end(args);
-    snprintf(d->text + n, sizeof d->text - (size_t)n, ": %.10g, differences %.10g", got,
-             want);
+    snprintf(d->text + n, sizeof d->text - (size_t)n, ": %.10g, differences %.10g", got, want);
 }
 
 /* ---- Single cases ------------------------------------------------------------------ */
@@ -65,8 +63,8 @@ typedef struct {
 /* Solves rc on elements that are stretched to the half-width half + by[0] about a centre
  * shifted by by[1]; found: what these are afterwards less what they were. */
 static rb_status difference_solve(const difference_frame *f, const rb_rolling_case *rc,
-                                  const double by[2], rb_rolling_model *v,
-                                  double found[2], rb_message *why)
+                                  const double by[2], rb_rolling_model *v, double found[2],
+                                  rb_message *why)
 {
     const double scale = 1.0 + by[0] / f->half;
     rb_rolling_case at = *rc;
@@ -77,12 +75,12 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
     at.outer_elements = f->base->rc->outer_elements;
     at.contact_elements =
         at.mesh == RB_MESH_UNIFORM ? f->base->mesh.n : f->base->rc->contact_elements;
-    rb_status s = rb_rolling_variant_place(
-        f->base, &at, by[1] + f->centre * (1.0 - scale), scale, v, why);
+    rb_status s =
+        rb_rolling_variant_place(f->base, &at, by[1] + f->centre * (1.0 - scale), scale, v, why);
     if (s == RB_OK)
         s = rb_rolling_model_control(v, why);
-    if (s == RB_OK && memcmp(v->state.zone, f->base->state.zone,
-                             (size_t)v->mesh.n * sizeof *v->state.zone) != 0)
+    if (s == RB_OK &&
+        memcmp(v->state.zone, f->base->state.zone, (size_t)v->mesh.n * sizeof *v->state.zone) != 0)
         s = RB_ZONE;
     if (s == RB_OK && f->elements == RB_SENSITIVITY_EDGES) {
         const double from = difference_edge(v, -1), to = difference_edge(v, 1);
@@ -92,12 +90,10 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
     return s;
 }
 
-static rb_status difference_begin(const rb_rolling_model *base,
-                                  rb_sensitivity_elements elements, difference_frame *f,
-                                  rb_message *why)
+static rb_status difference_begin(const rb_rolling_model *base, rb_sensitivity_elements elements,
+                                  difference_frame *f, rb_message *why)
 {
-    *f = (difference_frame){
-        base, elements, rb_rolling_derive(base->rc).half_width, 0.0, {0}};
+    *f = (difference_frame){base, elements, rb_rolling_derive(base->rc).half_width, 0.0, {0}};
     if (elements != RB_SENSITIVITY_EDGES)
         return RB_OK;
     const double from = difference_edge(base, -1), to = difference_edge(base, 1);
@@ -125,8 +121,7 @@ static rb_status difference_begin(const rb_rolling_model *base,
 
 static int difference_is_edge(const rb_rolling_result *r)
 {
-    static const char *const edges[] = {"contact_from", "contact_to", "half_width",
-                                        "nip_width"};
+    static const char *const edges[] = {"contact_from", "contact_to", "half_width", "nip_width"};
     for (size_t k = 0; k < sizeof edges / sizeof *edges; k++)
         if (strcmp(r->name, edges[k]) == 0)
             return 1;
@@ -136,13 +131,12 @@ static int difference_is_edge(const rb_rolling_result *r)
 /* The solution of rc, on elements that move as those of the base do, and with them the
  * edges that they are fitted to; at: of the base. */
 static rb_status difference_at(const difference_frame *f, const rb_rolling_case *rc,
-                               const rb_rolling_solution *at,
-                               rb_rolling_solution *solution, rb_message *why)
+                               const rb_rolling_solution *at, rb_rolling_solution *solution,
+                               rb_message *why)
 {
     const double strain = 0.5 * at->half_width / rb_rolling_derive(f->base->rc).radius;
-    double by[2] = {f->elements == RB_SENSITIVITY_HERTZ
-                        ? rb_rolling_derive(rc).half_width - f->half
-                        : 0.0,
+    double by[2] = {f->elements == RB_SENSITIVITY_HERTZ ? rb_rolling_derive(rc).half_width - f->half
+                                                        : 0.0,
                     0.0},
            found[2];
     rb_rolling_model v;
@@ -167,8 +161,7 @@ static rb_status difference_at(const difference_frame *f, const rb_rolling_case 
         solution->contact_to =
             at->contact_to + by[1] + by[0] * (at->contact_to - f->centre) / f->half;
         solution->nip_width = solution->contact_to - solution->contact_from;
-        solution->half_width =
-            at->half_width + 0.5 * (solution->nip_width - at->nip_width);
+        solution->half_width = at->half_width + 0.5 * (solution->nip_width - at->nip_width);
     }
     if (s == RB_OK && at->max_strain == strain) /* no layer: a/(2R) */
         solution->max_strain = 0.5 * solution->half_width / rb_rolling_derive(rc).radius;
@@ -189,13 +182,11 @@ static int difference_has_tie(const rb_rolling_solution *at)
 
 /* Edges of elements that do not follow them end at midpoints, which has kinks; the
  * creepage of free rolling is a solution of its own. */
-static int difference_is_left_out(const rb_rolling_result *r,
-                                  const rb_rolling_solution *at,
+static int difference_is_left_out(const rb_rolling_result *r, const rb_rolling_solution *at,
                                   rb_sensitivity_elements elements)
 {
     const int strain = strcmp(r->name, "max_strain") == 0,
-              peak =
-                  strcmp(r->name, "max_pressure") == 0 || strcmp(r->name, "kappa") == 0;
+              peak = strcmp(r->name, "max_pressure") == 0 || strcmp(r->name, "kappa") == 0;
     return !rb_sensitivity_has(r) || strcmp(r->name, "free_creepage") == 0 ||
            (elements != RB_SENSITIVITY_EDGES && (difference_is_edge(r) || strain)) ||
            ((peak || strain) && difference_has_tie(at));
@@ -203,9 +194,8 @@ static int difference_is_left_out(const rb_rolling_result *r,
 
 /* All results by one input, with steps of that part of its scale. */
 static void difference_of_input(const difference_frame *f, const rb_case_number *number,
-                                const rb_case_derivative *of,
-                                const rb_rolling_solution *at, double part,
-                                differences *d)
+                                const rb_case_derivative *of, const rb_rolling_solution *at,
+                                double part, differences *d)
 {
     rb_rolling_solution near[4] = {{0}};
     const double step = part * number->input.scale;
@@ -215,8 +205,7 @@ static void difference_of_input(const difference_frame *f, const rb_case_number 
         rb_message why = {""};
         rb_rolling_case rc;
         s = number->input.vary(number->input.context,
-                               number->input.value + difference_place[j] * step, &rc,
-                               &why);
+                               number->input.value + difference_place[j] * step, &rc, &why);
         if (s == RB_OK)
             s = difference_at(f, &rc, at, &near[j], &why);
     }
@@ -230,8 +219,8 @@ static void difference_of_input(const difference_frame *f, const rb_case_number 
             want += difference_weight[j] / step * rb_rolling_number(r, &near[j]);
         const double usual =
             1e11 * rb_sensitivity_rounding(f->base->rc, r, rb_rolling_number(r, at));
-        difference_note(d, rb_rolling_number(r, &of->d.value[0]), want,
-                        usual / number->input.scale, "%s by %s", r->name, number->name);
+        difference_note(d, rb_rolling_number(r, &of->d.value[0]), want, usual / number->input.scale,
+                        "%s by %s", r->name, number->name);
     }
     for (int i = 0; i < at->n && s == RB_OK; i++) {
         double p = 0.0, q = 0.0;
@@ -250,8 +239,8 @@ static void difference_of_input(const difference_frame *f, const rb_case_number 
 /* The derivatives of a case that is solved without a matrix against those of the same
  * state with one: differences of such solutions are known only to the tolerance of their
  * iteration over the step. */
-static rb_status compare_with_matrix(const rb_case *c, const rb_case_number *number,
-                                     differences *d, rb_message *why)
+static rb_status compare_with_matrix(const rb_case *c, const rb_case_number *number, differences *d,
+                                     rb_message *why)
 {
     rb_rolling_case rc = rb_case_resolved(c)->rc;
     rb_case_derivatives by[2] = {{0}, {0}};
@@ -274,17 +263,14 @@ static rb_status compare_with_matrix(const rb_case *c, const rb_case_number *num
         d->compared++;
         for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
             const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-            const double usual =
-                1e11 * rb_sensitivity_rounding(&rc, r, rb_rolling_number(r, &at));
+            const double usual = 1e11 * rb_sensitivity_rounding(&rc, r, rb_rolling_number(r, &at));
             if (rb_sensitivity_has(r))
                 difference_note(d, rb_rolling_number(r, &fast->d.value[side]),
-                                rb_rolling_number(r, &exact->d.value[side]),
-                                usual / scale, "%s by %s without a matrix", r->name,
-                                fast->name);
+                                rb_rolling_number(r, &exact->d.value[side]), usual / scale,
+                                "%s by %s without a matrix", r->name, fast->name);
         }
         for (int i = 0; i < 2 * at.n; i++) {
-            const rb_rolling_solution *x = &fast->d.value[side],
-                                      *y = &exact->d.value[side];
+            const rb_rolling_solution *x = &fast->d.value[side], *y = &exact->d.value[side];
             const int n = i % at.n;
             difference_note(d, i < at.n ? x->p[n] : x->q[n], i < at.n ? y->p[n] : y->q[n],
                             at.max_pressure / scale, "%s[%d] by %s without a matrix",
@@ -311,9 +297,8 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
     int numbers = 0;
 
     *d = (differences){0};
-    rb_status s = number
-                      ? rb_rolling_solve_model(&rb_case_resolved(c)->rc, &model, &at, why)
-                      : RB_ENOMEM;
+    rb_status s =
+        number ? rb_rolling_solve_model(&rb_case_resolved(c)->rc, &model, &at, why) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_case_differentiate(c, &model, 0, NULL, &all, why);
     if (s == RB_OK)
@@ -346,9 +331,8 @@ typedef struct {
     rb_rolling_states states;
 } difference_run;
 
-static int difference_keep(const rb_rolling_model *model,
-                           const rb_rolling_history *history, int step, int steps,
-                           void *context)
+static int difference_keep(const rb_rolling_model *model, const rb_rolling_history *history,
+                           int step, int steps, void *context)
 {
     rb_rolling_states *states = context;
     (void)history;
@@ -386,15 +370,14 @@ static double difference_usual(const rb_rolling_result *r, const difference_run 
     double usual = 0.0;
     for (int row = 0; row < at->history.n; row++) {
         const double x = rb_rolling_entry(r, &at->history, row);
-        usual = fmax(usual,
-                     1e11 * rb_sensitivity_rounding(at->model.rc, r, isnan(x) ? 0.0 : x));
+        usual = fmax(usual, 1e11 * rb_sensitivity_rounding(at->model.rc, r, isnan(x) ? 0.0 : x));
     }
     return usual;
 }
 
 static void difference_of_steps(const rb_resolved_case *c, const rb_case_number *number,
-                                const difference_run *at, const rb_case_slopes *s,
-                                double part, differences *d)
+                                const difference_run *at, const rb_case_slopes *s, double part,
+                                differences *d)
 {
     const double step = part * number->input.scale;
     const size_t zones = (size_t)at->states.n * (size_t)at->states.steps;
@@ -408,22 +391,19 @@ static void difference_of_steps(const rb_resolved_case *c, const rb_case_number 
                                   number->input.value + difference_place[j] * step, &rc,
                                   &why) == RB_OK &&
                difference_history(c, &rc, &near[j], &why) == RB_OK &&
-               near[j].states.n == at->states.n &&
-               near[j].states.steps == at->states.steps &&
+               near[j].states.n == at->states.n && near[j].states.steps == at->states.steps &&
                memcmp(near[j].states.zone, at->states.zone, zones * sizeof(int)) == 0;
     }
     d->compared += same;
     for (int k = 0; k < s->n && same; k++)
-        for (int row = 0; row < s->rows && strcmp(s->of[k].input, number->name) == 0;
-             row++) {
+        for (int row = 0; row < s->rows && strcmp(s->of[k].input, number->name) == 0; row++) {
             double want = 0.0;
             for (int j = 0; j < 4; j++)
                 want += difference_weight[j] / step *
                         rb_rolling_entry(s->of[k].result, &near[j].history, row);
             difference_note(d, rb_case_slope_value(s, row, k), want,
                             difference_usual(s->of[k].result, at) / number->input.scale,
-                            "%s by %s, step %d", s->of[k].result->name, number->name,
-                            row + 1);
+                            "%s by %s, step %d", s->of[k].result->name, number->name, row + 1);
         }
     for (int j = 0; j < 4; j++)
         difference_run_free(&near[j]);
@@ -440,11 +420,10 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
     int numbers = 0;
 
     *d = (differences){0};
-    rb_status s =
-        number ? difference_history(resolved, &resolved->rc, &at, why) : RB_ENOMEM;
+    rb_status s = number ? difference_history(resolved, &resolved->rc, &at, why) : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_case_slopes_choose(c, &rb_rolling_history_columns, "all",
-                                  RB_CASE_SLOPES_MAX, &slopes, why);
+        s = rb_case_slopes_choose(c, &rb_rolling_history_columns, "all", RB_CASE_SLOPES_MAX,
+                                  &slopes, why);
     if (s == RB_OK)
         s = rb_case_slopes_of_steps(c, &at.states, &slopes, why);
     if (s == RB_OK)
@@ -452,8 +431,7 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
     for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {
         const int before = d->compared;
         for (double part = 1e-3;
-             part > 1e-6 && d->compared == before && number[k].input.value != 0.0;
-             part *= 0.1)
+             part > 1e-6 && d->compared == before && number[k].input.value != 0.0; part *= 0.1)
             difference_of_steps(resolved, &number[k], &at, &slopes, part, d);
     }
     rb_case_slopes_free(&slopes);

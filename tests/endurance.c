@@ -39,9 +39,7 @@ static int solve(int k)
     s = s ? s : rb_api_set(a, "outer-elements", "40");
     s = s ? s : rb_api_set(a, "load", "100");
     snprintf(text, sizeof text, "%.4f", 0.01 * (k % 120));
-    s = s       ? s
-        : k % 3 ? rb_api_set(a, "creep-ratio", text)
-                : rb_api_set(a, "force-ratio", "0.5");
+    s = s ? s : k % 3 ? rb_api_set(a, "creep-ratio", text) : rb_api_set(a, "force-ratio", "0.5");
     s = s ? s : rb_api_solve(a);
     if (s != 0)
         fprintf(stderr, "case %d: %s\n", k, a ? rb_api_message(a) : "out of memory");
@@ -74,8 +72,7 @@ int main(int argc, char **argv)
     for (int t = 0; t < threads; t++)
         pthread_join(thread[t], NULL);
     const double megabyte = (double)sysconf(_SC_PAGESIZE) / 1048576.0;
-    const double first = (double)early * megabyte,
-                 last = (double)resident_pages() * megabyte;
+    const double first = (double)early * megabyte, last = (double)resident_pages() * megabyte;
     printf("%d cases in %d threads: %.1f MB after a tenth of them, %.1f MB at the end, "
            "%d failed\n",
            solves, threads, first, last, (int)failed);

@@ -56,8 +56,8 @@ static inline int call_fails(const char *name)
 }
 
 /* The C library's function of that name. */
-#define REAL_CALL(type, name, ...)                                                       \
-    type (*real)(__VA_ARGS__);                                                           \
+#define REAL_CALL(type, name, ...)                                                                 \
+    type (*real)(__VA_ARGS__);                                                                     \
     *(void **)&real = dlsym(RTLD_NEXT, name)
 
 int open(const char *path, int flags, ...)

@@ -156,8 +156,8 @@ static void start(char *const argv[], const char *out, const char *err)
     _exit(127);
 }
 
-int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind,
-              int k, int *count)
+int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind, int k,
+              int *count)
 {
     int status;
     const pid_t pid = fork();
@@ -167,16 +167,15 @@ int fault_run(char *const argv[], const char *out, const char *err, fault_kind k
         return -1;
     if (!WIFSTOPPED(status))
         return status;
-    ptrace(
-        PTRACE_SETOPTIONS, pid, NULL,
-        (void *)(long)(PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACEEXEC | PTRACE_O_EXITKILL));
+    ptrace(PTRACE_SETOPTIONS, pid, NULL,
+           (void *)(long)(PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACEEXEC | PTRACE_O_EXITKILL));
     return follow(pid, kind, k, count);
 }
 
 #else
 
-int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind,
-              int k, int *count)
+int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind, int k,
+              int *count)
 {
     (void)argv, (void)out, (void)err, (void)kind, (void)k;
     *count = 0;

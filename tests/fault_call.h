@@ -13,7 +13,7 @@ enum { FAULT_UNTRACED = 126 }; /* exit code where programs cannot be followed */
 /* Runs argv[0] with standard output and standard error in files; its k-th call of that
  * kind fails (0: none), *count gets how many there were.  Returns the status of waitpid.
  * Processes that the program starts run undisturbed. */
-int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind,
-              int k, int *count);
+int fault_run(char *const argv[], const char *out, const char *err, fault_kind kind, int k,
+              int *count);
 
 #endif

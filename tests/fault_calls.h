@@ -44,8 +44,7 @@ static _Unwind_Reason_Code note_call(struct _Unwind_Context *context, void *foun
 static int is_unchecked(const void *caller)
 {
     Dl_info info;
-    return dladdr(caller, &info) && info.dli_sname &&
-           strstr(info.dli_sname, "small_kernel");
+    return dladdr(caller, &info) && info.dli_sname && strstr(info.dli_sname, "small_kernel");
 }
 
 /* A number of a stack: from its depth and from what lies next on it and could be a return

@@ -39,8 +39,7 @@ static int refuses(long k, const void *caller, const void *frame)
 {
     if (request.by_calls)
         return !run->refused && has_new_call(caller, frame);
-    return (k == request.only || (request.from && k >= request.from)) &&
-           !is_unchecked(caller);
+    return (k == request.only || (request.from && k >= request.from)) && !is_unchecked(caller);
 }
 
 static int allowed(const void *caller, const void *frame)
@@ -169,8 +168,8 @@ static int serve(int argc, char **argv, char **environment)
 int __libc_start_main(program_main *start, int argc, char **argv, void (*init)(void),
                       void (*fini)(void), void (*rtld_fini)(void), void *stack_end)
 {
-    int (*real)(program_main *, int, char **, void (*)(void), void (*)(void),
-                void (*)(void), void *) = NULL;
+    int (*real)(program_main *, int, char **, void (*)(void), void (*)(void), void (*)(void),
+                void *) = NULL;
     *(void **)&real = dlsym(RTLD_NEXT, "__libc_start_main");
     real_main = start;
     return real(getenv("FAULT_CALLS") ? serve : start, argc, argv, init, fini, rtld_fini,

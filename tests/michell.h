@@ -18,11 +18,10 @@ static inline void michell(int m, double nu, double r, double scale, cplx column
 {
     const double ka = 3.0 - 4.0 * nu, x = r / scale;
     const double power[4] = {pow(x, m + 1), pow(x, m - 1), pow(x, 1 - m), pow(x, -m - 1)};
-    const double value[4][4] = {
-        {ka - m - 1, ka + m + 1, (m + 1.0) * (2 - m), (m + 1.0) * m},
-        {-1, 1, 1 - m, m - 1},
-        {ka + m - 1, m - 1 - ka, (1.0 - m) * (2 + m), m * (1.0 - m)},
-        {-1, -1, m + 1, m + 1}};
+    const double value[4][4] = {{ka - m - 1, ka + m + 1, (m + 1.0) * (2 - m), (m + 1.0) * m},
+                                {-1, 1, 1 - m, m - 1},
+                                {ka + m - 1, m - 1 - ka, (1.0 - m) * (2 + m), m * (1.0 - m)},
+                                {-1, -1, m + 1, m + 1}};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < 4; i++)
             column[k][i] = power[k] * value[k][i] / (i < 2 ? 1.0 : x);
@@ -69,8 +68,8 @@ static inline void ring(int m, cplx shear, double nu, double inner, double outer
         for (int k = 0; k < 2; k++)
             b[i + 4 * k] /= largest;
     }
-    assert_int_equal(LAPACKE_zgesv(LAPACK_COL_MAJOR, 4, 2, (lapack_complex_double *)A, 4,
-                                   pivot, (lapack_complex_double *)b, 4),
+    assert_int_equal(LAPACKE_zgesv(LAPACK_COL_MAJOR, 4, 2, (lapack_complex_double *)A, 4, pivot,
+                                   (lapack_complex_double *)b, 4),
                      0);
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 2; i++) {
@@ -85,8 +84,7 @@ static inline void wheel_answers(const rb_bem_wheel *w, int m, cplx softer, cplx
     cplx rigid[4] = {0}, core[4] = {0};
     if (w->hub > 0.0)
         ring(m, w->core.shear, w->core.poisson, w->hub, w->inner, rigid, core);
-    ring(m, w->material.shear / softer, w->material.poisson, w->inner, w->radius, core,
-         C);
+    ring(m, w->material.shear / softer, w->material.poisson, w->inner, w->radius, core, C);
 }
 
 #endif

@@ -84,8 +84,7 @@ static inline int is_blank(const part *p)
 /* The number that begins at `s`, no part of a name such as p0 or B10: its value, the unit
  * of its last digit (0 for integers below 1000, which are counts) and its end; NULL if
  * none. */
-static inline const char *number_at(const char *text, const char *s, double *value,
-                                    double *unit)
+static inline const char *number_at(const char *text, const char *s, double *value, double *unit)
 {
     const char *digits = s + (*s == '-' || *s == '+');
     if (!isdigit((unsigned char)*digits) ||
@@ -104,9 +103,8 @@ static inline const char *number_at(const char *text, const char *s, double *val
     if (end > digits && end[-1] == '.') /* the full stop of a sentence */
         end--;
     const int exponent = c < end ? atoi(c + 1) : 0;
-    *unit = decimals || exponent || places > 3
-                ? pow(10.0, exponent - (decimals ? decimals - 1 : 0))
-                : 0.0;
+    *unit = decimals || exponent || places > 3 ? pow(10.0, exponent - (decimals ? decimals - 1 : 0))
+                                               : 0.0;
     return end;
 }
 
@@ -201,8 +199,8 @@ static inline const char *python_of_pages(void)
     const char *build = getenv("B");
     if (looked++)
         return found;
-    if (run("nm -D %s/librollbem.so 2>/dev/null | grep -q __asan_init",
-            build ? build : "build") == 0)
+    if (run("nm -D %s/librollbem.so 2>/dev/null | grep -q __asan_init", build ? build : "build") ==
+        0)
         return NULL;
     for (size_t k = 0; k < sizeof known / sizeof *known && !found; k++)
         if (run("%s -c 'import numpy; numpy.ndarray' 2>/dev/null", known[k]) == 0)
@@ -244,10 +242,9 @@ static inline int run_python(const char *folder, const char *lines)
     assert_non_null(file);
     fputs(program, file);
     assert_int_equal(fclose(file), 0);
-    return run(
-        "cd %s && PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
-        "PYTHONDONTWRITEBYTECODE=1 %s blocks.py%s 2>errors || { cat errors; false; }",
-        folder, python_of_pages(), lines);
+    return run("cd %s && PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
+               "PYTHONDONTWRITEBYTECODE=1 %s blocks.py%s 2>errors || { cat errors; false; }",
+               folder, python_of_pages(), lines);
 }
 
 static inline int is_in(const part *p, const char *language)
@@ -277,16 +274,13 @@ static inline int run_page(const char *page, const char *folder, int *wrong)
         assert_int_equal(fclose(file), 0);
         int code = 0;
         if (is_in(&p, "sh"))
-            code =
-                run("cd %s && sh -e block-%d >printed-%d 2>&1", folder, p.line, p.line);
+            code = run("cd %s && sh -e block-%d >printed-%d 2>&1", folder, p.line, p.line);
         else if (is_in(&p, "octave") && have_octave())
-            code = run(
-                "cd %s && octave --no-gui --no-init-file --quiet block-%d >printed-%d "
-                "2>errors",
-                folder, p.line, p.line);
+            code = run("cd %s && octave --no-gui --no-init-file --quiet block-%d >printed-%d "
+                       "2>errors",
+                       folder, p.line, p.line);
         else if (is_in(&p, "python") && python_of_pages())
-            snprintf(python + strlen(python), sizeof python - strlen(python), " %d",
-                     p.line);
+            snprintf(python + strlen(python), sizeof python - strlen(python), " %d", p.line);
         if (code)
             print_error("%s:%d ends with code %d\n", page, p.line, code);
         *wrong += code != 0;

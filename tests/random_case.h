@@ -11,12 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef enum {
-    RANDOM_STATIC,
-    RANDOM_STEADY,
-    RANDOM_STEPS,
-    RANDOM_TRANSIENT
-} random_regime;
+typedef enum { RANDOM_STATIC, RANDOM_STEADY, RANDOM_STEPS, RANDOM_TRANSIENT } random_regime;
 
 typedef struct {
     uint64_t state;
@@ -70,8 +65,7 @@ static inline void random_body(random_case *c, const char *b, double young, doub
     const int support = is_flat ? 0 : random_choice(c, 8), relaxes = !random_choice(c, 4);
     const double a = c->half_width;
     random_add(c, " --young%s %.6g --poisson%s %.4g", b, young, b,
-               random_choice(c, 2) ? poisson[random_choice(c, 6)]
-                                   : random_between(c, -0.2, 0.5));
+               random_choice(c, 2) ? poisson[random_choice(c, 6)] : random_between(c, -0.2, 0.5));
     if (support < 4) {
         random_add(c, " --support%s halfplane", b);
         if (!random_choice(c, 4)) {
@@ -95,15 +89,13 @@ static inline void random_body(random_case *c, const char *b, double young, doub
                            young * random_log(c, 1.0, 100.0), b);
         }
     } else {
-        random_add(c, " --support%s arc --arc%s %.4g", b, b,
-                   random_between(c, 10.0, 80.0));
+        random_add(c, " --support%s arc --arc%s %.4g", b, b, random_between(c, 10.0, 80.0));
     }
     if (relaxes && (c->regime == RANDOM_STEADY || c->regime == RANDOM_TRANSIENT) &&
         (support < 4 || (c->regime == RANDOM_STEADY && support < 7))) {
         random_add(c, " --relaxation-time%s %.5g,%.5g --relaxation-ratio%s %.4g,%.4g", b,
-                   a / 1000.0 * random_log(c, 0.05, 20.0),
-                   a / 1000.0 * random_log(c, 0.05, 20.0), b, random_log(c, 0.03, 10.0),
-                   random_log(c, 0.03, 3.0));
+                   a / 1000.0 * random_log(c, 0.05, 20.0), a / 1000.0 * random_log(c, 0.05, 20.0),
+                   b, random_log(c, 0.03, 10.0), random_log(c, 0.03, 3.0));
         if (!strstr(c->line, "--speed"))
             random_add(c, " --speed 1000");
     }
@@ -134,8 +126,7 @@ static inline void random_bodies(random_case *c)
         break;
     case 4:
         random_add(c, " --radius-b %.6g --young-b %.6g --poisson-b 0.3",
-                   -c->radius * random_log(c, 1.3, 10.0),
-                   young * random_log(c, 0.2, 5.0));
+                   -c->radius * random_log(c, 1.3, 10.0), young * random_log(c, 0.2, 5.0));
         break;
     default: /* rigid */
         if (!random_choice(c, 6))
@@ -162,8 +153,8 @@ static inline void random_gap(random_case *c)
             random_add(c, " --gap-smoothing %.4g", 1e-3 * height);
     } else if ((file = fopen("worn.txt", "w"))) {
         const double depth = height * random_log(c, 1e-3, 0.2);
-        fprintf(file, "%.9g 0\n%.9g %.9g\n%.9g %.9g\n%.9g 0\n", -0.9 * a, -0.3 * a, depth,
-                0.2 * a, 1.5 * depth, 0.8 * a);
+        fprintf(file, "%.9g 0\n%.9g %.9g\n%.9g %.9g\n%.9g 0\n", -0.9 * a, -0.3 * a, depth, 0.2 * a,
+                1.5 * depth, 0.8 * a);
         fclose(file);
         random_add(c, " --worn worn.txt");
     }
@@ -203,8 +194,7 @@ static inline void random_interface(random_case *c)
                        " --speed 1000 --friction-law exponential --mu-fall %.4g "
                        "--slip-scale %.4g",
                        0.3 * mu,
-                       1000.0 * mu * c->half_width / c->radius *
-                           random_log(c, 0.3, 10.0));
+                       1000.0 * mu * c->half_width / c->radius * random_log(c, 0.3, 10.0));
         break;
     case 4:
         if (rolls && mu > 0.0 && !strstr(c->line, "--relaxation"))
@@ -221,16 +211,14 @@ static inline void random_controls(random_case *c)
     if (random_choice(c, 3))
         random_add(c, " --half-width %.6g", a);
     else
-        random_add(c, " --approach %.6g",
-                   a * a / c->radius * random_between(c, 0.3, 2.0));
+        random_add(c, " --approach %.6g", a * a / c->radius * random_between(c, 0.3, 2.0));
     switch (random_choice(c, c->regime == RANDOM_STEADY ? 5 : 4)) {
     case 0:
-        random_add(
-            c,
-            c->regime == RANDOM_STATIC || c->regime == RANDOM_STEPS ? " --shift %.6g"
-                                                                    : " --creep %.6g",
-            sign * a / c->radius * random_log(c, 1e-4, 1.0) *
-                (c->regime == RANDOM_STATIC || c->regime == RANDOM_STEPS ? a : 1.0));
+        random_add(c,
+                   c->regime == RANDOM_STATIC || c->regime == RANDOM_STEPS ? " --shift %.6g"
+                                                                           : " --creep %.6g",
+                   sign * a / c->radius * random_log(c, 1e-4, 1.0) *
+                       (c->regime == RANDOM_STATIC || c->regime == RANDOM_STEPS ? a : 1.0));
         break;
     case 1:
         random_add(c, " --force-ratio %.5g", sign * random_between(c, 0.0, 0.98));
@@ -251,19 +239,14 @@ static inline void random_controls(random_case *c)
 static inline void random_mesh(random_case *c, int elements)
 {
     static const char *const equal[] = {"", " --mesh uniform", " --slip-operator second"};
-    static const char *const any[] = {"",
-                                      "",
-                                      " --mesh uniform",
-                                      " --mesh fitted",
-                                      " --mesh aligned",
-                                      " --near-field exact"};
+    static const char *const any[] = {
+        "", "", " --mesh uniform", " --mesh fitted", " --mesh aligned", " --near-field exact"};
     random_add(c, " --contact-elements %d", elements + random_choice(c, 2 * elements));
     if (c->regime == RANDOM_STATIC)
         random_add(c, "%s", any[random_choice(c, 6)]);
     else if (c->regime == RANDOM_STEADY)
         random_add(c, "%s",
-                   random_choice(c, 5) ? any[random_choice(c, 6)]
-                                       : equal[random_choice(c, 3)]);
+                   random_choice(c, 5) ? any[random_choice(c, 6)] : equal[random_choice(c, 3)]);
     if (!random_choice(c, 12))
         random_add(c, " --lcp-form kwak");
     if (!random_choice(c, 8))
@@ -272,12 +255,10 @@ static inline void random_mesh(random_case *c, int elements)
 
 static inline void random_case_make(random_case *c, int k, int elements)
 {
-    static const random_regime regimes[] = {RANDOM_STATIC, RANDOM_STEADY,
-                                            RANDOM_STEADY, RANDOM_STEADY,
-                                            RANDOM_STEPS,  RANDOM_TRANSIENT};
+    static const random_regime regimes[] = {RANDOM_STATIC, RANDOM_STEADY, RANDOM_STEADY,
+                                            RANDOM_STEADY, RANDOM_STEPS,  RANDOM_TRANSIENT};
     *c = (random_case){.state = (uint64_t)(k + 1)};
-    c->state =
-        random_bits(c); /* or the numbers of a case would be those of the next one */
+    c->state = random_bits(c); /* or the numbers of a case would be those of the next one */
     c->regime = regimes[random_choice(c, 6)];
     c->radius = random_log(c, 1.0, 2000.0);
     c->half_width = c->radius * random_log(c, 1e-3, 0.15);

@@ -7,8 +7,7 @@
 
 #include <string.h>
 
-static inline void check_refused(const rb_rolling_case *rc, const char *first,
-                                 const char *second)
+static inline void check_refused(const rb_rolling_case *rc, const char *first, const char *second)
 {
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_case_check(rc, &why), RB_EINVAL);
@@ -17,19 +16,19 @@ static inline void check_refused(const rb_rolling_case *rc, const char *first,
 }
 
 /* A default case with these changes is refused with these words, or accepted. */
-#define REFUSED(words, ...)                                                              \
-    do {                                                                                 \
-        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
-        __VA_ARGS__;                                                                     \
-        check_refused(&rc, words, "");                                                   \
+#define REFUSED(words, ...)                                                                        \
+    do {                                                                                           \
+        rb_rolling_case rc = rb_rolling_case_defaults();                                           \
+        __VA_ARGS__;                                                                               \
+        check_refused(&rc, words, "");                                                             \
     } while (0)
-#define ACCEPTED(...)                                                                    \
-    do {                                                                                 \
-        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
-        rb_message why = {""};                                                           \
-        __VA_ARGS__;                                                                     \
-        if (rb_rolling_case_check(&rc, &why) != RB_OK)                                   \
-            fail_msg("%s: %s", #__VA_ARGS__, why.text);                                  \
+#define ACCEPTED(...)                                                                              \
+    do {                                                                                           \
+        rb_rolling_case rc = rb_rolling_case_defaults();                                           \
+        rb_message why = {""};                                                                     \
+        __VA_ARGS__;                                                                               \
+        if (rb_rolling_case_check(&rc, &why) != RB_OK)                                             \
+            fail_msg("%s: %s", #__VA_ARGS__, why.text);                                            \
     } while (0)
 
 #define HUB rc.a.support = RB_BEM_HUB
@@ -37,13 +36,13 @@ static inline void check_refused(const rb_rolling_case *rc, const char *first,
 #define STEADY rc.formulation = RB_STEADY
 #define TRANSIENT rc.formulation = RB_TRANSIENT
 /* A half-plane that heats as it rolls. */
-#define WARM                                                                             \
-    PLANE;                                                                               \
-    STEADY;                                                                              \
-    rc.speed = 1.0;                                                                      \
-    rc.heat_a = (rb_rolling_heat)                                                        \
-    {                                                                                    \
-        .conductivity = 40.0, .heat_capacity = 3.5                                       \
+#define WARM                                                                                       \
+    PLANE;                                                                                         \
+    STEADY;                                                                                        \
+    rc.speed = 1.0;                                                                                \
+    rc.heat_a = (rb_rolling_heat)                                                                  \
+    {                                                                                              \
+        .conductivity = 40.0, .heat_capacity = 3.5                                                 \
     }
 
 #endif

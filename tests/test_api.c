@@ -42,9 +42,8 @@ static const char *const steady[] = {
 
 TEST(descriptions_are_complete)
 {
-    static const char *const fields[] = {"name",     "section", "kind",     "unit",
-                                         "expected", "from",    "to",       "choices",
-                                         "word",     "default", "excludes", "help"};
+    static const char *const fields[] = {"name", "section", "kind", "unit",    "expected", "from",
+                                         "to",   "choices", "word", "default", "excludes", "help"};
     char text[400];
     int n, k;
     rb_case_describe(&n);
@@ -56,8 +55,7 @@ TEST(descriptions_are_complete)
     assert_null(rb_api_option(1, "colour", text, sizeof text));
     for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
         for (k = 0; rb_api_result(t->name, k, "name", text, sizeof text); k++)
-            assert_true(strlen(rb_api_result(t->name, k, "meaning", text, sizeof text)) >
-                        0);
+            assert_true(strlen(rb_api_result(t->name, k, "meaning", text, sizeof text)) > 0);
         assert_int_equal(k, t->results->n);
     }
     assert_string_equal(rb_api_result("wear", 0, "name", text, sizeof text), "way");
@@ -126,8 +124,7 @@ TEST(numbers_are_the_solution)
     const int n = 60;
     double P = 0.0, Q = 0.0;
     char text[40];
-    const double *p = array(a, "p", n, 1), *q = array(a, "q", n, 1),
-                 *h = array(a, "h", n, 1);
+    const double *p = array(a, "p", n, 1), *q = array(a, "q", n, 1), *h = array(a, "h", n, 1);
     for (int i = 0; i < n; i++) {
         P += p[i] * h[i];
         Q += q[i] * h[i];
@@ -154,9 +151,8 @@ TEST(numbers_are_the_solution)
 TEST(the_next_case_is_solved_as_the_first_one)
 {
     static const char *const next[][2] = {
-        {"mu", "0.4"},      {"creep", "0.05"},  {"mu", "0.2"},
-        {"approach", "20"}, {"young", "60000"}, {"mu", "0.3"},
-        {"zone", "40"},     {"mu", "0.5"},      {"approach", "21"}};
+        {"mu", "0.4"}, {"creep", "0.05"}, {"mu", "0.2"}, {"approach", "20"}, {"young", "60000"},
+        {"mu", "0.3"}, {"zone", "40"},    {"mu", "0.5"}, {"approach", "21"}};
     const char *words[40];
     int n = 0;
     for (; wheel[n]; n++)
@@ -174,8 +170,8 @@ TEST(the_next_case_is_solved_as_the_first_one)
         const double *p = array(a, "p", 12, 1), *want = array(anew, "p", 12, 1);
         for (int i = 0; i < 12; i++)
             CHECK_ABS(p[i], want[i], 0.0, "p[%d] after %s", i, next[k][0]);
-        CHECK_ABS(rb_api_number(a, "force_ratio"), rb_api_number(anew, "force_ratio"),
-                  0.0, "Q after %s", next[k][0]);
+        CHECK_ABS(rb_api_number(a, "force_ratio"), rb_api_number(anew, "force_ratio"), 0.0,
+                  "Q after %s", next[k][0]);
         rb_api_free(anew);
     }
     rb_api_free(a);
@@ -234,15 +230,12 @@ TEST(newton_ends_in_the_solution)
     assert_non_null(zone);
     assert_int_equal(rows, 12);
     assert_true(steps > 2);
-    const double *p = array(a, "newton.p", 12, steps),
-                 *q = array(a, "newton.q", 12, steps);
+    const double *p = array(a, "newton.p", 12, steps), *q = array(a, "newton.q", 12, steps);
     const double *want_p = array(a, "p", 12, 1), *want_q = array(a, "q", 12, 1);
     for (int i = 0; i < 12; i++) {
         const int last = i + 12 * (steps - 1);
-        CHECK_ABS(p[last], want_p[i], 1e-8 * rb_api_number(a, "max_pressure"), "p[%d]",
-                  i);
-        CHECK_ABS(q[last], want_q[i], 1e-8 * rb_api_number(a, "max_pressure"), "q[%d]",
-                  i);
+        CHECK_ABS(p[last], want_p[i], 1e-8 * rb_api_number(a, "max_pressure"), "p[%d]", i);
+        CHECK_ABS(q[last], want_q[i], 1e-8 * rb_api_number(a, "max_pressure"), "q[%d]", i);
         for (int k = 0; k < steps; k++)
             if (zone[i + 12 * k] == 0.0)
                 CHECK_ABS(p[i + 12 * k], 0.0, 0.0, "element %d apart in step %d", i, k);
@@ -266,9 +259,8 @@ TEST(matrices_satisfy_their_equations)
         CHECK_ABS(sum, 0.0, 1e-9, "row %d", i);
     }
     /* w = F r: the gap of the solution (K1) */
-    const double *F = array(a, "F", 26, 24), *p = array(a, "p", 12, 1),
-                 *q = array(a, "q", 12, 1), *gap = array(a, "gap", 12, 1),
-                 *gap0 = array(a, "gap0", 12, 1);
+    const double *F = array(a, "F", 26, 24), *p = array(a, "p", 12, 1), *q = array(a, "q", 12, 1),
+                 *gap = array(a, "gap", 12, 1), *gap0 = array(a, "gap0", 12, 1);
     for (int i = 0; i < 12; i++) {
         double w = gap0[i] - rb_api_number(a, "approach");
         for (int j = 0; j < 12; j++)
@@ -286,14 +278,12 @@ TEST(guesses_are_judged)
     for (int i = 0; i < 12; i++)
         zone[i] = (int)is[i];
     assert_int_equal(rb_api_guess(a, 12, zone), RB_OK);
-    static const char *const guessed[] = {"guess.p", "guess.q", "guess.gap"},
-                             *const found[] = {"p", "q", "gap"};
-    const double most[] = {rb_api_number(a, "max_pressure"),
-                           rb_api_number(a, "max_pressure"),
+    static const char *const guessed[] = {"guess.p", "guess.q", "guess.gap"}, *const found[] = {
+                                                                                  "p", "q", "gap"};
+    const double most[] = {rb_api_number(a, "max_pressure"), rb_api_number(a, "max_pressure"),
                            rb_api_number(a, "approach")};
     for (int k = 0; k < 3; k++) {
-        const double *guess = array(a, guessed[k], 12, 1),
-                     *is_so = array(a, found[k], 12, 1);
+        const double *guess = array(a, guessed[k], 12, 1), *is_so = array(a, found[k], 12, 1);
         for (int i = 0; i < 12; i++)
             CHECK_ABS(guess[i], is_so[i], 1e-9 * most[k], "%s[%d]", found[k], i);
     }
@@ -320,9 +310,8 @@ TEST(steps_are_kept)
     int n, steps;
     const double *p = rb_api_array(a, "step.p", &n, &steps);
     assert_non_null(p);
-    const double *load = array(a, "history.normal_load", steps, 1),
-                 *h = array(a, "h", n, 1), *x = array(a, "step.x", n, 1),
-                 *last = array(a, "x", n, 1);
+    const double *load = array(a, "history.normal_load", steps, 1), *h = array(a, "h", n, 1),
+                 *x = array(a, "step.x", n, 1), *last = array(a, "x", n, 1);
     for (int i = 0; i < n; i++)
         CHECK_ABS(x[i], last[i], 1e-12, "element %d", i);
     for (int k = 0; k < steps; k++) {
@@ -358,10 +347,9 @@ TEST(notes_and_closed_forms)
     int rows, columns;
     rb_api *a = rb_api_create();
     assert_null(rb_api_note(a, 0, text, sizeof text));
-    static const char *const words[][2] = {
-        {"support", "halfplane"}, {"support-b", "halfplane"},
-        {"similar", "yes"},       {"formulation", "steady"},
-        {"load", "500"},          {"mu", "0.3"}};
+    static const char *const words[][2] = {{"support", "halfplane"}, {"support-b", "halfplane"},
+                                           {"similar", "yes"},       {"formulation", "steady"},
+                                           {"load", "500"},          {"mu", "0.3"}};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         assert_int_equal(rb_api_set(a, words[k][0], words[k][1]), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
@@ -374,8 +362,7 @@ TEST(notes_and_closed_forms)
     const double highest = rb_api_number(a, "max_pressure");
     for (int k = 0; k < 2; k++) {
         double worst = 0.0;
-        const double *closed =
-            rb_api_array(a, k ? "closed.q" : "closed.p", &rows, &columns);
+        const double *closed = rb_api_array(a, k ? "closed.q" : "closed.p", &rows, &columns);
         const double *solved = rb_api_array(a, k ? "q" : "p", &rows, &columns);
         assert_non_null(closed);
         for (int i = 0; i < rows; i++)
@@ -402,8 +389,8 @@ TEST(results_of_every_table_are_there)
     assert_non_null(rb_api_word(a, "solver"));
     assert_true(rb_api_number(a, "error.tangential_load") > 0.0);
     assert_true(isnan(rb_api_number(a, "error.iterations")));
-    CHECK_REL(array(a, "patch.normal_load", 1, 1)[0], rb_api_number(a, "normal_load"),
-              1e-12, "one patch has it all");
+    CHECK_REL(array(a, "patch.normal_load", 1, 1)[0], rb_api_number(a, "normal_load"), 1e-12,
+              "one patch has it all");
     assert_non_null(array(a, "friction_power", 60, 1));
     assert_true(rb_api_stress(a, 5, 5, 0.0) < 0);
     assert_non_null(strstr(rb_api_message(a), "without error bars"));
@@ -461,8 +448,7 @@ TEST(every_name_has_its_value)
     assert_true(rb_api_lcp(a, 0, &M, &q, "lemke", 0) < 0);
     assert_int_equal(rb_api_lcp(a, 1, &M, &q, "lemke", 0), RB_OK);
     assert_int_equal(rb_api_friction(a, 1, 1, &W, &v, &mu, "auto", 1e-10, 0), RB_EINVAL);
-    CHECK_ABS(rb_api_number(a, "task.iterations"), 0.0, 0.0,
-              "none of the problem before");
+    CHECK_ABS(rb_api_number(a, "task.iterations"), 0.0, 0.0, "none of the problem before");
     assert_true(rb_api_read(a, "nothing.ini") < 0);
     assert_non_null(strstr(rb_api_message(a), "nothing.ini"));
     rb_api_free(a);
@@ -534,8 +520,7 @@ TEST(problems_by_themselves_are_solved)
         CHECK_ABS(r[i], -mu * r[0] * u[i] / slip, 1e-9, "r[%d]", i);
     assert_true(rb_api_friction(a, 4, 1, W, v, &mu, "auto", 1e-8, 0) < 0);
     assert_true(rb_api_friction_file(a, "nothing.hdf5", "auto", 1e-8, 0) == RB_ENOENT);
-    assert_int_equal(rb_api_friction_file(a, "tests/fuzz/fclib/local", "auto", 1e-8, 0),
-                     RB_OK);
+    assert_int_equal(rb_api_friction_file(a, "tests/fuzz/fclib/local", "auto", 1e-8, 0), RB_OK);
     CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-8, "of a file");
     rb_api_free(a);
 }
@@ -562,8 +547,7 @@ TEST(a_sweep_is_its_cases)
     assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));
     assert_int_equal(rb_api_set(one[0], "error", "yes"), RB_OK);
     assert_true(rb_api_sweep(study, 3, one, 2) < 0);
-    assert_non_null(
-        strstr(rb_api_message(study), "case 1: error: these studies have no"));
+    assert_non_null(strstr(rb_api_message(study), "case 1: error: these studies have no"));
     for (int k = 0; k < 3; k++)
         rb_api_free(one[k]);
     rb_api_free(study);
@@ -584,8 +568,7 @@ TEST(descriptions_have_their_ends)
     assert_string_equal(rb_api_option(group, "choices", text, sizeof text), "");
     while (strcmp(o[k].name, "formulation") != 0)
         k++;
-    assert_string_equal(rb_api_option(k, "choices", text, sizeof text),
-                        "static steady transient");
+    assert_string_equal(rb_api_option(k, "choices", text, sizeof text), "static steady transient");
     assert_string_equal(rb_api_option(k, "choices", text, 11), "static ste");
     assert_string_equal(rb_api_option(k, "choices", text, 7), "static");
     assert_string_equal(rb_api_option(k, "default", text, sizeof text), "static");
@@ -660,9 +643,8 @@ TEST(what_is_not_there_is_none)
  */
 TEST(solvers_have_their_names)
 {
-    static const char *const cone[] = {"support", "halfplane", "load", "500",
-                                       "mu",      "0.3",       "zone", "2",
-                                       "solver",  "nsn-ac",    NULL};
+    static const char *const cone[] = {"support", "halfplane", "load",   "500",    "mu", "0.3",
+                                       "zone",    "2",         "solver", "nsn-ac", NULL};
     static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
     rb_api *a = solved(cone);
     assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
@@ -672,8 +654,7 @@ TEST(solvers_have_their_names)
     CHECK_MAX(0.0, rb_api_number(a, "task.scaled_residual"), "a number");
     assert_int_equal(rb_api_friction(a, 2, 0, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "0 contacts of dimension 2"));
-    assert_int_equal(rb_api_friction(a, 3, 1 << 30, W, v, &mu, "nsn-ac", 1e-10, 0),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_friction(a, 3, 1 << 30, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &(double){-1.0}, "nsn-ac", 1e-10, 0),
                      RB_EINVAL);
     rb_api_free(a);
@@ -694,8 +675,7 @@ TEST(calls_leave_the_threads_alone)
         if (rb_blas_threads(2) != 2) /* a library with one thread */
             skip();
         rb_api *a = solved(wheel);
-        const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1},
-                     xy[] = {0.0, 1.0};
+        const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1}, xy[] = {0.0, 1.0};
         for (int k = 0; k < 9; k++) {
             assert_int_equal(rb_blas_threads(2), 2);
             CHECK_STATUS(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
@@ -704,8 +684,7 @@ TEST(calls_leave_the_threads_alone)
                          : k == 3 ? rb_api_pivots(a)
                          : k == 4 ? rb_api_newton(a)
                          : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
-                         : k == 6
-                             ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
+                         : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
                          : k == 7 ? rb_api_sweep(a, 1, &a, 1)
                                   : rb_api_solve(a),
                          RB_OK);
@@ -732,8 +711,7 @@ TEST(matrices_are_at_hand_or_refused)
     int r, c;
     rb_api *a = solved(large);
     assert_int_equal(rb_api_pivots(a), RB_EINVAL);
-    assert_string_equal(rb_api_message(a),
-                        "there is no solved case whose matrices are available");
+    assert_string_equal(rb_api_message(a), "there is no solved case whose matrices are available");
     assert_null(rb_api_array(a, "G", &r, &c));
     assert_int_equal(rb_api_stress_at(a, 0, NULL), RB_EINVAL);
     assert_string_equal(rb_api_message(a), "stress: expected at least one point, got 0");
@@ -812,18 +790,16 @@ static rb_status step_through(rb_api *a)
 
 static rb_status look_around(rb_api *a)
 {
-    static const char *const arrays[] = {"patch.normal_load", "friction_power",
-                                         "curve.creepage", "curve.error.force_ratio",
-                                         NULL};
+    static const char *const arrays[] = {"patch.normal_load", "friction_power", "curve.creepage",
+                                         "curve.error.force_ratio", NULL};
     const int s = rb_api_curve_over(a, "creep", 0.0, 1e-3, 3);
     return s == RB_OK ? have_arrays(a, arrays) : (rb_status)s;
 }
 
 static rb_status look_below(rb_api *a)
 {
-    static const char *const arrays[] = {
-        "step.p",           "step.x",     "history.normal_load",
-        "maxima.max_shear", "stress.syy", NULL};
+    static const char *const arrays[] = {"step.p",           "step.x",     "history.normal_load",
+                                         "maxima.max_shear", "stress.syy", NULL};
     const double xy[] = {0.0, 0.1};
     int s = rb_api_stress(a, 3, 3, 0.0);
     if (s == RB_OK)
@@ -839,8 +815,7 @@ static rb_status solve_problems(rb_api *a)
     static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
     static const char *const of_lcp[] = {"lcp.z", "lcp.w", NULL},
                              *const of_friction[] = {"friction.r", "friction.u", NULL},
-                             *const of_sweep[] = {"sweep.status", "sweep.force_ratio",
-                                                  NULL};
+                             *const of_sweep[] = {"sweep.status", "sweep.force_ratio", NULL};
     rb_api *const cases[] = {a};
     char text[40];
     int s = rb_api_option(1, "default", text, sizeof text) ? RB_OK : RB_ENOMEM;
@@ -884,21 +859,17 @@ static rb_status by_handle(void *context)
 TEST(short_memory_is_reported)
 {
     static const char *const bars[] = {
-        "formulation", "steady",      "support", "halfplane", "load",
-        "500",         "creep-ratio", "0.5",     "mesh",      "uniform",
-        "error",       "yes",         "zone",    "2",         "contact-elements",
-        "12",          NULL};
+        "formulation", "steady",  "support", "halfplane", "load", "500", "creep-ratio",      "0.5",
+        "mesh",        "uniform", "error",   "yes",       "zone", "2",   "contact-elements", "12",
+        NULL};
     static const char *const rolls[] = {
         "support",     "halfplane", "load",     "500", "creep-ratio",      "0.5",
         "formulation", "transient", "distance", "0.2", "contact-elements", "8",
         "zone",        "2",         NULL};
-    static const char *const small[] = {
-        "support", "halfplane", "load", "500", "contact-elements",
-        "8",       "zone",      "2",    NULL};
-    const handle_job jobs[] = {{wheel, step_through},
-                               {bars, look_around},
-                               {rolls, look_below},
-                               {small, solve_problems}};
+    static const char *const small[] = {"support", "halfplane", "load", "500", "contact-elements",
+                                        "8",       "zone",      "2",    NULL};
+    const handle_job jobs[] = {
+        {wheel, step_through}, {bars, look_around}, {rolls, look_below}, {small, solve_problems}};
     for (size_t k = 0; k < sizeof jobs / sizeof *jobs; k++) {
         const int n = alloc_fail_every_call(by_handle, (void *)&jobs[k]);
         print_message("# job %d: %d failures of memory\n", (int)k, n);
@@ -962,8 +933,7 @@ TEST(cracks)
     for (int j = 0; j < rows; j++)
         sum += length[j];
     CHECK_ABS(sum, 1.0, 2e-3, "lengths of the nodes but for half an element at the tip");
-    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"90", "yes", "-2"}),
-                     RB_OK);
+    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"90", "yes", "-2"}), RB_OK);
     for (int k = 0; k < 2; k++) { /* closed: the faces carry what lies across them */
         const double *traction =
             rb_api_array(a, k ? "crack.friction" : "crack.pressure", &rows, &columns);
@@ -973,8 +943,7 @@ TEST(cracks)
     }
     rb_api_set(a, "units", "si");
     rb_api_set(a, "half-width", "0.001");
-    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"45", "yes", "2e6"}),
-                     RB_OK);
+    assert_int_equal(rb_api_crack(a, 3, names, (const char *const[]){"45", "yes", "2e6"}), RB_OK);
     CHECK_REL(*rb_api_array(a, "crack.summary.K_I_max", &rows, &columns), K_mm, 1e-9,
               "in mm, N and MPa");
     assert_true(rb_api_crack(a, 2, names, (const char *const[]){"0", "yes"}) < 0);
@@ -993,8 +962,8 @@ TEST(derivatives)
     assert_null(rb_api_array(a, "derivative.tangential_load", &rows, &columns));
 
     rb_api_free(a);
-    a = solved((const char *const[]){"support", "halfplane", "similar", "yes", "load",
-                                     "500", "formulation", "steady", "creep-ratio", "3",
+    a = solved((const char *const[]){"support", "halfplane", "similar", "yes", "load", "500",
+                                     "formulation", "steady", "creep-ratio", "3",
                                      "contact-elements", "30", NULL});
     assert_null(rb_api_input(a, 0, "name", name, sizeof name));
     assert_int_equal(rb_api_derivatives(a), RB_OK);

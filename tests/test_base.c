@@ -75,8 +75,7 @@ TEST(every_status_has_its_own_words)
 {
     for (int i = RB_EHELPER; i <= RB_INTERRUPTED; i++)
         for (int j = RB_EHELPER; j < i; j++)
-            assert_string_not_equal(rb_status_text((rb_status)i),
-                                    rb_status_text((rb_status)j));
+            assert_string_not_equal(rb_status_text((rb_status)i), rb_status_text((rb_status)j));
 }
 
 TEST(what_went_wrong_has_its_words)
@@ -110,16 +109,16 @@ TEST(only_characters_are_printed)
     } all[] = {{"a~ ", "a~ ", 0},
                {"\x1f\x7f\n", "\\x1f\\x7f\\x0a", 0},
                {"\xc2\xa0\xc3\xa9", "\xc2\xa0\xc3\xa9", 0},
-               {"\xc2\x9f", "\\xc2\\x9f", 0},          /* a control character */
-               {"\x80z", "\\x80z", 0},                 /* no beginning */
-               {"\xc3z", "\\xc3z", 0},                 /* no end */
-               {"\xc1\xbf", "\\xc1\\xbf", 0},          /* too long for its number */
-               {"\xe0\xa0\x80", "\xe0\xa0\x80", 0},    /* U+0800, the first of three */
-               {"\xe0\x9f\xbf", "\\xe0\\x9f\\xbf", 0}, /* too long */
-               {"\xed\x9f\xbf", "\xed\x9f\xbf", 0},    /* below the surrogates */
-               {"\xed\xa0\x80", "\\xed\\xa0\\x80", 0}, /* the first of them */
-               {"\xed\xbf\xbf", "\\xed\\xbf\\xbf", 0}, /* the last */
-               {"\xee\x80\x80", "\xee\x80\x80", 0},    /* behind them */
+               {"\xc2\x9f", "\\xc2\\x9f", 0},               /* a control character */
+               {"\x80z", "\\x80z", 0},                      /* no beginning */
+               {"\xc3z", "\\xc3z", 0},                      /* no end */
+               {"\xc1\xbf", "\\xc1\\xbf", 0},               /* too long for its number */
+               {"\xe0\xa0\x80", "\xe0\xa0\x80", 0},         /* U+0800, the first of three */
+               {"\xe0\x9f\xbf", "\\xe0\\x9f\\xbf", 0},      /* too long */
+               {"\xed\x9f\xbf", "\xed\x9f\xbf", 0},         /* below the surrogates */
+               {"\xed\xa0\x80", "\\xed\\xa0\\x80", 0},      /* the first of them */
+               {"\xed\xbf\xbf", "\\xed\\xbf\\xbf", 0},      /* the last */
+               {"\xee\x80\x80", "\xee\x80\x80", 0},         /* behind them */
                {"\xf0\x90\x80\x80", "\xf0\x90\x80\x80", 0}, /* U+10000 */
                {"\xf4\x8f\xbf\xbf", "\xf4\x8f\xbf\xbf", 0}, /* U+10FFFF, the last */
                {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80", 0},
@@ -132,9 +131,8 @@ TEST(only_characters_are_printed)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char room[40];
         memset(room, 'x', sizeof room);
-        assert_ptr_equal(
-            rb_printable(all[k].text, room, all[k].room ? all[k].room : sizeof room),
-            room);
+        assert_ptr_equal(rb_printable(all[k].text, room, all[k].room ? all[k].room : sizeof room),
+                         room);
         if (strcmp(room, all[k].shown) != 0)
             fail_msg("row %zu: '%s', expected '%s'", k, room, all[k].shown);
         if (all[k].room)

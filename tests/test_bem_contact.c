@@ -5,11 +5,8 @@
 #include <string.h>
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
-static const rb_bem_cylinder on_arc = {.radius = 50.0,
-                                       .support = RB_BEM_ARC,
-                                       .arc = M_PI / 6.0},
-                             on_hub = {
-                                 .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
+static const rb_bem_cylinder on_arc = {.radius = 50.0, .support = RB_BEM_ARC, .arc = M_PI / 6.0},
+                             on_hub = {.radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
 
 /* n_c equal elements over |x| <= a and one more after them */
 static double *equal_ends(int n_c, double a)
@@ -80,8 +77,7 @@ TEST(the_arc_ends_at_element_ends)
     OWNED(rb_bem_mesh) mesh = mesh_of(&on_arc, 40, 2.0);
     double clamped = 0.0;
     for (int j = 0; j < mesh.n; j++) {
-        const double angle =
-            fabs(atan2(midpoint_x(&mesh, j), 50.0 - midpoint_y(&mesh, j)));
+        const double angle = fabs(atan2(midpoint_x(&mesh, j), 50.0 - midpoint_y(&mesh, j)));
         const int held = mesh.condition[2 * j] == RB_BEM_DISPLACEMENT;
         assert_int_equal(held, angle > M_PI - on_arc.arc);
         assert_int_equal(mesh.condition[2 * j], mesh.condition[2 * j + 1]);
@@ -131,8 +127,8 @@ TEST(refinement_multiplies_what_is_outside)
             OWNED(rb_bem_mesh) mesh = mesh_of(&cylinder, 40, 1.0);
             outside[finer] = mesh.n - 40;
             for (int j = 0; j < mesh.n; j++)
-                largest[finer] = fmax(largest[finer], hypot(mesh.x1[j] - mesh.x0[j],
-                                                            mesh.y1[j] - mesh.y0[j]));
+                largest[finer] =
+                    fmax(largest[finer], hypot(mesh.x1[j] - mesh.x0[j], mesh.y1[j] - mesh.y0[j]));
         }
         CHECK_REL(outside[1], 2.0 * outside[0], 0.1, "elements, mesh %d", k);
         if (k < 2)
@@ -203,9 +199,8 @@ TEST(bad_cylinders_are_refused)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         OWNED(rb_bem_mesh) mesh;
         rb_message why = {""};
-        CHECK_STATUS(
-            rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &why),
-            RB_EINVAL);
+        CHECK_STATUS(rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &why),
+                     RB_EINVAL);
         if (!strstr(why.text, bad[k].text))
             fail_msg("case %d: '%s' does not say '%s'", (int)k, why.text, bad[k].text);
     }
@@ -223,10 +218,8 @@ TEST(the_zone_ends_before_the_clamped_arc)
             ends[i] = 50.0 * sin(k < 2 ? reach - (4 - i) * arc : -reach + (1 + i) * arc);
         OWNED(rb_bem_mesh) mesh;
         rb_message why = {""};
-        CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &why),
-                     k % 2 ? RB_EINVAL : RB_OK);
-        assert_true(k % 2 ==
-                    (strstr(why.text, "clamped arc of half-angle 1.57") != NULL));
+        CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &why), k % 2 ? RB_EINVAL : RB_OK);
+        assert_true(k % 2 == (strstr(why.text, "clamped arc of half-angle 1.57") != NULL));
     }
 }
 
@@ -341,8 +334,7 @@ static double *block(const double *A, int ld, int row, int col, int rows, int co
 }
 
 /* C -= A B */
-static void subtract_product(int m, int n, int k, const double *A, const double *B,
-                             double *C)
+static void subtract_product(int m, int n, int k, const double *A, const double *B, double *C)
 {
     for (int j = 0; j < n; j++)
         for (int l = 0; l < k; l++)
@@ -394,8 +386,7 @@ static void check_schur(rb_bem_normals normals)
     give(&mesh, 9, RB_BEM_TRACTION, 1.0, -2.0);
     const partition p = partition_of(&mesh);
     const int dofs = p.c + p.f;
-    double *Hcc = block(p.H, dofs, 0, 0, p.c, p.c),
-           *Hcf = block(p.H, dofs, 0, p.c, p.c, p.f);
+    double *Hcc = block(p.H, dofs, 0, 0, p.c, p.c), *Hcf = block(p.H, dofs, 0, p.c, p.c, p.f);
     double *Hff = block(p.H, dofs, p.c, p.c, p.f, p.f);
     /* right-hand sides of H_ff: [H_fc  G_fc  f_f], then of the complement */
     double *Xf = rb_alloc((size_t)p.f, 2 * (size_t)p.c + 1),
@@ -418,14 +409,13 @@ static void check_schur(rb_bem_normals normals)
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, normals, &f, NULL), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * f.m), RB_OK);
-    const double scale = rb_norm_inf(4 * (n_c + 1) * n_c, F),
-                 scale0 = rb_norm_inf(12, f.w0);
+    const double scale = rb_norm_inf(4 * (n_c + 1) * n_c, F), scale0 = rb_norm_inf(12, f.w0);
     for (int i = 0; i < n_c; i++)
         for (int a = 0; a < 2; a++) {
             frame(&mesh, i, normals, C);
             const double *u0 = Xc + p.c * p.c + 2 * i;
-            CHECK_ABS(f.w0[a * f.m + i], C[a][0] * u0[0] + C[a][1] * u0[1],
-                      1e-10 * scale0, "w0 %d %d", a, i);
+            CHECK_ABS(f.w0[a * f.m + i], C[a][0] * u0[0] + C[a][1] * u0[1], 1e-10 * scale0,
+                      "w0 %d %d", a, i);
             for (int j = 0; j < n_c; j++)
                 for (int b = 0; b < 2; b++) {
                     double want = 0.0;
@@ -433,8 +423,8 @@ static void check_schur(rb_bem_normals normals)
                     for (int k = 0; k < 2; k++)
                         for (int l = 0; l < 2; l++)
                             want += C[a][k] * Xc[2 * i + k + (2 * j + l) * p.c] * D[b][l];
-                    CHECK_ABS(F[a * f.m + i + 2 * f.m * (b * n_c + j)], want,
-                              1e-10 * scale, "F %d%d(%d, %d)", a, b, i, j);
+                    CHECK_ABS(F[a * f.m + i + 2 * f.m * (b * n_c + j)], want, 1e-10 * scale,
+                              "F %d%d(%d, %d)", a, b, i, j);
                 }
         }
     rb_bem_system_free(system);
@@ -460,8 +450,7 @@ TEST(every_row_is_a_displacement_of_the_full_solution)
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL), RB_OK);
     double r[2 * n_c], t_c[2 * n_c], w[2 * (n_c + 1)];
-    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
-                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
     for (int i = 0; i < n_c; i++) {
         t_c[2 * i + 1] = r[i] = 1.0 + i;
         t_c[2 * i] = r[n_c + i] = 0.3 - 0.1 * i;
@@ -470,8 +459,7 @@ TEST(every_row_is_a_displacement_of_the_full_solution)
     CHECK_STATUS(rb_bem_system_solve(system, t_c, u, t), RB_OK);
     for (int i = 0; i <= n_c; i++) {
         CHECK_REL(w[i] + f.w0[i], u[2 * i + 1], 1e-11, "w_N %d", i);
-        CHECK_ABS(w[n_c + 1 + i] + f.w0[n_c + 1 + i], u[2 * i], 1e-11 * fabs(u[1]),
-                  "w_T %d", i);
+        CHECK_ABS(w[n_c + 1 + i] + f.w0[n_c + 1 + i], u[2 * i], 1e-11 * fabs(u[1]), "w_T %d", i);
         CHECK_REL(f.x[i], midpoint_x(&mesh, i), 1e-15, "x %d", i);
         CHECK_REL(f.h[i], element_length(&mesh, i), 1e-15, "h %d", i);
     }
@@ -517,16 +505,14 @@ TEST(flexibility_is_symmetric_up_to_discretisation)
 /* Hertz's pressure and a friction of the same shape on |x| <= a; largest difference of
  * the displacements against those of the half-plane, both less their mean, over their
  * range. */
-static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, double a,
-                                   int friction)
+static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, double a, int friction)
 {
     OWNED(rb_bem_flexibility)
     wheel = condensed(cylinder, n_c, a, RB_BEM_NORMALS_OBSTACLE), plane;
     double *ends = equal_ends(n_c, a), *r = rb_alloc(2 * (size_t)n_c, 1),
            *w = rb_alloc(4 * (size_t)wheel.m, 1), *v = w + 2 * wheel.m;
-    CHECK_STATUS(
-        rb_bem_flexibility_surface(n_c, ends, HALFPLANE(material, 50.0), &plane, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n_c, ends, HALFPLANE(material, 50.0), &plane, NULL),
+                 RB_OK);
     for (int i = 0; i < n_c; i++)
         r[friction * n_c + i] = sqrt(1.0 - pow(wheel.x[i] / a, 2));
     rb_bem_flexibility_apply(&wheel, r, w);
@@ -587,8 +573,7 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
     wheel.outer_elements = outer;
     OWNED(rb_bem_mesh) mesh = mesh_of(&wheel, n_c, 5.0);
     rb_bem_system *system;
-    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
-                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
     double *pressure = rb_alloc(2 * (size_t)n_c, 1), load = 0.0, sum = 0.0;
     for (int i = 0; i < n_c; i++)
         pressure[2 * i + 1] = 1.0;
@@ -627,9 +612,7 @@ static double compression(double P, double R, double a)
 /* mean of sqrt(1 - x^2) over [x, y] within [-1, 1] */
 static double hertz_mean(double x, double y)
 {
-    return 0.5 *
-           (y * sqrt(fmax(0, 1 - y * y)) + asin(y) - x * sqrt(fmax(0, 1 - x * x)) -
-            asin(x)) /
+    return 0.5 * (y * sqrt(fmax(0, 1 - y * y)) + asin(y) - x * sqrt(fmax(0, 1 - x * x)) - asin(x)) /
            (y - x);
 }
 
@@ -639,9 +622,8 @@ TEST(the_default_datum_is_the_half_cylinder)
     const double R = 50.0, a = 0.1;
     double *ends = equal_ends(n, a), r[2 * n] = {0}, w[2 * (n + 1)];
     OWNED(rb_bem_flexibility) f;
-    CHECK_STATUS(
-        rb_bem_flexibility_surface(n, ends, HALFPLANE(material, 2.0 * R / M_E), &f, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, ends, HALFPLANE(material, 2.0 * R / M_E), &f, NULL),
+                 RB_OK);
     for (int i = 0; i < n; i++)
         r[i] = hertz_mean(ends[i] / a, fmin(1.0, ends[i + 1] / a));
     rb_bem_flexibility_apply(&f, r, w);
@@ -659,8 +641,8 @@ static double disc_compression_error(int m, double a)
     for (int j = 0; j < 2 * m; j++)
         for (int end = 0; end < 2; end++) {
             const int e = (j + end) % (2 * m), top = e >= m;
-            const double s = 2.0 * (e % m) / m - 1.0,
-                         angle = M_PI_2 * sinh(k * s) / sinh(k), sign = top ? -1.0 : 1.0;
+            const double s = 2.0 * (e % m) / m - 1.0, angle = M_PI_2 * sinh(k * s) / sinh(k),
+                         sign = top ? -1.0 : 1.0;
             double *x = end ? mesh.x1 : mesh.x0, *y = end ? mesh.y1 : mesh.y0;
             x[j] = sign * sin(angle);
             y[j] = sign * 2.0 * pow(sin(0.5 * angle), 2) + (top ? 2.0 : 0.0);
@@ -669,12 +651,11 @@ static double disc_compression_error(int m, double a)
         const double low = fmax(-1.0, fmin(mesh.x0[j], mesh.x1[j]) / a),
                      high = fmin(1.0, fmax(mesh.x0[j], mesh.x1[j]) / a);
         if (low < high) /* the pressed share of the element */
-            mesh.value[2 * j + 1] = (j < m ? 1.0 : -1.0) * hertz_mean(low, high) *
-                                    (high - low) * a / fabs(mesh.x1[j] - mesh.x0[j]);
+            mesh.value[2 * j + 1] = (j < m ? 1.0 : -1.0) * hertz_mean(low, high) * (high - low) *
+                                    a / fabs(mesh.x1[j] - mesh.x0[j]);
     }
     mesh.condition[2 * (m / 2)] = mesh.condition[2 * (m + m / 2)] = RB_BEM_DISPLACEMENT;
-    mesh.condition[2 * (m / 4) + 1] =
-        RB_BEM_DISPLACEMENT; /* unloaded: only the rigid motion */
+    mesh.condition[2 * (m / 4) + 1] = RB_BEM_DISPLACEMENT; /* unloaded: only the rigid motion */
     rb_bem_system *system;
     SCRATCH double *u = rb_alloc(4 * (size_t)m, 1), *t = rb_alloc(4 * (size_t)m, 1);
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
@@ -721,15 +702,13 @@ TEST(memory_without_length_doubles_the_flexibility)
     CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
-    CHECK_STATUS(
-        rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, soft, 2 * m), RB_OK);
     for (int k = 0; k < 4 * m * n; k++)
         most = fmax(most, fabs(F[k]));
     for (int k = 0; k < 4 * m * n; k++) {
-        const int row = k % (2 * m), column = k / (2 * m),
-                  apart = abs(row % m - column % n);
+        const int row = k % (2 * m), column = k / (2 * m), apart = abs(row % m - column % n);
         const int is_coupling = row / m != column / n;
         CHECK_ABS(soft[k], 2.0 * F[k], (apart < 2 || is_coupling ? 0.02 : 1e-3) * most,
                   "row %d, column %d", row, column);

@@ -24,9 +24,8 @@ static double complex series(double h, double angle, double complex p)
             down = cexp(-I * fmod(m * angle, 2 * M_PI));
         sum += down / m * sin((m + 1) * 0.5 * h) / ((m + 1) * 0.5 * h);
     }
-    const double complex u = R * h / (2 * M_PI) *
-                             (p * sum + turn * 0.5 * (kap - 1) * creal(p)) /
-                             (2 * material.shear);
+    const double complex u =
+        R * h / (2 * M_PI) * (p * sum + turn * 0.5 * (kap - 1) * creal(p)) / (2 * material.shear);
     const double complex centre =
         -conj(p) * R * 2 * sin(0.5 * h) * turn * turn / (4 * M_PI * material.shear);
     return (u + centre) * conj(turn); /* along r and t of the point */
@@ -39,15 +38,15 @@ TEST(the_closed_form_is_the_series)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 2; k++) {
                 double response[4];
-                CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){2.0, material}, h[i],
-                                                  angle[j], response),
-                             RB_OK);
+                CHECK_STATUS(
+                    rb_bem_disc_response(&(rb_bem_disc){2.0, material}, h[i], angle[j], response),
+                    RB_OK);
                 const double complex want = series(h[i], angle[j], k ? I : 1.0);
                 const double scale = 2.0 * h[i] / material.shear;
-                CHECK_ABS(response[2 * k], creal(want), 1e-11 * scale, "u_r %g %g %d",
-                          h[i], angle[j], k);
-                CHECK_ABS(response[2 * k + 1], cimag(want), 1e-11 * scale, "u_t %g %g %d",
-                          h[i], angle[j], k);
+                CHECK_ABS(response[2 * k], creal(want), 1e-11 * scale, "u_r %g %g %d", h[i],
+                          angle[j], k);
+                CHECK_ABS(response[2 * k + 1], cimag(want), 1e-11 * scale, "u_t %g %g %d", h[i],
+                          angle[j], k);
             }
 }
 
@@ -59,12 +58,9 @@ TEST(arcs_add_up_at_any_width)
         for (double place = 0.25; place < 2.0 / h && place < 1e4; place *= 7.0) {
             double whole[4], left[4], right[4];
             const double b = place * h;
-            CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, h, b, whole),
-                         RB_OK);
-            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b - 0.25 * h,
-                                 left);
-            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b + 0.25 * h,
-                                 right);
+            CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, h, b, whole), RB_OK);
+            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b - 0.25 * h, left);
+            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b + 0.25 * h, right);
             for (int k = 0; k < 4; k++)
                 CHECK_ABS(left[k] + right[k], whole[k], 1e-13 * rb_norm_inf(4, whole),
                           "entry %d, h = %g, %g widths away", k, h, place);
@@ -83,10 +79,8 @@ static double element_error(int n, double alpha)
     for (int j = 0; j < n; j++) {
         const double angle = atan2(midpoint_y(&mesh, j), midpoint_x(&mesh, j));
         double top[4], bottom[4];
-        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle - M_PI_2,
-                             top);
-        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle + M_PI_2,
-                             bottom);
+        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle - M_PI_2, top);
+        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle + M_PI_2, bottom);
         const double r = -(top[0] + bottom[0]), s = -(top[1] + bottom[1]);
         error += pow(u[2 * j] - r * cos(angle) + s * sin(angle), 2) +
                  pow(u[2 * j + 1] - r * sin(angle) - s * cos(angle), 2);
@@ -100,8 +94,7 @@ static double element_error(int n, double alpha)
 
 TEST(elements_converge_to_the_disc)
 {
-    const double coarse = element_error(60, M_PI / 20),
-                 fine = element_error(180, M_PI / 20),
+    const double coarse = element_error(60, M_PI / 20), fine = element_error(180, M_PI / 20),
                  finest = element_error(540, M_PI / 20);
     CHECK_MAX(finest, 1.3e-3, "error on 540 elements");
     CHECK_ABS(order(coarse, fine) / log2(3), 1.0, 0.1, "order");
@@ -121,17 +114,16 @@ TEST(every_element_is_of_the_same_arc)
             ends[i] = 2.0 * sin(-0.2 + 0.15 * i);
         if (k > 0)
             ends[k] += 1e-6;
-        CHECK_STATUS(
-            rb_bem_flexibility_disc(n, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, &why),
-            k ? RB_EINVAL : RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, &why),
+                     k ? RB_EINVAL : RB_OK);
         char text[80] = "";
         if (k)
             snprintf(text, sizeof text,
                      "disc: contact element %d has another length than the others", k);
         assert_string_equal(why.text, text);
         for (int i = 0; i < n && !k; i++) /* arcs, not chords */
-            CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])),
-                      1e-14, "length of element %d", i);
+            CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])), 1e-14,
+                      "length of element %d", i);
     }
 }
 
@@ -146,9 +138,8 @@ TEST(bad_input_is_refused)
                  RB_EINVAL);
     CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.1, NAN, response),
                  RB_EINVAL);
-    CHECK_STATUS(
-        rb_bem_disc_response(&(rb_bem_disc){1.0, {1.0, 0.6}}, 0.1, 0.0, response),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, {1.0, 0.6}}, 0.1, 0.0, response),
+                 RB_EINVAL);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -18,8 +18,8 @@ static load hertz(double ratio)
         l.ends[i] = -cos(M_PI * i / n_strips);
     for (int i = 0; i < n_strips; i++) {
         const double a = l.ends[i], b = l.ends[i + 1];
-        const double area = 0.5 * (b * sqrt(fmax(0, 1 - b * b)) + asin(b) -
-                                   a * sqrt(fmax(0, 1 - a * a)) - asin(a));
+        const double area =
+            0.5 * (b * sqrt(fmax(0, 1 - b * b)) + asin(b) - a * sqrt(fmax(0, 1 - a * a)) - asin(a));
         l.p[i] = area / (b - a);
         l.q[i] = ratio * l.p[i];
     }
@@ -29,10 +29,9 @@ static load hertz(double ratio)
 static void stress_at(const load *l, double x, double y, double s[3])
 {
     const double xy[2] = {x, y};
-    CHECK_STATUS(
-        rb_bem_halfplane_stress(&(rb_bem_edge_load){n_strips, l->ends, l->p, l->q},
-                                (rb_bem_points){1, xy}, s),
-        RB_OK);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){n_strips, l->ends, l->p, l->q},
+                                         (rb_bem_points){1, xy}, s),
+                 RB_OK);
 }
 
 static double max_shear(const double s[3])
@@ -53,8 +52,7 @@ typedef struct {
 } maximum;
 
 /* On ever finer grids about the best point so far. */
-static maximum largest(const load *l, double (*of)(const double *), maximum best,
-                       double step)
+static maximum largest(const load *l, double (*of)(const double *), maximum best, double step)
 {
     for (int round = 0; round < 12; round++, step *= 0.4) {
         const double cx = best.x, cy = best.y;
@@ -108,8 +106,7 @@ TEST(the_axis_is_in_closed_form)
     for (double y = 0.01; y < 100.0; y *= 2.0) {
         double s[3];
         stress_at(&l, 0.0, y, s);
-        CHECK_ABS(s[0], -((1 + 2 * y * y) / sqrt(1 + y * y) - 2 * y), 3e-5, "sxx at %g",
-                  y);
+        CHECK_ABS(s[0], -((1 + 2 * y * y) / sqrt(1 + y * y) - 2 * y), 3e-5, "sxx at %g", y);
         CHECK_ABS(s[1], -1 / sqrt(1 + y * y), 3e-5, "syy at %g", y);
         CHECK_ABS(s[2], 0.0, 1e-15, "sxy at %g", y);
     }
@@ -144,9 +141,9 @@ TEST(the_end_of_a_strip_sees_half_of_it)
     for (int k = 0; k < 2; k++) {
         const double at[2] = {ends[k], 0.0};
         double s[3];
-        CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, p, q},
-                                             (rb_bem_points){1, at}, s),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, p, q}, (rb_bem_points){1, at}, s),
+            RB_OK);
         CHECK_REL(s[0], -1.5, 1e-14, "sxx at end %d", k);
         CHECK_REL(s[1], -1.5, 1e-14, "syy at end %d", k);
         CHECK_ABS(s[2], 0.0, 1e-14, "sxy at end %d", k);
@@ -187,8 +184,7 @@ TEST(far_points_are_those_of_single_strips)
         double one[3];
         stress_at(&l, xy[2 * k], xy[2 * k + 1], one);
         for (int c = 0; c < 3; c++)
-            CHECK_ABS(s[3 * k + c], one[c], 1e-14, "(%g, %g), %d", xy[2 * k],
-                      xy[2 * k + 1], c);
+            CHECK_ABS(s[3 * k + c], one[c], 1e-14, "(%g, %g), %d", xy[2 * k], xy[2 * k + 1], c);
     }
 }
 
@@ -212,8 +208,7 @@ static double of_half_space(int tangential, double from, double to, double c)
 TEST(a_long_strip_has_two_datums)
 {
     const double c = 500.0, ends[2] = {1.0, 3.0}, x = 0.0;
-    rb_bem_surface body =
-        rb_bem_halfplane(rb_bem_material_from_young(210000.0, 0.28), 2.0 * c);
+    rb_bem_surface body = rb_bem_halfplane(rb_bem_material_from_young(210000.0, 0.28), 2.0 * c);
     double W[4];
     body.datum_tangential = 2.0 * c * exp(0.28 / 0.72);
     CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 1, &x, W), RB_OK);
@@ -226,29 +221,29 @@ TEST(bad_input_and_short_memory)
     const double ends[] = {0, 1, 2}, back[] = {0, 1, 1}, one[] = {1, 1}, xy[] = {0.5, 1},
                  above[] = {0.5, -1}, nan[] = {0.5, NAN};
     double s[3];
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){0, ends, one, one},
-                                         (rb_bem_points){1, xy}, s),
-                 RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, back, one, one},
-                                         (rb_bem_points){1, xy}, s),
-                 RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
-                                         (rb_bem_points){-1, xy}, s),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){0, ends, one, one}, (rb_bem_points){1, xy}, s),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){2, back, one, one}, (rb_bem_points){1, xy}, s),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one}, (rb_bem_points){-1, xy}, s),
+        RB_EINVAL);
     CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
                                          (rb_bem_points){1, above}, s),
                  RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
-                                         (rb_bem_points){1, nan}, s),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one}, (rb_bem_points){1, nan}, s),
+        RB_EINVAL);
     alloc_fail_after(0);
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
-                                         (rb_bem_points){1, xy}, s),
-                 RB_ENOMEM);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one}, (rb_bem_points){1, xy}, s),
+        RB_ENOMEM);
     alloc_succeed();
-    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
-                                         (rb_bem_points){0, xy}, s),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one}, (rb_bem_points){0, xy}, s),
+        RB_OK);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -46,8 +46,7 @@ typedef struct {
 static errors error_at_depth(int n, double depth)
 {
     OWNED(rb_bem_mesh) mesh = ring(n, 1.0, 0.4);
-    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1),
-                   *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
     errors e = {0, 0};
     boundary_values(&mesh, u, t);
     for (int j = 0; j < mesh.n; j += n / 20)
@@ -87,10 +86,8 @@ TEST(a_known_field_is_reproduced)
         CHECK_MAX(finest.s, row[k].s, "stress at depth %g", row[k].depth);
         CHECK_MAX(1.65, order(coarse.u, fine.u), "order of u at depth %g", row[k].depth);
         CHECK_MAX(1.65, order(fine.u, finest.u), "order of u at depth %g", row[k].depth);
-        CHECK_MAX(row[k].order_s, order(coarse.s, fine.s), "order at depth %g",
-                  row[k].depth);
-        CHECK_MAX(row[k].order_s, order(fine.s, finest.s), "order at depth %g",
-                  row[k].depth);
+        CHECK_MAX(row[k].order_s, order(coarse.s, fine.s), "order at depth %g", row[k].depth);
+        CHECK_MAX(row[k].order_s, order(fine.s, finest.s), "order at depth %g", row[k].depth);
     }
 }
 
@@ -146,8 +143,7 @@ TEST(diametral_compression_at_the_centre)
 {
     const double alpha = M_PI / 20.0;
     /* n alpha/pi odd */
-    const double coarse = compression_error(60, alpha).s,
-                 fine = compression_error(180, alpha).s,
+    const double coarse = compression_error(60, alpha).s, fine = compression_error(180, alpha).s,
                  finest = compression_error(540, alpha).s;
     CHECK_MAX(finest, 2e-3, "error on 540 elements");
     CHECK_ABS(order(coarse, fine) / log2(3), 1.15, 0.15, "order");
@@ -196,17 +192,14 @@ TEST(the_field_is_in_equilibrium)
         for (double depth = 0.1; depth < 1.0; depth *= 2.0) {
             const double dx = mesh.x1[j] - mesh.x0[j], dy = mesh.y1[j] - mesh.y0[j],
                          x = midpoint_x(&mesh, j) + 0.2 * dx - depth * dy,
-                         y = midpoint_y(&mesh, j) + 0.2 * dy + depth * dx,
-                         h = 1e-4 * hypot(dx, dy);
+                         y = midpoint_y(&mesh, j) + 0.2 * dy + depth * dx, h = 1e-4 * hypot(dx, dy);
             const double xy[8] = {x + h, y, x - h, y, x, y + h, x, y - h};
             double s[12];
             CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                          (rb_bem_points){4, xy}, NULL, s, NULL),
                          RB_OK);
-            CHECK_ABS((s[0] - s[3] + s[8] - s[11]) / (2 * h), 0.0, 1e-4, "x, %d, %g", j,
-                      depth);
-            CHECK_ABS((s[2] - s[5] + s[7] - s[10]) / (2 * h), 0.0, 1e-4, "y, %d, %g", j,
-                      depth);
+            CHECK_ABS((s[0] - s[3] + s[8] - s[11]) / (2 * h), 0.0, 1e-4, "x, %d, %g", j, depth);
+            CHECK_ABS((s[2] - s[5] + s[7] - s[10]) / (2 * h), 0.0, 1e-4, "y, %d, %g", j, depth);
         }
 }
 
@@ -227,8 +220,8 @@ TEST(bad_input_is_refused)
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                  (rb_bem_points){1, hole}, NULL, s, NULL),
                  RB_EINVAL);
-    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
-                                 (rb_bem_points){1, nan}, NULL, s, NULL),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t}, (rb_bem_points){1, nan},
+                                 NULL, s, NULL),
                  RB_EINVAL);
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                  (rb_bem_points){-1, hole}, NULL, s, NULL),

@@ -20,8 +20,7 @@ static double integrand(double s, void *data)
     const integrand_data *q = data;
     const double dx = q->x1 - q->x0, dy = q->y1 - q->y0, h = hypot(dx, dy);
     const double r[2] = {q->x0 + s * dx - q->px, q->y0 + s * dy - q->py};
-    const double R = hypot(r[0], r[1]), g[2] = {r[0] / R, r[1] / R},
-                 n[2] = {dy / h, -dx / h};
+    const double R = hypot(r[0], r[1]), g[2] = {r[0] / R, r[1] / R}, n[2] = {dy / h, -dx / h};
     const double nu = q->material.poisson, rn = g[0] * n[0] + g[1] * n[1];
     const int i = q->i, j = q->j;
     if (q->kernel == 1)
@@ -40,8 +39,7 @@ static double quadrature(integrand_data *q)
     if (!ws)
         ws = gsl_integration_workspace_alloc(1000);
     const double dx = q->x1 - q->x0, dy = q->y1 - q->y0;
-    const double foot =
-        ((q->px - q->x0) * dx + (q->py - q->y0) * dy) / (dx * dx + dy * dy);
+    const double foot = ((q->px - q->x0) * dx + (q->py - q->y0) * dy) / (dx * dx + dy * dy);
     const double cut = fmin(fmax(foot, 0.0), 1.0);
     gsl_function f = {integrand, q};
     double left = 0.0, right = 0.0, error;
@@ -87,8 +85,8 @@ TEST(closed_form_equals_quadrature)
                      r = h * pow(10.0, between(-2.5, 2.5)), s = between(-0.5, 1.5);
         q.px = q.x0 + s * (q.x1 - q.x0) + r * cos(angle);
         q.py = q.y0 + s * (q.y1 - q.y0) + r * sin(angle);
-        const rb_bem_blocks got = rb_bem_element_integrals(
-            (rb_bem_segment){q.x0, q.y0, q.x1, q.y1}, q.px, q.py, 0, q.material);
+        const rb_bem_blocks got = rb_bem_element_integrals((rb_bem_segment){q.x0, q.y0, q.x1, q.y1},
+                                                           q.px, q.py, 0, q.material);
         q.kernel = 0;
         CHECK_MAX(block_error(&q, got.H, 0), 1e-12, "H, pair %d, r/h = %g", k, r / h);
         q.kernel = 1;
@@ -106,8 +104,8 @@ TEST(self_terms_equal_quadrature)
         q.px = 0.5 * (q.x0 + q.x1);
         q.py = 0.5 * (q.y0 + q.y1);
         q.kernel = 1;
-        const rb_bem_blocks got = rb_bem_element_integrals(
-            (rb_bem_segment){q.x0, q.y0, q.x1, q.y1}, q.px, q.py, 1, q.material);
+        const rb_bem_blocks got = rb_bem_element_integrals((rb_bem_segment){q.x0, q.y0, q.x1, q.y1},
+                                                           q.px, q.py, 1, q.material);
         const double *H = got.H;
         CHECK_MAX(block_error(&q, got.G, 1), 1e-12, "G, element %d", k);
         CHECK_ABS(fabs(H[0] - 0.5) + fabs(H[3] - 0.5) + fabs(H[1]) + fabs(H[2]), 0.0, 0.0,
@@ -128,8 +126,7 @@ TEST(nearly_singular_points_are_right)
             const double *H = got.H;
             /* H11 = D [2 (1-nu) Th - dQ], H22 = D [2 (1-nu) Th + dQ], dQ = 2d/(1 + d^2)
              */
-            const double D = -1.0 / (4.0 * M_PI * 0.7),
-                         Th = side * (M_PI - 2.0 * atan(fabs(d)));
+            const double D = -1.0 / (4.0 * M_PI * 0.7), Th = side * (M_PI - 2.0 * atan(fabs(d)));
             const double dQ = 2.0 * d / (1.0 + d * d);
             CHECK_REL(H[0], D * (1.4 * Th - dQ), 3e-15, "H11 at %g", d);
             CHECK_REL(H[3], D * (1.4 * Th + dQ), 3e-15, "H22 at %g", d);
@@ -221,8 +218,7 @@ TEST(rotations_are_annihilated_to_first_order)
     CHECK_MAX(error[0], 2.5e-3, "100 elements");
     CHECK_MAX(error[2], 5.5e-4, "400 elements");
     for (int k = 0; k < 3; k++)
-        CHECK_ABS(order(error[k], error[k + 1]), 1.0, 0.15, "order at %d elements",
-                  50 << k);
+        CHECK_ABS(order(error[k], error[k + 1]), 1.0, 0.15, "order at %d elements", 50 << k);
 }
 
 /* Measured in the body's own size, the same problem in another unit has the same H, and G

@@ -11,8 +11,7 @@ static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
 /* A wheel with a hub, n equal elements over a zone of half-width a = 1 on R = 1000. */
 static rb_bem_system *wheel_system(int n)
 {
-    const rb_bem_cylinder cylinder = {
-        .radius = 1000.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
+    const rb_bem_cylinder cylinder = {.radius = 1000.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
     SCRATCH double *ends = rb_alloc((size_t)n + 2, 1);
     OWNED(rb_bem_mesh) mesh;
     rb_bem_system *system = NULL;
@@ -29,18 +28,15 @@ static double distance_from_halfplane(int n, int subtracted)
     rb_bem_system *system = wheel_system(n);
     OWNED(rb_bem_flexibility) f, flat;
     const int m = n + 1;
-    SCRATCH double *ends = rb_alloc((size_t)n + 2, 1),
-                   *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
+    SCRATCH double *ends = rb_alloc((size_t)n + 2, 1), *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
                    *H = rb_alloc(2 * (size_t)m, 2 * (size_t)n);
     double worst = 0.0, size = 0.0;
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.0 + 2.0 * i / n;
-    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
-                     system, RB_BEM_NORMALS_OBSTACLE, &f, NULL),
+    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted
+                             : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL),
                  RB_OK);
-    CHECK_STATUS(
-        rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 1000.0), &flat, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 1000.0), &flat, NULL), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&flat, H, 2 * m), RB_OK);
     for (int j = 0; j < 2 * n; j++)
@@ -114,8 +110,7 @@ static double distance_on_gliding_sides(int side)
 
 TEST(sides_may_glide)
 {
-    const double coarse = distance_on_gliding_sides(10),
-                 fine = distance_on_gliding_sides(20);
+    const double coarse = distance_on_gliding_sides(10), fine = distance_on_gliding_sides(20);
     CHECK_MAX(fine, 0.03, "20 elements a side");
     CHECK_MAX(fine, 0.9 * coarse, "against 10");
 }
@@ -141,8 +136,7 @@ TEST(a_hollow_contact_is_refused)
         mesh.condition[dof] = RB_BEM_DISPLACEMENT;
     if (rb_bem_system_create(&mesh, steel, &system, &why) != RB_OK)
         fail_msg("%s", why.text);
-    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "outside the half-plane"));
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
     rb_bem_system_free(system);
@@ -175,9 +169,8 @@ TEST(fields_have_their_mirror_images)
                     xy[2 * k + 1] = depth[k];
                 }
                 CHECK_STATUS(rb_bem_field_create(system, t, &field, NULL), RB_OK);
-                CHECK_STATUS(
-                    rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL),
-                    RB_OK);
+                CHECK_STATUS(rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL),
+                             RB_OK);
                 rb_bem_field_free(field);
             }
             for (int k = 0; k < 3 * P; k++)
@@ -195,8 +188,7 @@ TEST(every_failed_allocation_is_reported)
     for (int count = 0; refused; count++) {
         OWNED(rb_bem_flexibility) f;
         alloc_fail_after(count);
-        const rb_status s =
-            rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
+        const rb_status s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
         refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);

@@ -60,8 +60,8 @@ static double average_of(average *a)
     gsl_function g = {brought, a};
     for (int k = 0; k < (a->reach > 0.0 ? 3 : 2); k++)
         if (corner[k] > from) {
-            const int s = gsl_integration_qags(&g, from, corner[k], 1e-14, 1e-11, MANY,
-                                               room, &part, &error);
+            const int s =
+                gsl_integration_qags(&g, from, corner[k], 1e-14, 1e-11, MANY, room, &part, &error);
             assert_int_equal(s, 0);
             sum += part;
             from = corner[k];
@@ -182,8 +182,7 @@ TEST(layers_are_integrals_over_their_waves)
             for (int entry = 0; entry < 4; entry++) {
                 layer_entry e = {material[k], d, x, b, entry};
                 const double want = integral_over_waves(&e, 3000.0);
-                CHECK_ABS(got[entry], want, 1e-6, "material %d, x = %g, entry %d", k, x,
-                          entry);
+                CHECK_ABS(got[entry], want, 1e-6, "material %d, x = %g, entry %d", k, x, entry);
             }
         }
 }
@@ -211,10 +210,8 @@ TEST(equal_materials_are_the_half_plane)
  * that is far stiffer like a rigid one. */
 TEST(layers_have_their_limits)
 {
-    const rb_bem_surface own = rb_bem_halfplane(rubber, 20.0),
-                         under = rb_bem_halfplane(core, 20.0);
-    rb_bem_surface body = {
-        .material = rubber, .datum = 20.0, .elastic_base = 1, .base = core};
+    const rb_bem_surface own = rb_bem_halfplane(rubber, 20.0), under = rb_bem_halfplane(core, 20.0);
+    rb_bem_surface body = {.material = rubber, .datum = 20.0, .elastic_base = 1, .base = core};
     double near[4], far[4], a[4], b[4];
     body.thickness = 1e6;
     seen(&body, 0.1, 0.2, near);
@@ -241,8 +238,7 @@ TEST(layers_have_their_limits)
 TEST(thin_layers_are_mattresses)
 {
     const rb_bem_surface body = {.material = rubber, .thickness = 0.01};
-    const double nu = rubber.poisson,
-                 M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
+    const double nu = rubber.poisson, M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
     double got[4];
     seen(&body, 0.1, 1.0, got);
     CHECK_REL(got[0], 0.01 / M, 1e-9, "pressure");
@@ -252,8 +248,7 @@ TEST(thin_layers_are_mattresses)
 /* So is a film, as far as the half-plane's digits reach: it has as few waves as any. */
 TEST(films_are_mattresses)
 {
-    const double nu = rubber.poisson,
-                 M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
+    const double nu = rubber.poisson, M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
     for (double d = 1e-3; d > 1e-9; d *= 0.1) {
         const rb_bem_surface body = {.material = rubber, .thickness = d};
         double got[4], beside[4];
@@ -312,11 +307,7 @@ TEST(transforms_are_the_dense_matrix)
     const rb_bem_surface bodies[3] = {
         {.material = rubber, .datum = 9.0, .terms = 2, .ratio = ratio, .length = length},
         {.material = soft, .thickness = 0.7},
-        {.material = rubber,
-         .thickness = 0.3,
-         .terms = 1,
-         .ratio = ratio,
-         .length = length}};
+        {.material = rubber, .thickness = 0.3, .terms = 1, .ratio = ratio, .length = length}};
     static double ends[n + 2], F[ld * 2 * n], T[ld * 2 * n], r[2 * n], w[ld], v[ld];
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.1 + 0.06 * i;
@@ -325,10 +316,8 @@ TEST(transforms_are_the_dense_matrix)
     for (int k = 0; k < 3; k++) {
         OWNED(rb_bem_flexibility) dense, fast;
         rb_message why;
-        CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &why),
-                     RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &why), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &why), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_matrix(&dense, F, ld), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_matrix(&fast, T, ld), RB_OK);
         for (int j = 0; j < ld * 2 * n; j++)
@@ -353,11 +342,7 @@ TEST(tractions_are_summed_as_by_the_matrix)
     const rb_bem_surface bodies[3] = {
         {.material = rubber, .datum = 9.0, .terms = 2, .ratio = ratio, .length = length},
         {.material = soft, .thickness = 0.7},
-        {.material = rubber,
-         .thickness = 0.3,
-         .elastic_base = 1,
-         .base = core,
-         .datum = 5.0}};
+        {.material = rubber, .thickness = 0.3, .elastic_base = 1, .base = core, .datum = 5.0}};
     static double x[many], w[many], W[2 * many * 2 * n];
     for (int i = 0; i < many; i++)
         x[i] = -2.0 + 4.0 * i / many;
@@ -404,17 +389,14 @@ TEST(bad_surfaces_are_refused)
           .base = {-1.0, 0.3},
           .datum = 1.0},
          "shear"},
-        {{.material = rubber, .thickness = 1.0, .elastic_base = 1, .base = core},
-         "datum"},
+        {{.material = rubber, .thickness = 1.0, .elastic_base = 1, .base = core}, "datum"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_bem_flexibility f;
         rb_message why = {""};
-        CHECK_STATUS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, bad[k].word));
-        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &why), RB_EINVAL);
     }
 }
 

@@ -27,8 +27,7 @@ static void press(rb_bem_mesh *mesh, int first, int n, double p, double outward)
 }
 
 /* Largest error of the radial displacement against `want` on a circle, relative. */
-static double radial_error(const rb_bem_mesh *mesh, const double *u, int first, int n,
-                           double want)
+static double radial_error(const rb_bem_mesh *mesh, const double *u, int first, int n, double want)
 {
     double error = 0.0;
     for (int j = first; j < first + n; j++) {
@@ -77,8 +76,8 @@ static double thick_ring_error(int n)
     press(&mesh, n, n, 3.0, -1.0);
     SCRATCH double *u = rb_alloc(4 * (size_t)n, 1), *t = rb_alloc(4 * (size_t)n, 1);
     solve(&mesh, u, t);
-    const double error = fmax(radial_error(&mesh, u, 0, n, lame(2.0)),
-                              radial_error(&mesh, u, n, n, lame(1.0)));
+    const double error =
+        fmax(radial_error(&mesh, u, 0, n, lame(2.0)), radial_error(&mesh, u, n, n, lame(1.0)));
     return error;
 }
 
@@ -112,16 +111,13 @@ static double dirichlet_error(int n)
 {
     OWNED(rb_bem_mesh) mesh = circle(n, 2.0);
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
-    for (int j = 0; j < n;
-         j++) /* strain 0.01 along x, t_x = 2G (1-nu)/(1-2nu) 0.01 n_x */
+    for (int j = 0; j < n; j++) /* strain 0.01 along x, t_x = 2G (1-nu)/(1-2nu) 0.01 n_x */
         give(&mesh, j, RB_BEM_DISPLACEMENT, 0.01 * midpoint_x(&mesh, j), 0.0);
     solve(&mesh, u, t);
     for (int j = 0; j < n; j++) {
         const double x = midpoint_x(&mesh, j), y = midpoint_y(&mesh, j), r = hypot(x, y);
-        const double along = 2 * 80.0 * 0.7 / 0.4 * 0.01,
-                     across = 2 * 80.0 * 0.3 / 0.4 * 0.01;
-        error =
-            fmax(error, hypot(t[2 * j] - along * x / r, t[2 * j + 1] - across * y / r));
+        const double along = 2 * 80.0 * 0.7 / 0.4 * 0.01, across = 2 * 80.0 * 0.3 / 0.4 * 0.01;
+        error = fmax(error, hypot(t[2 * j] - along * x / r, t[2 * j + 1] - across * y / r));
     }
     free(u);
     free(t);
@@ -160,8 +156,8 @@ TEST(the_solution_satisfies_the_equations)
             residual += H[i + j * d] * u[j] - G[i + j * d] * t[j];
         CHECK_ABS(residual, 0.0, 1e-12 * scale, "row %d", (int)i);
         const double given = i < 8 ? load[i] : mesh.value[i];
-        CHECK_ABS(mesh.condition[i] == RB_BEM_DISPLACEMENT ? u[i] : t[i], given, 0.0,
-                  "dof %d", (int)i);
+        CHECK_ABS(mesh.condition[i] == RB_BEM_DISPLACEMENT ? u[i] : t[i], given, 0.0, "dof %d",
+                  (int)i);
     }
     CHECK_MAX(1e-6, rb_bem_system_rcond(system), "condition");
     assert_int_equal(rb_bem_system_mesh(system)->n, mesh.n);
@@ -195,8 +191,7 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
     if (all_around && nu == 0.5) {
         double mean = 0.0;
         for (int j = n; j < 2 * n; j++)
-            mean += t[2 * j] * (mesh.y1[j] - mesh.y0[j]) -
-                    t[2 * j + 1] * (mesh.x1[j] - mesh.x0[j]);
+            mean += t[2 * j] * (mesh.y1[j] - mesh.y0[j]) - t[2 * j + 1] * (mesh.x1[j] - mesh.x0[j]);
         CHECK_ABS(mean, 0.0, 1e-10, "mean pressure on the hole");
     }
     rb_bem_system_free(system);

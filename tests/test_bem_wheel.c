@@ -25,13 +25,12 @@ static double *wheel_matrix(const rb_bem_wheel *wheel, rb_bem_normals normals, i
 
 /* A ring, a cover on a rigid core, the same incompressible, covers on soft and hard
  * cores, a thick one on a small hub. */
-static const rb_bem_wheel wheels[] = {
-    {10.0, 5.0, {3.0, 0.3}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
-    {10.0, 9.0, {3.0, 0.4}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
-    {10.0, 9.0, {3.0, 0.5}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
-    {10.0, 8.0, {3.0, 0.48}, 0, NULL, NULL, 4.0, {5.0, 0.25}},
-    {10.0, 9.0, {3.0, 0.3}, 0, NULL, NULL, 6.0, {1e4, 0.3}},
-    {10.0, 4.0, {3.0, -0.5}, 0, NULL, NULL, 0.1, {1.0, 0.5}}};
+static const rb_bem_wheel wheels[] = {{10.0, 5.0, {3.0, 0.3}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+                                      {10.0, 9.0, {3.0, 0.4}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+                                      {10.0, 9.0, {3.0, 0.5}, 0, NULL, NULL, 0.0, {0.0, 0.0}},
+                                      {10.0, 8.0, {3.0, 0.48}, 0, NULL, NULL, 4.0, {5.0, 0.25}},
+                                      {10.0, 9.0, {3.0, 0.3}, 0, NULL, NULL, 6.0, {1e4, 0.3}},
+                                      {10.0, 4.0, {3.0, -0.5}, 0, NULL, NULL, 0.1, {1.0, 0.5}}};
 enum { WHEELS = sizeof wheels / sizeof *wheels };
 
 enum { N = 24, M = N + 1 };
@@ -59,9 +58,8 @@ TEST(the_flexibility_is_the_sum_of_its_waves)
         OWNED(rb_bem_flexibility) f;
         arcs(w->radius, ends);
         SCRATCH double *F = wheel_matrix(w, RB_BEM_NORMALS_SURFACE, N, ends);
-        CHECK_STATUS(
-            rb_bem_flexibility_disc(N, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_disc(N, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, NULL),
+                     RB_OK);
         SCRATCH double *D = matrix_of(&f);
         for (int m = 0; m <= LAST; m++) {
             const double out = 0.5 * ka / (m + 1), in = m > 1 ? 0.5 / (m - 1) : 0.0;
@@ -93,8 +91,7 @@ TEST(the_flexibility_is_the_sum_of_its_waves)
                 const double x = 2.0 * HALF_ARC * (i - j);
                 double sum[4] = {0.0};
                 for (int m = 0; m <= LAST; m++) {
-                    const double load =
-                        (m ? 2.0 * sin(m * HALF_ARC) / m : HALF_ARC) / M_PI;
+                    const double load = (m ? 2.0 * sin(m * HALF_ARC) / m : HALF_ARC) / M_PI;
                     sum[0] += load * creal(C[m][0]) * cos(m * x);
                     sum[1] -= load * creal(C[m][1]) * sin(m * x);
                     sum[2] += load * creal(C[m][2]) * sin(m * x);
@@ -141,8 +138,7 @@ TEST(uneven_arcs_and_frames)
                             sum += F[middle[i] + a * M + (middle[j] + l + b * N) * 2 * M];
                         own[a][b] = A[i + a * m + (j + b * FEW) * 2 * m];
                         turned[a][b] = B[i + a * m + (j + b * FEW) * 2 * m];
-                        CHECK_ABS(own[a][b], sum, 1e-12 * largest, "wheel %d, %d %d", k,
-                                  i, j);
+                        CHECK_ABS(own[a][b], sum, 1e-12 * largest, "wheel %d, %d %d", k, i, j);
                     }
                 /* normal (-sin, cos), tangent (cos, sin) of the surface */
                 const double t[2] = {cos(to), sin(to)}, f[2] = {cos(from), sin(from)};
@@ -154,8 +150,7 @@ TEST(uneven_arcs_and_frames)
                         for (int c = 0; c < 2; c++)
                             for (int d = 0; d < 2; d++)
                                 want += R[a][c] * own[c][d] * S[d][b];
-                        CHECK_ABS(turned[a][b], want, 1e-12 * largest, "wheel %d turned",
-                                  k);
+                        CHECK_ABS(turned[a][b], want, 1e-12 * largest, "wheel %d turned", k);
                     }
             }
     }
@@ -196,9 +191,8 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, &why), RB_OK);
     if (kind == 2) {
         CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &core, &why), RB_OK);
-        CHECK_STATUS(
-            rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &why),
-            RB_OK);
+        CHECK_STATUS(rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &why),
+                     RB_OK);
     } else {
         CHECK_STATUS(rb_bem_system_create(&mesh, rubber, &system, &why), RB_OK);
     }
@@ -305,8 +299,7 @@ TEST(products_are_the_matrix)
         rb_bem_flexibility f;
         double largest = 0.0;
         SCRATCH double *F = wheel_matrix(wheel, normals, n, ends);
-        CHECK_STATUS(rb_bem_flexibility_wheel_products(n, ends, wheel, normals, &f, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_wheel_products(n, ends, wheel, normals, &f, NULL), RB_OK);
         rb_bem_flexibility_apply(&f, r, w);
         memset(want, 0, sizeof want);
         for (int j = 0; j < 2 * n; j++)
@@ -315,8 +308,8 @@ TEST(products_are_the_matrix)
         for (int i = 0; i < 2 * m; i++)
             largest = fmax(largest, fabs(want[i]));
         for (int i = 0; i < 2 * m; i++)
-            CHECK_ABS(w[i], want[i], 1e-11 * largest, "wheel %d, elements %d, row %d",
-                      k % WHEELS, kind, i);
+            CHECK_ABS(w[i], want[i], 1e-11 * largest, "wheel %d, elements %d, row %d", k % WHEELS,
+                      kind, i);
         double *G = matrix_of(&f);
         CHECK_ABS(apart(n, G, F), 0.0, 1e-15, "matrix");
         free(G);
@@ -333,8 +326,7 @@ TEST(products_are_the_matrix)
         for (int i = 0; i < 2 * m; i++)
             largest = fmax(largest, fabs(want[i]));
         for (int i = 0; i < 2 * m; i++)
-            CHECK_ABS(w[i], want[i], 1e-11 * largest, "plane, elements %d, row %d", kind,
-                      i);
+            CHECK_ABS(w[i], want[i], 1e-11 * largest, "plane, elements %d, row %d", kind, i);
         free(G);
         rb_bem_flexibility_free(&f);
     }
@@ -347,23 +339,19 @@ TEST(bad_wheels_are_refused)
     rb_bem_flexibility f;
     rb_message why;
     wheel.core.shear = 1e-90;
-    CHECK_STATUS(
-        rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_SINGULAR);
+    CHECK_STATUS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_SINGULAR);
     assert_non_null(strstr(why.text, "singular"));
     wheel = wheels[3];
     wheel.hub = wheel.inner;
-    CHECK_STATUS(
-        rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_EINVAL);
     ends[3] = wheel.radius;
-    CHECK_STATUS(
-        rb_bem_flexibility_wheel(2, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_wheel(2, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "is wider"));
-    CHECK_STATUS(
-        rb_bem_flexibility_wheel(0, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_wheel(0, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_EINVAL);
 }
 
 RUN_TESTS(NULL, NULL)

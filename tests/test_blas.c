@@ -48,8 +48,7 @@ static rlim_t in_use(void)
  * whether there is room. */
 static int room_with(rlim_t megabytes, int threads)
 {
-    const rlim_t limit =
-        megabytes == RLIM_INFINITY ? RLIM_INFINITY : in_use() + (megabytes << 20);
+    const rlim_t limit = megabytes == RLIM_INFINITY ? RLIM_INFINITY : in_use() + (megabytes << 20);
     const pid_t child = fork();
     int status;
     if (child == 0) {

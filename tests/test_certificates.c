@@ -9,8 +9,8 @@ static char checker[700];
 static int enter(void **state)
 {
     const int entered = enter_folder(state);
-    snprintf(checker, sizeof checker, "%.*s/tests/checker",
-             (int)(strrchr(program, '/') - program), program);
+    snprintf(checker, sizeof checker, "%.*s/tests/checker", (int)(strrchr(program, '/') - program),
+             program);
     return entered;
 }
 
@@ -50,8 +50,7 @@ static void judge(int k, verdicts *v)
     static random_case c;
     char command[1700], line[800];
 
-    snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k),
-             c.line);
+    snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k), c.line);
     const int code = rollbem(command);
     v->refused += code == 64;
     v->unsolved += code == 1;
@@ -84,10 +83,9 @@ TEST(right_results_are_valid)
         if (v.valid >= said + 500) /* a long study that is stopped has said so much */
             print_message("... case %d: %d valid\n", k, said = v.valid);
     }
-    print_message(
-        "%d results: %d valid, %d rejected, %d not checked; %d cases refused, %d "
-        "not solved\n",
-        n, v.valid, v.rejected, v.unchecked, v.refused, v.unsolved);
+    print_message("%d results: %d valid, %d rejected, %d not checked; %d cases refused, %d "
+                  "not solved\n",
+                  n, v.valid, v.rejected, v.unchecked, v.refused, v.unsolved);
     assert_int_equal(v.wrong, 0);
     assert_int_equal(v.rejected, 0);
     assert_int_equal(v.unchecked, 0);
@@ -100,8 +98,7 @@ TEST(right_results_are_valid)
  * rounding decided. */
 TEST(results_that_were_once_rejected_are_valid)
 {
-    static const int once[] = {1290, 3511, 3563, 5224, 5401,
-                               5896, 5968, 7500, 8273, 204570};
+    static const int once[] = {1290, 3511, 3563, 5224, 5401, 5896, 5968, 7500, 8273, 204570};
     const int n = (int)(sizeof once / sizeof *once);
     verdicts v = {0};
 

@@ -11,14 +11,11 @@
 static const char *const cases[] = {
     SMALL "--creep 0.1",
     SMALL "--support halfplane --load 100 --force-ratio 0.5",
-    SMALL
-    "--support halfplane --poisson 0.3 --load 100 --creep-ratio 0.4 --mesh fitted" STEADY,
-    SMALL
-    "--support hub --load 1000 --force-ratio 0.4 --mesh fitted --normals surface" STEADY,
+    SMALL "--support halfplane --poisson 0.3 --load 100 --creep-ratio 0.4 --mesh fitted" STEADY,
+    SMALL "--support hub --load 1000 --force-ratio 0.4 --mesh fitted --normals surface" STEADY,
     SMALL "--support halfplane --load 100 --creep 1e-4 --slip-operator second" STEADY,
-    SMALL
-    "--support arc --approach 0.01 --creep-ratio 0.4 --young-b 210000 --poisson-b 0.3 "
-    "--radius-b 80 --gap parabola" STEADY,
+    SMALL "--support arc --approach 0.01 --creep-ratio 0.4 --young-b 210000 --poisson-b 0.3 "
+          "--radius-b 80 --gap parabola" STEADY,
 };
 
 enum { CASES = sizeof cases / sizeof cases[0] };
@@ -30,10 +27,9 @@ static const char *const histories[] = {
                  "1e-4",
     SMALL STATES "--support halfplane --similar --half-width 0.3 --formulation transient "
                  "--distance 0.3 --force-ratio -0.5 --steps 4",
-    SMALL STATES
-    "--support halfplane --load 100 --relaxation-time 0.01,0.1 "
-    "--relaxation-ratio 1,0.5 --speed 100 --formulation transient --distance "
-    "0.3 --creep 1e-3",
+    SMALL STATES "--support halfplane --load 100 --relaxation-time 0.01,0.1 "
+                 "--relaxation-ratio 1,0.5 --speed 100 --formulation transient --distance "
+                 "0.3 --creep 1e-3",
 };
 
 enum { HISTORIES = sizeof histories / sizeof histories[0] };
@@ -55,16 +51,14 @@ static void write_points(void)
                      0);
 }
 
-static rb_status certify(const json_t *root, rb_report_certificate *found,
-                         rb_message *why)
+static rb_status certify(const json_t *root, rb_report_certificate *found, rb_message *why)
 {
     FILE *lines = tmpfile();
     rb_case *words =
         rb_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
     assert_non_null(lines);
     assert_non_null(words);
-    const rb_status s =
-        rb_report_certify_solutions(lines, "result", root, words, found, why);
+    const rb_status s = rb_report_certify_solutions(lines, "result", root, words, found, why);
     rb_case_free(words);
     fclose(lines);
     return s;
@@ -111,8 +105,7 @@ TEST(results_are_valid)
         "1e-8 "
         "--approach 0.01 --shift 1e-4 --similar --radius-b 60 --support-b hub",
         "--support hub --load 100 --similar --support-b hub --radius-b 30 --mu 0.1",
-        "--support halfplane --load 100 --layer-thickness 1 --mu 0.2" STEADY
-        "--creep 1e-4",
+        "--support halfplane --load 100 --layer-thickness 1 --mu 0.2" STEADY "--creep 1e-4",
         "--support halfplane --load 100 --relaxation-time 0.01,0.1 --relaxation-ratio "
         "1,2 "
         "--speed 10 --mu 0.2 --free-axle" STEADY,
@@ -152,11 +145,11 @@ TEST(results_are_valid)
         "--support halfplane --history way.txt --formulation transient --mu 0.3 "
         "--states --gap parabola",
         "--support halfplane --similar --load 100 --history wet.txt --formulation "
-        "transient --states", /* symmetric: its moment is rounding */
+        "transient --states",                       /* symmetric: its moment is rounding */
         "--support hub --history dry.txt --states", /* mu of the column, not of --mu */
         "--support hub --history calm.txt --mu 3 --states --contact-elements 20 "
-        "--relaxation-time 1e-3 --relaxation-ratio 1",           /* Q is rounding */
-        "--support halfplane --load 0.25 --contact-elements 12", /* a load below 1 */
+        "--relaxation-time 1e-3 --relaxation-ratio 1",                  /* Q is rounding */
+        "--support halfplane --load 0.25 --contact-elements 12",        /* a load below 1 */
         "--support halfplane --load 100 --contact-elements 12 --trace", /* by Lemke then
                                                                          */
         /* largest stresses in two places, on flat tops, next to other peaks, grids on the
@@ -174,18 +167,15 @@ TEST(results_are_valid)
     };
     write_controls();
     write_points();
-    for (size_t k = 0; k < CASES + HISTORIES + STRESSES + sizeof more / sizeof *more;
-         k++) {
+    for (size_t k = 0; k < CASES + HISTORIES + STRESSES + sizeof more / sizeof *more; k++) {
         char line[600];
         const size_t after = CASES + HISTORIES;
         const char *given = k < CASES              ? cases[k]
                             : k < after            ? histories[k - CASES]
                             : k < after + STRESSES ? stresses[k - after]
                                                    : more[k - after - STRESSES];
-        snprintf(
-            line, sizeof line,
-            "\"$R\" %s --json --quiet --output r.json 2>trace && \"$R\" check r.json",
-            given);
+        snprintf(line, sizeof line,
+                 "\"$R\" %s --json --quiet --output r.json 2>trace && \"$R\" check r.json", given);
         if (shell(line) != 0)
             print_error("%s\n%s%s", given, out, err);
         int numbers = 0; /* at least p, q and the gap of twelve elements */
@@ -222,8 +212,7 @@ static void expect_found(const json_t *root, const char *given, const char *key,
 }
 
 /* Changes every number of a list, or of lists in it; returns how many. */
-static int change_list(const json_t *root, const char *given, const char *key,
-                       json_t *list)
+static int change_list(const json_t *root, const char *given, const char *key, json_t *list)
 {
     int changes = 0;
     for (size_t i = 0; i < json_array_size(list); i++) {
@@ -393,8 +382,7 @@ static void change_shakedown(json_t *root, const char *given)
     json_t *shakedown = json_object_get(root, "shakedown");
     for (size_t k = 0; k < sizeof keys / sizeof *keys && shakedown; k++) {
         json_t *own = json_incref(json_object_get(shakedown, keys[k]));
-        json_object_set_new(shakedown, keys[k],
-                            changed_stress(keys[k], json_real_value(own)));
+        json_object_set_new(shakedown, keys[k], changed_stress(keys[k], json_real_value(own)));
         expect_found(root, given, keys[k], 0);
         json_object_set_new(shakedown, keys[k], own);
     }
@@ -402,8 +390,7 @@ static void change_shakedown(json_t *root, const char *given)
 
 TEST(every_changed_number_of_a_stress_is_found)
 {
-    static const char *const given[] = {"x_mm", "y_mm"}, *const of[] = {"value", "x",
-                                                                        "y"};
+    static const char *const given[] = {"x_mm", "y_mm"}, *const of[] = {"value", "x", "y"};
     write_points();
     missed = 0;
     for (int k = 0; k < STRESSES; k++) {
@@ -466,16 +453,14 @@ TEST(inputs_belong_to_the_result)
     for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++) {
         json_t *root = run_json(cases[inputs[k].which]);
         json_t *all = json_object_get(root, "inputs");
-        const double x =
-            json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
+        const double x = json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
         char value[40];
         rb_message why = {""};
         rb_report_certificate found;
         json_object_set_new(all, inputs[k].key, json_real(x));
         rb_case *words = case_of(cases[inputs[k].which]);
         snprintf(value, sizeof value, "%.17g", x);
-        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
         CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
         json_object_set_new(root, "input_hash", rb_report_json_input_hash(words));
         rb_case_free(words);
@@ -494,16 +479,14 @@ TEST(files_belong_to_the_result)
               "--quiet --output r.json && \"$R\" check r.json"),
         0);
     assert_int_equal(shell("echo '# seen' >> g.txt; \"$R\" check r.json"), 1);
-    assert_string_equal(out,
-                        "r.json: violated: inputs, or a file that they name, are not "
-                        "those of the result (input_hash)\n");
+    assert_string_equal(out, "r.json: violated: inputs, or a file that they name, are not "
+                             "those of the result (input_hash)\n");
 }
 
 static void check_says(const char *make, int code, const char *part)
 {
     char line[900];
-    snprintf(line, sizeof line, "{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json",
-             make);
+    snprintf(line, sizeof line, "{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json", make);
     const int got = shell(line);
     const char *text = code == 1 ? out : err;
     if (got != code || !strstr(text, part))
@@ -550,8 +533,7 @@ static const char *said_of(const json_t *root, const char *path, const char *val
     rb_report_certificate found;
     rb_message why = {""};
     edit(other, path, value);
-    const rb_status s =
-        rb_report_certify_solutions(lines, "r", other, words, &found, &why);
+    const rb_status s = rb_report_certify_solutions(lines, "r", other, words, &found, &why);
     rewind(lines);
     text[fread(text, 1, sizeof text - 1, lines)] = '\0';
     assert_int_equal(found.violations > 0, text[0] != '\0');
@@ -577,8 +559,7 @@ TEST(all_solutions_are_judged)
         "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY;
     char line[600];
     snprintf(line, sizeof line,
-             "\"$R\" %s --json --quiet --output all.json && \"$R\" check all.json",
-             given);
+             "\"$R\" %s --json --quiet --output all.json && \"$R\" check all.json", given);
     assert_int_equal(shell(line), 0);
     assert_non_null(strstr(out, "all.json: valid: "));
     assert_null(strstr(out, "residual 0\n")); /* the largest of all solutions */
@@ -591,20 +572,17 @@ TEST(all_solutions_are_judged)
     for (int change = 0; change < 4; change++) {
         FILE *lines = tmpfile();
         json_t *wrong = json_deep_copy(root), *list = json_object_get(wrong, "solutions");
-        json_t *q =
-            json_object_get(json_object_get(json_array_get(list, 2), "table"), "q_MPa");
+        json_t *q = json_object_get(json_object_get(json_array_get(list, 2), "table"), "q_MPa");
         char text[400] = "";
         assert_non_null(lines);
         if (change == 1) /* friction of an element that sticks */
-            json_array_set_new(
-                q, 60,
-                json_real(json_number_value(json_array_get(q, 60)) * (1.0 + 1e-6)));
+            json_array_set_new(q, 60,
+                               json_real(json_number_value(json_array_get(q, 60)) * (1.0 + 1e-6)));
         if (change == 2)
             json_array_set(list, 2, json_array_get(list, 1));
         if (change == 3)
             json_array_remove(list, 0), json_array_remove(list, 0);
-        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &why), RB_OK);
         rewind(lines);
         if (change == 0)
             assert_int_equal(found.violations, 0);
@@ -615,8 +593,7 @@ TEST(all_solutions_are_judged)
         if (change == 2)
             assert_string_equal(text, "r: violated: solutions 2 and 3 are the same\n");
         if (change == 3)
-            assert_string_equal(text,
-                                "r: violated: the result is none of its solutions\n");
+            assert_string_equal(text, "r: violated: the result is none of its solutions\n");
         fclose(lines);
         json_decref(wrong);
     }
@@ -626,10 +603,8 @@ TEST(all_solutions_are_judged)
         {"solutions", "[]", "cannot be checked: no list of solutions"},
         {"solutions", "{}", "cannot be checked: no list of solutions"},
         {"solutions/1", "{}", "solution 2: cannot be checked: expected a summary and a"},
-        {"solutions/1/table", "",
-         "solution 2: cannot be checked: expected a summary and"},
-        {"solutions/1/more", "1",
-         "solution 2: cannot be checked: expected a summary and"},
+        {"solutions/1/table", "", "solution 2: cannot be checked: expected a summary and"},
+        {"solutions/1/more", "1", "solution 2: cannot be checked: expected a summary and"},
         {"summary/status", "\"x\"", "r: cannot be checked: its status is"},
     };
     for (size_t k = 0; k < sizeof edits / sizeof *edits; k++)
@@ -640,8 +615,8 @@ TEST(all_solutions_are_judged)
     /* none of all slips: what is compared by its largest friction */
     json_t *still = json_deep_copy(root);
     for (size_t k = 0; k < 2; k++) {
-        json_t *q = member(
-            member(member(member(still, "solutions"), k ? "1" : "0"), "table"), "q_MPa");
+        json_t *q =
+            member(member(member(member(still, "solutions"), k ? "1" : "0"), "table"), "q_MPa");
         for (size_t i = 0; i < json_array_size(q); i++)
             json_array_set_new(q, i, json_real(0.0));
     }
@@ -650,13 +625,12 @@ TEST(all_solutions_are_judged)
     json_decref(still);
 
     /* one on other elements is another one */
-    json_t *coarse = run_json(
-        "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
-        "3111.08 --speed 45000 --mu 0.18 --friction-law exponential --mu-fall 0.12 "
-        "--slip-scale 5 --mesh uniform --slip-operator upstream --contact-elements 92 "
-        "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY);
-    json_array_set(member(root, "solutions"), 2,
-                   member(member(coarse, "solutions"), "0"));
+    json_t *coarse =
+        run_json("--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
+                 "3111.08 --speed 45000 --mu 0.18 --friction-law exponential --mu-fall 0.12 "
+                 "--slip-scale 5 --mesh uniform --slip-operator upstream --contact-elements 92 "
+                 "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY);
+    json_array_set(member(root, "solutions"), 2, member(member(coarse, "solutions"), "0"));
     assert_string_equal(said_of(root, "summary/iterations", "1000"), "");
     json_decref(coarse);
     rb_case_free(words);
@@ -671,15 +645,13 @@ static int violations_of(const char *text, const rb_case *words)
     rb_message why = {""};
     FILE *lines = tmpfile();
     assert_non_null(lines);
-    const rb_status s =
-        rb_report_certify_table(lines, "table", text, words, &found, &why);
+    const rb_status s = rb_report_certify_table(lines, "table", text, words, &found, &why);
     fclose(lines);
     return s == RB_OK ? found.violations : -1;
 }
 
 /* The number in that place of a line of them, changed. */
-static void change_cell(const char *text, const char *line, int column,
-                        char *changed_text)
+static void change_cell(const char *text, const char *line, int column, char *changed_text)
 {
     for (int j = 0; j < column; j++)
         line = strchr(line, '\t') + 1;
@@ -733,11 +705,10 @@ TEST(tables_are_valid_by_their_comments)
         "--yield-stress 20 --mesh uniform --interlayer-tangential 1e-5"};
     char line[600];
     assert_int_equal(
-        shell(
-            "printf '[body-a]\\nsupport = halfplane\\n[friction]\\nmu = 0.3\\n[normal]\\n"
-            "load = 100\\n[problem]\\nformulation = steady\\n' > case.ini; "
-            "awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) { a = x < 0 ? -x - 2 : x - 2; "
-            "print x, a * a / 50 }}' > \"it's two humps.txt\""),
+        shell("printf '[body-a]\\nsupport = halfplane\\n[friction]\\nmu = 0.3\\n[normal]\\n"
+              "load = 100\\n[problem]\\nformulation = steady\\n' > case.ini; "
+              "awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) { a = x < 0 ? -x - 2 : x - 2; "
+              "print x, a * a / 50 }}' > \"it's two humps.txt\""),
         0);
     for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
         snprintf(line, sizeof line,
@@ -757,8 +728,7 @@ TEST(tables_are_valid_by_their_comments)
     assert_int_equal(shell(line), 1);
     assert_non_null(strstr(out, "violated: P of a patch: printed 7"));
     snprintf(line, sizeof line,
-             "\"$R\" %s --quiet | sed '/^# patch 1/d' > t.tsv; \"$R\" check t.tsv",
-             tables[2]);
+             "\"$R\" %s --quiet | sed '/^# patch 1/d' > t.tsv; \"$R\" check t.tsv", tables[2]);
     assert_int_equal(shell(line), 1);
     assert_string_equal(out, "t.tsv: violated: patch 1 is missing\n");
     snprintf(line, sizeof line,
@@ -767,11 +737,10 @@ TEST(tables_are_valid_by_their_comments)
              tables[2]);
     assert_int_equal(shell(line), 1);
     assert_string_equal(out, "t.tsv: violated: patch 2 is missing\n");
-    snprintf(
-        line, sizeof line,
-        "\"$R\" %s --quiet | sed '/^# .* solved; residual/s/residual.*/residual 1e-3/' "
-        "> t.tsv; \"$R\" check t.tsv",
-        tables[4]);
+    snprintf(line, sizeof line,
+             "\"$R\" %s --quiet | sed '/^# .* solved; residual/s/residual.*/residual 1e-3/' "
+             "> t.tsv; \"$R\" check t.tsv",
+             tables[4]);
     assert_int_equal(shell(line), 1);
     assert_non_null(strstr(out, "violated: residual: printed 0.001"));
 }
@@ -782,24 +751,23 @@ TEST(tables_that_cannot_be_checked_are_refused)
     char line[500];
     static const struct {
         const char *options, *part;
-    } kinds[] = {
-        {"--increments 3 --shift 1e-4", "take --json --states"},
-        {"--formulation steady --creep 1e-3 --error", "error bars"},
-        {"--formulation steady --creep 1e-3 --units si", "units other than mm"},
-        {"--format csv", "expected the JSON of a result, or a table with its comments"},
-        {"| sed 's/--mu 0.3/--mu x/'",
-         "r.json: cannot be checked: the command line in its comments: --mu: expected"},
-        {"| sed 's/--mu 0.3/none.ini/'", "none.ini: No such file"},
-        {"| sed '/^# static/d'", "expected a table of a single case, with its comments"},
-        {"| sed '/^# static/s/residual .*/residual x/'",
-         "expected a table of a single case, with its comments"},
-        {"| sed '1s/^/# ; residual 1\\n/'", "its status is not solved"},
-        {"--formulation steady --creep 1e-3 --accuracy 0.5", "error bars"},
-        {"| sed '/^# static/s/solved/not solved/'", "its status is not solved"},
-        {"| sed '/^[-0-9]/d'", "no numbers"},
-        {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
-        {"| sed '/^-/s/\t/\tx/'", "expected a number"},
-        {"| sed 's/h_mm/width/'", "table: expected"}};
+    } kinds[] = {{"--increments 3 --shift 1e-4", "take --json --states"},
+                 {"--formulation steady --creep 1e-3 --error", "error bars"},
+                 {"--formulation steady --creep 1e-3 --units si", "units other than mm"},
+                 {"--format csv", "expected the JSON of a result, or a table with its comments"},
+                 {"| sed 's/--mu 0.3/--mu x/'",
+                  "r.json: cannot be checked: the command line in its comments: --mu: expected"},
+                 {"| sed 's/--mu 0.3/none.ini/'", "none.ini: No such file"},
+                 {"| sed '/^# static/d'", "expected a table of a single case, with its comments"},
+                 {"| sed '/^# static/s/residual .*/residual x/'",
+                  "expected a table of a single case, with its comments"},
+                 {"| sed '1s/^/# ; residual 1\\n/'", "its status is not solved"},
+                 {"--formulation steady --creep 1e-3 --accuracy 0.5", "error bars"},
+                 {"| sed '/^# static/s/solved/not solved/'", "its status is not solved"},
+                 {"| sed '/^[-0-9]/d'", "no numbers"},
+                 {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
+                 {"| sed '/^-/s/\t/\tx/'", "expected a number"},
+                 {"| sed 's/h_mm/width/'", "table: expected"}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         snprintf(line, sizeof line, "%s%s", half, kinds[k].options);
         check_says(line, 65, kinds[k].part);
@@ -807,8 +775,7 @@ TEST(tables_that_cannot_be_checked_are_refused)
     check_says("\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 "
                "--points 3",
                65, "a table of rollbem curve (only tables of single cases can)");
-    check_says("printf '# rollbem 0.1.0\\n# rollbem \\\\\\n1 2\\n'", 65,
-               "r.json: cannot");
+    check_says("printf '# rollbem 0.1.0\\n# rollbem \\\\\\n1 2\\n'", 65, "r.json: cannot");
     check_says("printf '# rollbem 0.1.0\\n# rollbem\\n1 2\\n'", 65,
                "expected a table of a single case, with its comments");
     check_says("echo 1 2", 65, "expected the JSON of a result, or a table");
@@ -822,10 +789,8 @@ TEST(what_stands_beside_derivatives_is_judged)
                              "--json --quiet --output slopes.json";
     char command[400];
 
-    snprintf(
-        command, sizeof command,
-        "%s --formulation steady --derivatives tangential_load,p --tolerance mu=0.02",
-        line);
+    snprintf(command, sizeof command,
+             "%s --formulation steady --derivatives tangential_load,p --tolerance mu=0.02", line);
     assert_int_equal(rollbem(command), 0);
     assert_int_equal(rollbem("check slopes.json"), 0);
     assert_non_null(strstr(out, "slopes.json: derivatives and tolerances: not judged\n"));
@@ -861,15 +826,13 @@ TEST(what_cannot_be_checked_is_refused)
         snprintf(line, sizeof line, "%s%s", half, kinds[k].options);
         check_says(line, 65, kinds[k].part);
     }
-    check_says(
-        "\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 --points 3 "
-        "--json",
-        65, "cannot be checked");
+    check_says("\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 --points 3 "
+               "--json",
+               65, "cannot be checked");
     check_says("\"$R\" stress --support halfplane --load 100 --contact-elements 12 "
                "--increments 3 --shift 1e-4 --json",
                65, "check the contact alone, by the same case without `stress`, with");
-    assert_int_equal(rollbem("--support halfplane --load 100 --increments 3 --states"),
-                     64);
+    assert_int_equal(rollbem("--support halfplane --load 100 --increments 3 --states"), 64);
     assert_int_equal(rollbem("--support halfplane --load 100 --states --json"), 64);
     check_says("\"$R\" --approach 1e-9 --zone 5 --json", 65, "cannot be checked");
     snprintf(line, sizeof line, "%s | sed 's/\"gap_mm\": \\[/& 0,/'", half);
@@ -890,8 +853,8 @@ TEST(what_cannot_be_checked_is_refused)
 /* What only solving again would tell, and what is of the machine. */
 static int is_beyond_checking(const char *key)
 {
-    static const char *const keys[] = {"iterations", "free_creepage", "seconds",
-                                       "integrals", "openblas"};
+    static const char *const keys[] = {"iterations", "free_creepage", "seconds", "integrals",
+                                       "openblas"};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
         if (strcmp(key, keys[k]) == 0)
             return 1;
@@ -913,8 +876,7 @@ static void expect_noticed(tampering *t, const char *path)
     rb_message why = {""};
     t->changes++;
     if (is_program) {
-        assert_int_equal(json_dump_file(t->root, "changed.json", JSON_REAL_PRECISION(17)),
-                         0);
+        assert_int_equal(json_dump_file(t->root, "changed.json", JSON_REAL_PRECISION(17)), 0);
         if (shell("\"$R\" check changed.json") != 0)
             return;
     } else if (certify(t->root, &found, &why) != RB_OK || found.violations > 0)
@@ -930,15 +892,12 @@ static json_t *other_value(const char *path, const json_t *value)
     const char *end = strrchr(path, '/');
     const int is_flat = strstr(path, "maxima/") && end[2] == '\0';
     if (json_is_string(value))
-        return json_string(json_string_value(value)[0] ? json_string_value(value) + 1
-                                                       : "x");
+        return json_string(json_string_value(value)[0] ? json_string_value(value) + 1 : "x");
     if (json_is_integer(value))
         return json_integer(json_integer_value(value) + 1);
     if (json_is_real(value)) {
         const double x = json_real_value(value);
-        return json_real(is_flat          ? x + 0.01
-                         : fabs(x) > 1e-9 ? x * (1.0 + 1e-4)
-                                          : x + 1e-3);
+        return json_real(is_flat ? x + 0.01 : fabs(x) > 1e-9 ? x * (1.0 + 1e-4) : x + 1e-3);
     }
     return json_is_boolean(value) ? json_boolean(!json_is_true(value)) : NULL;
 }
@@ -1000,9 +959,8 @@ TEST(whatever_is_changed_is_noticed)
         "-3" STEADY STATES,
         "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
         "--crack-elements 8 --crack-depth 0.3 --increments 3 --shift 1e-4" STATES,
-        TINY
-        "--support halfplane --radius-b -200 --young-b 3e4 --plane stress --approach "
-        "1e-3 --shift 1e-5 --increments 2" STATES,
+        TINY "--support halfplane --radius-b -200 --young-b 3e4 --plane stress --approach "
+             "1e-3 --shift 1e-5 --increments 2" STATES,
         TINY "--support hub --hub-ratio 0.6 --cover-thickness 5 --core-young 2e5 --load "
              "100 --creep-ratio 0.4 --relaxation-time 1e-3 --relaxation-ratio 1 --speed "
              "1000" STEADY,
@@ -1023,8 +981,7 @@ TEST(whatever_is_changed_is_noticed)
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         t.given = kinds[k];
         t.root = run_json(kinds[k]);
-        assert_int_equal(json_dump_file(t.root, "changed.json", JSON_REAL_PRECISION(17)),
-                         0);
+        assert_int_equal(json_dump_file(t.root, "changed.json", JSON_REAL_PRECISION(17)), 0);
         assert_int_equal(shell("\"$R\" check changed.json"), 0);
         if (k > 0 && !getenv("ROLLBEM_TEST_ALL")) { /* they are the same of all kinds */
             json_t *inputs = json_incref(json_object_get(t.root, "inputs"));
@@ -1072,11 +1029,10 @@ TEST(results_of_other_commands_are_refused)
     write_file("creep.tsv", "creep_ratio\tforce_ratio\n0.2\t-0.36\n0.4\t-0.64\n"
                             "0.7\t-0.91\n");
     write_file("lcp.txt", "2\n2 1\n1 2\n-1\n-1\n");
-    assert_int_equal(
-        shell("cp \"${R%/*}\"/../examples/friction/two-blocks.dat two-blocks.dat"), 0);
+    assert_int_equal(shell("cp \"${R%/*}\"/../examples/friction/two-blocks.dat two-blocks.dat"), 0);
     for (size_t k = 0; k < sizeof other / sizeof *other; k++) {
-        snprintf(line, sizeof line, "\"$R\" %s %s%s --json --quiet", other[k].command,
-                 half, other[k].options);
+        snprintf(line, sizeof line, "\"$R\" %s %s%s --json --quiet", other[k].command, half,
+                 other[k].options);
         check_says(line, 65, other[k].part);
         assert_int_equal(shell("\"$R\" check r.json 2>&1 | wc -l | grep -qx 1"), 0);
     }
@@ -1109,21 +1065,19 @@ TEST(files_of_others_are_left_alone)
     };
     static const char *const options[] = {"gap", "worn", "friction-law", "history"};
     assert_int_equal(
-        shell(
-            "mkdir -p of; mkfifo pipe; echo 'Xy9 Zq7' > secret.txt; cp secret.txt of; "
-            "ln -s /etc/hostname of/link; echo 'load mu Xy9' > of/names.txt; echo '1 1 "
-            "1' >> "
-            "of/names.txt; truncate -s 65M of/large; echo '0 0' > ../outside.txt; awk "
-            "'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > g.txt; "
-            "cp g.txt of; \"$R\" --support halfplane --load 100 --mu 0.3 --gap of/g.txt "
-            "--contact-elements 12 --json --quiet --output of/r.json && \"$R\" check "
-            "of/r.json"),
+        shell("mkdir -p of; mkfifo pipe; echo 'Xy9 Zq7' > secret.txt; cp secret.txt of; "
+              "ln -s /etc/hostname of/link; echo 'load mu Xy9' > of/names.txt; echo '1 1 "
+              "1' >> "
+              "of/names.txt; truncate -s 65M of/large; echo '0 0' > ../outside.txt; awk "
+              "'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > g.txt; "
+              "cp g.txt of; \"$R\" --support halfplane --load 100 --mu 0.3 --gap of/g.txt "
+              "--contact-elements 12 --json --quiet --output of/r.json && \"$R\" check "
+              "of/r.json"),
         0);
     json_t *root = json_load_file("of/r.json", 0, NULL);
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-            json_t *wrong = json_deep_copy(root),
-                   *inputs = json_object_get(wrong, "inputs");
+            json_t *wrong = json_deep_copy(root), *inputs = json_object_get(wrong, "inputs");
             if (i > 0)
                 json_object_set_new(inputs, "gap", json_string("exact"));
             json_object_set_new(inputs, options[i], json_string(bad[k].file));
@@ -1172,10 +1126,9 @@ TEST(odd_bytes_are_named)
     assert_non_null(strstr(err, "empty: cannot be checked: expected the JSON"));
     assert_int_equal(shell("printf 'x_mm' > empty; \"$R\" check empty"), 65);
     assert_int_equal(
-        shell(
-            "\"$R\" --support halfplane --load 100 --mu 0.3 --contact-elements 12 "
-            "--output t.tsv --quiet; LC_ALL=C sed '1s/un_mm/u\\xffn_mm/' t.tsv > u.tsv; "
-            "\"$R\" check u.tsv"),
+        shell("\"$R\" --support halfplane --load 100 --mu 0.3 --contact-elements 12 "
+              "--output t.tsv --quiet; LC_ALL=C sed '1s/un_mm/u\\xffn_mm/' t.tsv > u.tsv; "
+              "\"$R\" check u.tsv"),
         1);
     assert_non_null(strstr(out, "violated: un_mm: 0 numbers, expected"));
 }
@@ -1262,8 +1215,7 @@ TEST(every_edit_is_named)
              {"summary/datum", "", "summary.datum is missing, or should be null"},
              {"summary/load_error", "", "load_error is missing, or should be null"},
              {"summary/support_balance", "1", "support_balance is missing, or should be"},
-             {"summary/contact", "\"x\"",
-              "violated: summary.contact: printed nan, recomputed"},
+             {"summary/contact", "\"x\"", "violated: summary.contact: printed nan, recomputed"},
              {"summary/edges", "\"x\"", "summary.edges is not what it should be"},
              {"summary/iterations", "1000", ""},
              {"summary/normal_load", "101", "violated: normal_load: printed 101"},
@@ -1300,12 +1252,10 @@ TEST(every_edit_is_named)
          {
              {"summary/patches/1/normal_load", "1",
               "violated: summary.patches.2.normal_load: printed 1"},
-             {"summary/patches/0/to", "null",
-              "violated: summary.patches.1.to: printed nan"},
+             {"summary/patches/0/to", "null", "violated: summary.patches.1.to: printed nan"},
              {"summary/patches/0/more", "1", "patches.1.more is no result of this case"},
              {"summary/patches/1", "", "summary.patches is not what it should be"},
-             {"summary/creepage", "1",
-              "violated: summary.creepage: printed 1, recomputed 0 "},
+             {"summary/creepage", "1", "violated: summary.creepage: printed 1, recomputed 0 "},
          }},
         {"--support halfplane --load 100 --mu 0.3 --increments 3 --shift 1e-4 "
          "--contact-elements 12" STATES,
@@ -1320,8 +1270,7 @@ TEST(every_edit_is_named)
              {"history/states/p_MPa", "", "r: states: expected 6 steps in p_MPa"},
              {"history/states/q_MPa/0", "", "r: states: expected 6 steps in q_MPa"},
              {"history/states/shift_mm/1/4", "", "numbers in shift_mm"},
-             {"history/states/shift_mm/1/4", "null",
-              "shift_mm of element 5 is no number"},
+             {"history/states/shift_mm/1/4", "null", "shift_mm of element 5 is no number"},
              {"history/states/zone", "", "r: states: expected 6 steps in zone"},
              {"history/states/zone/2/4", "4", "violated: step 3: yield of element 5"},
              {"history/states/zone/2/4", "6", "r: states: zone 6"},
@@ -1333,8 +1282,7 @@ TEST(every_edit_is_named)
              {"history/states/motion/1", "1", "violated: step 2: the given shift or"},
              {"history/states/p_MPa/1/5", "1", "violated: step 2: "},
              {"history/approach/1", "1", "violated: step 2: gap of element"},
-             {"history/normal_load/1", "",
-              "history: 5 numbers in normal_load, expected 6"},
+             {"history/normal_load/1", "", "history: 5 numbers in normal_load, expected 6"},
              {"history/stick/1", "7.5", "violated: step 2: stick: printed 7.5"},
              {"history/residual/1", "1", "violated: step 2: residual: printed 1"},
              {"history/half_width", "1", "violated: half_width: printed 1"},
@@ -1354,8 +1302,7 @@ TEST(every_edit_is_named)
              {"grid/y_mm", "[]", "violated: grid.y_mm is not what it should be"},
              {"grid/more", "[]", "violated: grid.more is no result of this case"},
              {"grid/sxx_MPa/2", "null", "violated: grid.sxx_MPa of element 3: printed"},
-             {"maxima/max_shear", "1",
-              "violated: maxima: point 0 at (nan, nan) lies outside"},
+             {"maxima/max_shear", "1", "violated: maxima: point 0 at (nan, nan) lies outside"},
              {"shakedown", "1", "violated: shakedown.limit is missing"},
          }},
         {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
@@ -1375,8 +1322,7 @@ TEST(every_edit_is_named)
     for (size_t k = 0; k < sizeof results / sizeof *results; k++) {
         char line[600];
         snprintf(line, sizeof line, "%s%s",
-                 strstr(results[k].given, "--grid") ||
-                         strstr(results[k].given, "--points")
+                 strstr(results[k].given, "--grid") || strstr(results[k].given, "--points")
                      ? "stress "
                      : "",
                  results[k].given);
@@ -1387,8 +1333,7 @@ TEST(every_edit_is_named)
             const char *said = said_of(root, path, value);
             if (*part ? strstr(said, part) != NULL : *said == '\0')
                 continue;
-            print_error("result %zu, %s = %s: '%s' wanted; said: %s\n", k, path, value,
-                        part, said);
+            print_error("result %zu, %s = %s: '%s' wanted; said: %s\n", k, path, value, part, said);
             wrong++;
         }
         /* beside nine digits 1e-10 of what has no unit of its own */

@@ -43,8 +43,7 @@ static const struct {
      "--contact-elements: expected a whole number of at most 2147483647, got '9999"},
     {"--contact-elements 2147483648", 64, "of at most 2147483647, got '2147483648'"},
     {"--contact-elements 99999999999999999999999", 64, "of at most 2147483647"},
-    {"--contact-elements -2147483649", 64,
-     "--contact-elements: expected a whole number >= 3"},
+    {"--contact-elements -2147483649", 64, "--contact-elements: expected a whole number >= 3"},
     {"--contact-elements 2", 64, "--contact-elements: expected a whole number >= 3"},
     {"--formulation stedy", 64, "--formulation: expected static"},
     {"--support hook", 64, "--support: expected arc, hub or halfplane, got 'hook'"},
@@ -62,8 +61,7 @@ static const struct {
     {"--load 5 --half-width=1", 64, "--load and --half-width exclude each other"},
     {"--creep 0.1 --creep-ratio 1", 64, "--creep and --creep-ratio exclude each other"},
     {"--shift 1 --force 1", 64, "--shift and --force exclude each other"},
-    {"--formulation steady --creep 0.1 --force 1", 64,
-     "--creep and --force exclude each other"},
+    {"--formulation steady --creep 0.1 --force 1", 64, "--creep and --force exclude each other"},
     {"--formulation steady --shift 1", 64, "shift"},
     {"--support hub --cover-thickness 4 --similar --load 10", 64,
      "cover thickness of body B: its core holds the wheel, add --support-b hub"},
@@ -94,8 +92,7 @@ static const struct {
     {"--young 1e300", 64, "Young's modulus: expected a size of 1e-100 to 1e+100"},
     {"--radius 1e-300", 64, "radius: expected a size of 1e-100 to 1e+100"},
     {"--load 1e300", 64, "load: expected a size of 1e-100 to 1e+100"},
-    {"--half-width 60", 64,
-     "half-width: expected less than the radius of either body, 50"},
+    {"--half-width 60", 64, "half-width: expected less than the radius of either body, 50"},
     {"--support halfplane --similar --radius-b 2 --half-width 3", 64,
      "half-width: expected less than the radius of either body, 2"},
     {"--support halfplane --load 100 --young 1 --layer-thickness 0.01 --poisson 0.495 "
@@ -112,8 +109,7 @@ static const struct {
 TEST(bad_arguments_are_refused)
 {
     for (size_t k = 0; k < sizeof bad_arguments / sizeof bad_arguments[0]; k++)
-        check_refused(bad_arguments[k].arguments, bad_arguments[k].code,
-                      bad_arguments[k].part);
+        check_refused(bad_arguments[k].arguments, bad_arguments[k].code, bad_arguments[k].part);
 }
 
 TEST(two_case_files_are_refused)
@@ -180,10 +176,8 @@ TEST(case_file_equals_options)
                            "[friction]\n\tmu=0.2\n");
     json_t *a = run_json("case.ini");
     json_t *b = run_json(QUICK " --radius 40 --mu=0.2");
-    assert_int_equal(
-        json_equal(json_object_get(a, "inputs"), json_object_get(b, "inputs")), 1);
-    assert_int_equal(json_equal(json_object_get(a, "table"), json_object_get(b, "table")),
-                     1);
+    assert_int_equal(json_equal(json_object_get(a, "inputs"), json_object_get(b, "inputs")), 1);
+    assert_int_equal(json_equal(json_object_get(a, "table"), json_object_get(b, "table")), 1);
     json_decref(a);
     json_decref(b);
 }
@@ -228,8 +222,8 @@ TEST(json_and_table_hold_the_same_numbers)
     for (line = strtok(NULL, "\n"); line; line = strtok(NULL, "\n"), row++)
         for (int j = 0; j < 10; j++) {
             const json_t *column = json_object_get(table, names[j]);
-            CHECK_ABS(strtod(line, &line), json_number_value(json_array_get(column, row)),
-                      0.0, "%s row %zu", names[j], row);
+            CHECK_ABS(strtod(line, &line), json_number_value(json_array_get(column, row)), 0.0,
+                      "%s row %zu", names[j], row);
         }
     assert_int_equal(row, 24);
     assert_int_equal(json_array_size(json_object_get(table, "x_mm")), 24);
@@ -243,14 +237,10 @@ TEST(table_obeys_its_own_conventions)
     const json_t *table = json_object_get(root, "table");
     double P = 0.0, Q = 0.0;
     for (size_t i = 0; i < json_array_size(json_object_get(table, "h_mm")); i++) {
-        const double h =
-            json_number_value(json_array_get(json_object_get(table, "h_mm"), i));
-        const double p =
-            json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
-        const double q =
-            json_number_value(json_array_get(json_object_get(table, "q_MPa"), i));
-        const int zone =
-            (int)json_integer_value(json_array_get(json_object_get(table, "zone"), i));
+        const double h = json_number_value(json_array_get(json_object_get(table, "h_mm"), i));
+        const double p = json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
+        const double q = json_number_value(json_array_get(json_object_get(table, "q_MPa"), i));
+        const int zone = (int)json_integer_value(json_array_get(json_object_get(table, "zone"), i));
         P += p * h;
         Q += q * h;
         assert_true(p >= 0.0);
@@ -281,8 +271,7 @@ TEST(the_mesh_asked_for_is_used)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char command[200];
         snprintf(command, sizeof command,
-                 "--support halfplane --half-width 0.5 --formulation steady %s",
-                 cases[k].options);
+                 "--support halfplane --half-width 0.5 --formulation steady %s", cases[k].options);
         json_t *root = run_json(command);
         assert_string_equal(
             json_string_value(json_object_get(json_object_get(root, "inputs"), "mesh")),
@@ -395,11 +384,10 @@ TEST(verify_takes_no_operand)
 /* As first word the completion for bash offers every command that the help lists. */
 TEST(completion_offers_every_command)
 {
-    assert_int_equal(
-        shell("\"$R\" --completion=bash > completion && bash -c '. ./completion; "
-              "COMP_WORDS=(rollbem \"\"); COMP_CWORD=1; _rollbem; "
-              "printf \" %s \" \"${COMPREPLY[@]}\"'"),
-        0);
+    assert_int_equal(shell("\"$R\" --completion=bash > completion && bash -c '. ./completion; "
+                           "COMP_WORDS=(rollbem \"\"); COMP_CWORD=1; _rollbem; "
+                           "printf \" %s \" \"${COMPREPLY[@]}\"'"),
+                     0);
     char offered[sizeof out], word[40];
     strcpy(offered, out);
     assert_int_equal(rollbem("help"), 0);
@@ -423,8 +411,7 @@ TEST(the_schema_describes_every_input)
            *schema = run_json("--describe=schema");
     json_t *inputs = json_object_get(result, "inputs"),
            *described = json_object_get(
-               json_object_get(json_object_get(schema, "properties"), "inputs"),
-               "properties");
+               json_object_get(json_object_get(schema, "properties"), "inputs"), "properties");
     const char *name;
     json_t *value;
     assert_true(json_object_size(inputs) > 50);
@@ -474,13 +461,13 @@ TEST(similar_copies_all_that_a_has)
         char words[600];
         snprintf(words, sizeof words, "%s%s --similar", common, of[k][0]);
         json_t *copied = run_json(words);
-        snprintf(words, sizeof words, "%s%s --young-b 94500 --poisson-b 0.1 %s", common,
-                 of[k][0], of[k][1]);
+        snprintf(words, sizeof words, "%s%s --young-b 94500 --poisson-b 0.1 %s", common, of[k][0],
+                 of[k][1]);
         json_t *named = run_json(words);
         CHECK_REL(member(copied, "summary", "max_pressure"),
                   member(named, "summary", "max_pressure"), 1e-13, "kind %d: p0", k);
-        CHECK_ABS(member(copied, "summary", "creepage"),
-                  member(named, "summary", "creepage"), 1e-12, "kind %d: xi", k);
+        CHECK_ABS(member(copied, "summary", "creepage"), member(named, "summary", "creepage"),
+                  1e-12, "kind %d: xi", k);
         json_decref(named);
         json_decref(copied);
         snprintf(words, sizeof words,
@@ -516,14 +503,14 @@ TEST(transient_rolls_step_by_step)
                                   "--creep-ratio 0.5 --history-table steps.tsv");
     const size_t steps = history_length(root, "creepage");
     assert_true(steps > 5);
-    assert_string_equal(json_string_value(json_object_get(
-                            json_object_get(root, "summary"), "formulation")),
-                        "transient");
+    assert_string_equal(
+        json_string_value(json_object_get(json_object_get(root, "summary"), "formulation")),
+        "transient");
     OWNED(rb_io_table) t;
     assert_int_equal(rb_io_table_read_columns("steps.tsv", 16, &t, NULL), RB_OK);
     assert_int_equal(t.rows, steps);
-    CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"),
-              1e-9, "Q of the last step");
+    CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"), 1e-9,
+              "Q of the last step");
     json_decref(root);
 }
 
@@ -551,20 +538,19 @@ TEST(columns_win_over_the_case_file)
 TEST(distances_have_a_unit)
 {
     write_file("history.txt", "distance load force_ratio\n0 100 0\n1 400 .5\n2 100 .5\n");
-    json_t *root =
-        run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
-                 "--formulation transient --history history.txt --history-table "
-                 "steps.tsv");
+    json_t *root = run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
+                            "--formulation transient --history history.txt --history-table "
+                            "steps.tsv");
     const json_t *history = json_object_get(root, "history");
     const size_t last = history_length(root, "distance") - 1;
     const double a = number_in(history, "half_width");
     char told[100];
     CHECK_ABS(entry(history, "distance", last), 2.0, 0.0, "the end of the way");
     CHECK_REL(entry(history, "normal_load", last), 100.0, 1e-9, "and its load");
-    CHECK_REL(a, sqrt(4.0 * 400.0 * 50.0 * 2.0 * 0.99 / (3.14159265358979 * 94500.0)),
-              1e-9, "Hertz's half-width of the largest load");
-    CHECK_REL(entry(history, "max_pressure", last),
-              member(root, "summary", "max_pressure"), 1e-12, "p0");
+    CHECK_REL(a, sqrt(4.0 * 400.0 * 50.0 * 2.0 * 0.99 / (3.14159265358979 * 94500.0)), 1e-9,
+              "Hertz's half-width of the largest load");
+    CHECK_REL(entry(history, "max_pressure", last), member(root, "summary", "max_pressure"), 1e-12,
+              "p0");
     assert_int_equal(shell("grep -h '^# distance in a' steps.tsv"), 0);
     snprintf(told, sizeof told, "# distance in a = %.9g mm", a);
     assert_int_equal(strncmp(out, told, strlen(told)), 0);
@@ -576,20 +562,17 @@ TEST(distances_have_a_unit)
 TEST(lost_contact_has_no_ratios)
 {
     write_file("hole.txt", "1.5 0\n2 .3\n4 1\n6 1\n8 .3\n9 0\n");
-    json_t *root =
-        run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
-                 "--formulation transient --approach .03 --creep .001 --distance 8 "
-                 "--irregularity hole.txt --history-table steps.tsv --history-plot "
-                 "steps.svg");
+    json_t *root = run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
+                            "--formulation transient --approach .03 --creep .001 --distance 8 "
+                            "--irregularity hole.txt --history-table steps.tsv --history-plot "
+                            "steps.svg");
     const json_t *history = json_object_get(root, "history");
     int lost = 0;
     for (size_t i = 0; i < history_length(root, "distance"); i++)
         if (entry(history, "normal_load", i) == 0.0) {
             lost++;
-            assert_true(
-                json_is_null(json_array_get(json_object_get(history, "force_ratio"), i)));
-            assert_true(
-                json_is_null(json_array_get(json_object_get(history, "contact_to"), i)));
+            assert_true(json_is_null(json_array_get(json_object_get(history, "force_ratio"), i)));
+            assert_true(json_is_null(json_array_get(json_object_get(history, "contact_to"), i)));
         }
     assert_true(lost > 3);
     assert_int_equal(shell("grep -v '^#' steps.tsv | grep -E -i -e '-nan|inf'"), 1);
@@ -635,8 +618,7 @@ TEST(increments_press_gradually)
 TEST(irregularities_are_of_transients)
 {
     write_file("open.txt", "1 0\n2 .3\n4 1\n");
-    check_refused("--irregularity open.txt", 64,
-                  "--irregularity: only for transient rolling");
+    check_refused("--irregularity open.txt", 64, "--irregularity: only for transient rolling");
     check_refused("--formulation steady --irregularity open.txt", 64, "--irregularity:");
     check_refused("curve --irregularity open.txt", 64, "--irregularity:");
     check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
@@ -655,8 +637,7 @@ TEST(bad_histories_are_refused)
     check_refused("--formulation transient --history history.txt", 65,
                   "history.txt:2: expected distance 0");
     write_file("history.txt", "load forc\n1 1\n");
-    check_refused("--history history.txt", 65,
-                  "unknown column 'forc' (did you mean 'force'?)");
+    check_refused("--history history.txt", 65, "unknown column 'forc' (did you mean 'force'?)");
     write_file("history.txt", "1 1\n");
     check_refused("--history history.txt", 65, "expected a line that names the columns");
     write_file("history.txt", "load\n1\nx\n");
@@ -672,11 +653,10 @@ TEST(bad_histories_are_refused)
 /* The steps that were finished are there. */
 TEST(interrupted_run_keeps_its_steps)
 {
-    assert_int_equal(
-        shell("\"$R\" " QUICK " --similar --formulation transient --distance 100000 "
-              "--creep-ratio 0.5 --json --quiet --output long.json & "
-              "p=$!; " WHEN_CAUGHT(INT_CAUGHT) "sleep 0.5; kill -INT $p; wait $p"),
-        1);
+    assert_int_equal(shell("\"$R\" " QUICK " --similar --formulation transient --distance 100000 "
+                           "--creep-ratio 0.5 --json --quiet --output long.json & "
+                           "p=$!; " WHEN_CAUGHT(INT_CAUGHT) "sleep 0.5; kill -INT $p; wait $p"),
+                     1);
     assert_non_null(strstr(err, "interrupted after step"));
     json_t *root = json_load_file("long.json", 0, NULL);
     assert_non_null(root);
@@ -687,17 +667,16 @@ TEST(interrupted_run_keeps_its_steps)
 /* Files and pipes end, devices need not. */
 TEST(devices_are_refused)
 {
-    static const char *const lines[] = {
-        "--support halfplane --load 100 --gap /dev/zero",
-        "--support halfplane --load 100 --worn /dev/urandom",
-        "--support halfplane --load 100 --history /dev/zero",
-        "/dev/zero",
-        "stress --points /dev/zero",
-        "lcp /dev/zero",
-        "friction /dev/zero",
-        "contact /dev/urandom",
-        "check /dev/zero",
-        "sweep /dev/zero"};
+    static const char *const lines[] = {"--support halfplane --load 100 --gap /dev/zero",
+                                        "--support halfplane --load 100 --worn /dev/urandom",
+                                        "--support halfplane --load 100 --history /dev/zero",
+                                        "/dev/zero",
+                                        "stress --points /dev/zero",
+                                        "lcp /dev/zero",
+                                        "friction /dev/zero",
+                                        "contact /dev/urandom",
+                                        "check /dev/zero",
+                                        "sweep /dev/zero"};
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
         char line[200];
         snprintf(line, sizeof line, "ulimit -t 10; timeout 20 \"$R\" %s", lines[k]);
@@ -731,8 +710,7 @@ TEST(a_terminal_that_goes_interrupts_unless_nohup)
     for (int nohup = 0; nohup < 2; nohup++) {
         char line[500];
         snprintf(line, sizeof line,
-                 "%s \"$R\" " QUICK
-                 " --similar --formulation transient --distance 100000 "
+                 "%s \"$R\" " QUICK " --similar --formulation transient --distance 100000 "
                  "--creep-ratio 0.5 --quiet --output gone.tsv & p=$!; " WHEN_CAUGHT(
                      "%s") "kill -HUP $p; %s wait $p",
                  nohup ? "trap '' HUP;" : "", nohup ? INT_CAUGHT : HUP_CAUGHT,
@@ -747,18 +725,16 @@ TEST(a_terminal_that_goes_interrupts_unless_nohup)
 /* s = 0.4: exact Q/(mu P) = -0.64. */
 TEST(error_bars_hold_the_truth)
 {
-    json_t *root =
-        run_json("--support halfplane --similar --gap parabola --load 100 "
-                 "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
+    json_t *root = run_json("--support halfplane --similar --gap parabola --load 100 "
+                            "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
     const json_t *summary = json_object_get(root, "summary");
-    const double error = json_number_value(
-        json_object_get(json_object_get(summary, "errors"), "force_ratio"));
+    const double error =
+        json_number_value(json_object_get(json_object_get(summary, "errors"), "force_ratio"));
     CHECK_ABS(member(root, "summary", "force_ratio"), -0.64, error, "force ratio");
     assert_true(error > 0.0 && error < 0.01);
     json_decref(root);
-    root =
-        run_json("--support halfplane --similar --gap parabola --load 100 "
-                 "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
+    root = run_json("--support halfplane --similar --gap parabola --load 100 "
+                    "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
     CHECK_REL(member(root, "summary", "force_ratio"), -0.64, 1e-3, "force ratio");
     json_decref(root);
     assert_int_equal(rollbem(QUICK " --error"), 0);
@@ -789,20 +765,16 @@ static double *read_matrix(const char *name, int rows, int cols)
 TEST(dump_holds_the_problem)
 {
     enum { N = 6, SIZE = 3 * N };
-    json_t *root =
-        run_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
-                 "2>trace");
-    SCRATCH double *M = read_matrix("d/M.mtx", SIZE, SIZE),
-                   *b = read_matrix("d/b.mtx", SIZE, 1);
+    json_t *root = run_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
+                            "2>trace");
+    SCRATCH double *M = read_matrix("d/M.mtx", SIZE, SIZE), *b = read_matrix("d/b.mtx", SIZE, 1);
     double *scale = read_matrix("d/z_scale.mtx", SIZE, 1), z[SIZE];
     SCRATCH double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
     rb_lcp_info info;
-    assert_int_equal(rb_lcp_lemke(&(rb_lcp_problem){SIZE, M, SIZE, b}, NULL, z, &info),
-                     RB_OK);
+    assert_int_equal(rb_lcp_lemke(&(rb_lcp_problem){SIZE, M, SIZE, b}, NULL, z, &info), RB_OK);
     const json_t *table = json_object_get(root, "table");
     for (size_t i = 0; i < N; i++) {
-        const double p =
-            json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
+        const double p = json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
         CHECK_ABS(z[i] * scale[i], p, 1e-8 * 1e4, "p[%zu]", i);
     }
     assert_true(F[0] > 0.0);
@@ -861,10 +833,8 @@ TEST(dump_of_a_large_contact_holds_its_flexibility)
     for (int i = 0; i < N; i += 7) {
         double un = 0.0, ut = 0.0;
         for (int j = 0; j < N; j++) {
-            const double p = table_entry(root, "p_MPa", j),
-                         q = table_entry(root, "q_MPa", j);
-            un += toeplitz(NN, NN + 2 * M, N, i, j) * p +
-                  toeplitz(NT, NT + 2 * M, N, i, j) * q;
+            const double p = table_entry(root, "p_MPa", j), q = table_entry(root, "q_MPa", j);
+            un += toeplitz(NN, NN + 2 * M, N, i, j) * p + toeplitz(NT, NT + 2 * M, N, i, j) * q;
             ut += toeplitz(NN + M, NN + 3 * M, N, i, j) * p +
                   toeplitz(NT + M, NT + 3 * M, N, i, j) * q;
         }
@@ -951,8 +921,7 @@ TEST(full_device_is_73)
 /* The reader is gone before anything is written. */
 TEST(closed_pipe_is_73)
 {
-    assert_int_equal(shell("{ sleep 0.2; \"$R\" " QUICK
-                           " --quiet; echo $? >code; } | true; "
+    assert_int_equal(shell("{ sleep 0.2; \"$R\" " QUICK " --quiet; echo $? >code; } | true; "
                            "sleep 0.4; exit $(cat code)"),
                      73);
     assert_string_equal(err, ""); /* | head has seen enough */
@@ -965,14 +934,12 @@ TEST(pictures_are_written_or_not_there)
     assert_int_equal(stat("picture.png", &st), 0);
     assert_true(st.st_size > 10000);
     /* a name full of what shells and gnuplot would read */
-    assert_int_equal(rollbem(QUICK " --quiet --plot \"a'b;touch x \\$(touch y).svg\""),
-                     0);
+    assert_int_equal(rollbem(QUICK " --quiet --plot \"a'b;touch x \\$(touch y).svg\""), 0);
     assert_int_equal(stat("a'b;touch x $(touch y).svg", &st), 0);
     assert_int_not_equal(stat("x", &st), 0);
     assert_int_not_equal(stat("y", &st), 0);
     assert_int_equal(rollbem(QUICK " --quiet --plot /nonexistent/a.png"), 73);
-    assert_int_equal(shell("PATH=/nonexistent \"$R\" " QUICK " --quiet --plot none.png"),
-                     70);
+    assert_int_equal(shell("PATH=/nonexistent \"$R\" " QUICK " --quiet --plot none.png"), 70);
     assert_non_null(strstr(err, "gnuplot is not installed"));
     assert_int_not_equal(stat("none.png", &st), 0);
 }
@@ -991,13 +958,11 @@ TEST(rounding_about_0_is_0)
 
 TEST(commands_on_a_case_offer_the_same)
 {
-    static const char *const commands[] = {"", "stress --grid 5x4",
-                                           "wear --cycles 1 --wear-coefficient 1e-10",
-                                           "curve --points 3"};
+    static const char *const commands[] = {
+        "", "stress --grid 5x4", "wear --cycles 1 --wear-coefficient 1e-10", "curve --points 3"};
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
         char line[300];
-        snprintf(line, sizeof line,
-                 "%s --example rail --contact-elements 12 --mesh uniform --cite",
+        snprintf(line, sizeof line, "%s --example rail --contact-elements 12 --mesh uniform --cite",
                  commands[k]);
         json_t *root = run_json(line);
         assert_true(json_is_object(json_object_get(root, "units")));

@@ -71,13 +71,13 @@ TEST(passes)
         const double unit = scale_of(root);
         CHECK_ABS(in_summary(root, "K_II_min") / unit, want[k].K_II_min, 1e-4, "min");
         CHECK_ABS(in_summary(root, "K_II_max") / unit, want[k].K_II_max, 1e-4, "max");
-        CHECK_ABS(in_summary(root, "delta_K_II") / unit,
-                  want[k].K_II_max - want[k].K_II_min, 2e-4, "range");
+        CHECK_ABS(in_summary(root, "delta_K_II") / unit, want[k].K_II_max - want[k].K_II_min, 2e-4,
+                  "range");
         CHECK_ABS(in_summary(root, "K_I_max") / unit, want[k].K_I_max, 1e-4, "K_I");
         CHECK_ABS(in_summary(root, "K_I_min"), 0.0, 1e-12, "K_I");
         for (int i = 0; i < 6; i++)
-            CHECK_ABS(entry(table, "K_II", step[i]) / unit, want[k].K_II[i], 1e-4,
-                      "%s, step %zu", want[k].load, step[i]);
+            CHECK_ABS(entry(table, "K_II", step[i]) / unit, want[k].K_II[i], 1e-4, "%s, step %zu",
+                      want[k].load, step[i]);
         assert_int_equal(json_array_size(json_object_get(table, "x")), 121);
         CHECK_ABS(entry(table, "x", 120), 6.0, 1e-12, "x");
         for (size_t i = 0; i < 121; i++) {
@@ -102,8 +102,7 @@ TEST(trapped)
     for (int k = 0; k < 3; k++) {
         const int n = (int)reference[k][0];
         snprintf(line, sizeof line,
-                 HERTZ DRIVEN "--mu 0.3 --crack-elements %d --steps %d --fluid trapped",
-                 n, 6 * n);
+                 HERTZ DRIVEN "--mu 0.3 --crack-elements %d --steps %d --fluid trapped", n, 6 * n);
         json_t *root = run_json(line);
         CHECK_ABS(in_summary(root, "K_I_max") / scale_of(root), reference[k][1], 1e-3,
                   "K_I, %d elements", n);
@@ -112,15 +111,14 @@ TEST(trapped)
         json_decref(root);
     }
     for (int k = 0; k < 2; k++) {
-        snprintf(
-            line, sizeof line,
-            HERTZ DRIVEN
-            "--mu 0.3 --crack-elements %d --steps 240 --fluid trapped --closing located",
-            20 << k);
+        snprintf(line, sizeof line,
+                 HERTZ DRIVEN
+                 "--mu 0.3 --crack-elements %d --steps 240 --fluid trapped --closing located",
+                 20 << k);
         json_t *root = run_json(line);
         error[k] = 0.2724 - in_summary(root, "K_I_max") / scale_of(root);
-        CHECK_ABS(in_summary(root, "fluid_pressure_max") * sqrt(M_PI) / scale_of(root),
-                  1.0909, k ? 6e-4 : 3e-3, "fluid, between positions");
+        CHECK_ABS(in_summary(root, "fluid_pressure_max") * sqrt(M_PI) / scale_of(root), 1.0909,
+                  k ? 6e-4 : 3e-3, "fluid, between positions");
         json_decref(root);
     }
     CHECK_ABS(error[1], 3.4e-3, 3e-4, "40 elements");
@@ -132,26 +130,22 @@ TEST(units_and_case_files)
 {
     (void)state;
     json_t *mm = run_json(HERTZ "--mu 0 --remote-stress 20 --crack-mouth 0.2"),
-           *si =
-               run_json("crack --units si --similar --support halfplane --half-width 1mm "
-                        "--radius 1 --young 94500e6 --mu 0 --remote-stress 20MPa "
-                        "--crack-mouth 0.2");
-    write_file("case.ini",
-               "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
-               "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
-               "remote-stress = 20MPa\ncrack-mouth = 0.2\nfluid = none\n");
+           *si = run_json("crack --units si --similar --support halfplane --half-width 1mm "
+                          "--radius 1 --young 94500e6 --mu 0 --remote-stress 20MPa "
+                          "--crack-mouth 0.2");
+    write_file("case.ini", "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
+                           "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
+                           "remote-stress = 20MPa\ncrack-mouth = 0.2\nfluid = none\n");
     json_t *file = run_json("crack case.ini");
     static const char *const names[] = {"K_I_max", "K_II_max", "K_II_min", "delta_K_II"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         const double want = in_summary(mm, names[k]);
         /* MPa sqrt(mm) in Pa sqrt(m) */
-        CHECK_REL(in_summary(si, names[k]), want * 1e6 / sqrt(1000.0), 1e-9, "%s",
-                  names[k]);
+        CHECK_REL(in_summary(si, names[k]), want * 1e6 / sqrt(1000.0), 1e-9, "%s", names[k]);
         CHECK_REL(in_summary(file, names[k]), want, 0.0, "%s", names[k]);
     }
     CHECK_REL(entry(json_object_get(si, "table"), "x", 0), -6e-3, 1e-12, "x");
-    CHECK_ABS(number_in(json_object_get(file, "inputs"), "remote-stress"), 20.0, 0.0,
-              "inputs");
+    CHECK_ABS(number_in(json_object_get(file, "inputs"), "remote-stress"), 20.0, 0.0, "inputs");
     json_decref(mm);
     json_decref(si);
     json_decref(file);
@@ -161,23 +155,18 @@ TEST(units_and_case_files)
 TEST(histories)
 {
     (void)state;
-    json_t *steady =
-               run_json(HERTZ "--mu 0 --mesh uniform --contact-elements 80 --zone 1.3 "
-                              "--steps 60"),
-           *transient =
-               run_json(HERTZ "--mu 0 --formulation transient --distance 12 --steps 60 "
-                              "--contact-elements 80 --zone 1.3"),
-           *still =
-               run_json(HERTZ "--mu 0.3 --increments 4 --shift 2e-4 --crack-mouth 0.9");
-    const json_t *a = json_object_get(steady, "table"),
-                 *b = json_object_get(transient, "table"),
+    json_t *steady = run_json(HERTZ "--mu 0 --mesh uniform --contact-elements 80 --zone 1.3 "
+                                    "--steps 60"),
+           *transient = run_json(HERTZ "--mu 0 --formulation transient --distance 12 --steps 60 "
+                                       "--contact-elements 80 --zone 1.3"),
+           *still = run_json(HERTZ "--mu 0.3 --increments 4 --shift 2e-4 --crack-mouth 0.9");
+    const json_t *a = json_object_get(steady, "table"), *b = json_object_get(transient, "table"),
                  *c = json_object_get(still, "table");
     const size_t n = json_array_size(json_object_get(b, "x"));
     const size_t pressed = n - 60; /* steps at rest, at --from */
     for (size_t k = 1; k <= 60; k++) {
         CHECK_ABS(entry(b, "x", pressed + k - 1), entry(a, "x", k), 1e-9, "x");
-        CHECK_ABS(entry(b, "K_II", pressed + k - 1), entry(a, "K_II", k), 1e-6,
-                  "step %zu", k);
+        CHECK_ABS(entry(b, "K_II", pressed + k - 1), entry(a, "K_II", k), 1e-6, "step %zu", k);
     }
     for (size_t k = 0; k < json_array_size(json_object_get(c, "x")); k++)
         CHECK_ABS(entry(c, "x", k), 0.0, 0.0, "it stays");
@@ -190,8 +179,7 @@ TEST(histories)
 TEST(error_bars)
 {
     (void)state;
-    json_t *root =
-        run_json(HERTZ "--mu 0 --formulation steady --crack-elements 20 --error");
+    json_t *root = run_json(HERTZ "--mu 0 --formulation steady --crack-elements 20 --error");
     const json_t *errors = json_object_get(json_object_get(root, "summary"), "errors");
     const double unit = scale_of(root);
     CHECK_MAX(fabs(in_summary(root, "delta_K_II") / unit - 0.2438),
@@ -203,12 +191,10 @@ TEST(error_bars)
 TEST(below_the_surface)
 {
     (void)state;
-    json_t *root =
-        run_json(HERTZ "--mu 0 --crack-depth 0.4 --crack-angle 0 --crack-mouth "
-                       "-0.5 --crack-friction 0.1 --from -7 --to 7 --steps 140");
+    json_t *root = run_json(HERTZ "--mu 0 --crack-depth 0.4 --crack-angle 0 --crack-mouth "
+                                  "-0.5 --crack-friction 0.1 --from -7 --to 7 --steps 140");
     /* a horizontal crack under a symmetric load: the ends change places */
-    CHECK_REL(in_summary(root, "K_II_max_upper"), -in_summary(root, "K_II_min"), 0.1,
-              "ends");
+    CHECK_REL(in_summary(root, "K_II_max_upper"), -in_summary(root, "K_II_min"), 0.1, "ends");
     CHECK_MAX(in_summary(root, "K_I_max"), 0.03 * in_summary(root, "delta_K_II"),
               "pressed together, but for what sliding near the surface opens");
     json_decref(root);
@@ -217,12 +203,10 @@ TEST(below_the_surface)
 TEST(pictures)
 {
     (void)state;
-    assert_int_equal(rollbem(HERTZ
-                             "--mu 0 --plot a.svg --plot-crack b.svg --at 0.5 --orbit "
-                             "c.svg --quiet"),
+    assert_int_equal(rollbem(HERTZ "--mu 0 --plot a.svg --plot-crack b.svg --at 0.5 --orbit "
+                                   "c.svg --quiet"),
                      0);
-    assert_int_equal(shell("for f in a b c; do grep -q '</svg>' $f.svg || exit 1; done"),
-                     0);
+    assert_int_equal(shell("for f in a b c; do grep -q '</svg>' $f.svg || exit 1; done"), 0);
 }
 
 /* Supports, laws, meshes, heat, bores, gap tables, force control, steps and histories,
@@ -240,8 +224,7 @@ TEST(loads_of_every_kind)
         HERTZ STEADY "--support arc",
         HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed "
                      "1000",
-        HERTZ STEADY
-        "--mu-fall 0.1 --slip-scale 100 --friction-law rational --speed 1000",
+        HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law rational --speed 1000",
         HERTZ STEADY "--conductivity 50 --heat-capacity 3.8 --speed 1000",
         HERTZ STEADY "--plane stress",
         HERTZ STEADY "--radius-b -1200",
@@ -293,8 +276,7 @@ TEST(coupled)
     static const struct {
         const char *bodies;
         double alone, coupled;
-    } want[] = {{"--young 1e13 --young-b 1e5", 0.1508, 0.1268},
-                {"--similar", 0.1508, 0.137}};
+    } want[] = {{"--young 1e13 --young-b 1e5", 0.1508, 0.1268}, {"--similar", 0.1508, 0.137}};
     char line[300];
     (void)state;
     for (size_t k = 0; k < 2; k++)
@@ -307,30 +289,26 @@ TEST(coupled)
             CHECK_ABS(in_summary(root, "K_II_max") / scale_of(root),
                       both ? want[k].coupled : want[k].alone, 2e-3, "%s", line);
             if (both)
-                CHECK_MAX(1.1 * scale_of(root) / sqrt(M_PI),
-                          in_summary(root, "max_pressure"),
+                CHECK_MAX(1.1 * scale_of(root) / sqrt(M_PI), in_summary(root, "max_pressure"),
                           "at the mouth it is singular");
             json_decref(root);
         }
-    json_t *far =
-        run_json(HERTZ "--mu 0 --contact-elements 32 --crack-elements 10 --coupled "
-                       "--crack-mouth 9 --from -9 --to -8 --steps 4");
-    CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 3e-3,
-              "far away");
+    json_t *far = run_json(HERTZ "--mu 0 --contact-elements 32 --crack-elements 10 --coupled "
+                                 "--crack-mouth 9 --from -9 --to -8 --steps 4");
+    CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 3e-3, "far away");
     json_decref(far);
     /* steady contacts of so many elements are solved without a matrix */
     double largest[2];
     for (int k = 0; k < 2; k++) {
-        json_t *one = run_json(
-            k ? HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
-                      "--formulation steady"
-              : HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled");
+        json_t *one =
+            run_json(k ? HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
+                               "--formulation steady"
+                       : HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled");
         largest[k] = in_summary(one, "K_II_max");
         json_decref(one);
     }
     CHECK_REL(largest[1], largest[0], 1e-9, "K_II max");
-    check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64,
-                  "rigid");
+    check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64, "rigid");
     check_refused(HERTZ "--mu 0.1 --coupled", 64, "--mu 0");
     check_refused(HERTZ "--mu 0 --coupled --fluid trapped", 64, "without fluid");
     check_refused(HERTZ "--mu 0 --coupled --unloaded --remote-stress 1", 64, "exclude");
@@ -341,10 +319,10 @@ TEST(coupled)
  * so. */
 TEST(back_to_the_surface)
 {
-    static const char *const line = HERTZ
-        "--mu 0 --crack-friction 0.4 --crack-angle 45 --paris 1e-12,3 --growth "
-        "tension --grow-to 4 --grow-steps %d --units inch --half-width 1mm --radius "
-        "1000mm --young 94500MPa";
+    static const char *const line =
+        HERTZ "--mu 0 --crack-friction 0.4 --crack-angle 45 --paris 1e-12,3 --growth "
+              "tension --grow-to 4 --grow-steps %d --units inch --half-width 1mm --radius "
+              "1000mm --young 94500MPa";
     char text[300];
     (void)state;
     for (int steps = 1; steps <= 8; steps += 7) {
@@ -356,9 +334,9 @@ TEST(back_to_the_surface)
         if (steps == 1) {
             assert_true(json_is_true(json_object_get(growth, "surfaced")));
             assert_int_equal(n, 1);
-            assert_non_null(strstr(
-                json_string_value(json_array_get(json_object_get(root, "notes"), 0)),
-                "back to the surface beyond a length of 0.03937 in: a piece"));
+            assert_non_null(
+                strstr(json_string_value(json_array_get(json_object_get(root, "notes"), 0)),
+                       "back to the surface beyond a length of 0.03937 in: a piece"));
         } else {
             CHECK_ABS(entry(growth, "angle", 1), 45.0 - 70.528779365, 1e-6, "upwards");
             for (size_t k = 0; k < n; k++)
@@ -370,19 +348,16 @@ TEST(back_to_the_surface)
 
 /* A study of cracks is `rollbem crack` case by case, with its error bars, in units, from
  * a case file, and it goes on where it was cut. */
-#define VARIED                                                                           \
-    "sweep cracks.ini --vary-1 'crack-length 0.5 1' --vary-2 'crack-angle 30 60' "
+#define VARIED "sweep cracks.ini --vary-1 'crack-length 0.5 1' --vary-2 'crack-angle 30 60' "
 
 TEST(studies)
 {
-    static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II",
-                                        "K_II_min_at"};
+    static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II", "K_II_min_at"};
     char line[300], heading[60];
     (void)state;
-    write_file("cracks.ini",
-               "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
-               "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
-               "remote-stress = 20MPa\ncrack-elements = 12\n");
+    write_file("cracks.ini", "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
+                             "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
+                             "remote-stress = 20MPa\ncrack-elements = 12\n");
     json_t *study = run_json(VARIED "--units inch --error --jobs 2");
     const json_t *table = json_object_get(study, "table");
     for (size_t k = 0; k < 4; k++) {
@@ -395,40 +370,35 @@ TEST(studies)
         for (size_t j = 0; j < sizeof names / sizeof *names; j++) {
             const char *unit = j == 3 ? "in" : "psi.in^0.5";
             snprintf(heading, sizeof heading, "%s_%s", names[j], unit);
-            CHECK_REL(entry(table, heading, k), in_summary(one, names[j]), 1e-12, "%s",
-                      heading);
+            CHECK_REL(entry(table, heading, k), in_summary(one, names[j]), 1e-12, "%s", heading);
             snprintf(heading, sizeof heading, "error_%s_%s", names[j], unit);
             if (j < 3)
-                CHECK_REL(entry(table, heading, k), number_in(errors, names[j]), 1e-9,
-                          "%s", heading);
+                CHECK_REL(entry(table, heading, k), number_in(errors, names[j]), 1e-9, "%s",
+                          heading);
         }
         json_decref(one);
     }
-    CHECK_ABS(number_in(json_object_get(study, "inputs"), "crack-elements"), 12.0, 0.0,
-              "inputs");
+    CHECK_ABS(number_in(json_object_get(study, "inputs"), "crack-elements"), 12.0, 0.0, "inputs");
     json_decref(study);
 
     assert_int_equal(rollbem(VARIED "--quiet --output all.tsv --map m.svg"), 0);
     assert_int_equal(shell("head -6 all.tsv > part.tsv && grep -q '</svg>' m.svg"), 0);
     assert_int_equal(shell("sed -i 's/all.tsv --map m.svg/part.tsv/' part.tsv"), 0);
     assert_int_equal(rollbem(VARIED "--quiet --output part.tsv"), 0);
-    assert_int_equal(shell("grep -v '^#' all.tsv > a; grep -v '^#' part.tsv | cmp - a"),
-                     0);
+    assert_int_equal(shell("grep -v '^#' all.tsv > a; grep -v '^#' part.tsv | cmp - a"), 0);
     assert_int_equal(rollbem(VARIED "--crack-friction 0.4 --quiet --output "
                                     "part.tsv"),
                      73); /* another study */
 
     /* loads with steps of their own; trapped fluid; a coupled contact */
-    json_t *steps = run_json("sweep " CONTACT
-                             "--mu 0.3 --increments 3 --shift 2e-4 --vary-1 'crack-mouth "
-                             "0.7 0.9' --crack-elements 10");
-    CHECK_MAX(1e-4,
-              fabs(entry(json_object_get(steps, "table"), "K_II_max_MPa.mm^0.5", 1)),
+    json_t *steps =
+        run_json("sweep " CONTACT "--mu 0.3 --increments 3 --shift 2e-4 --vary-1 'crack-mouth "
+                 "0.7 0.9' --crack-elements 10");
+    CHECK_MAX(1e-4, fabs(entry(json_object_get(steps, "table"), "K_II_max_MPa.mm^0.5", 1)),
               "pressing tears the crack");
     json_decref(steps);
-    json_t *both =
-        run_json("sweep " CONTACT "--mu 0 --coupled --vary-1 'contact-elements 16 24' "
-                 "--crack-elements 8 --steps 48 --results half_width");
+    json_t *both = run_json("sweep " CONTACT "--mu 0 --coupled --vary-1 'contact-elements 16 24' "
+                            "--crack-elements 8 --steps 48 --results half_width");
     CHECK_MAX(25.0, entry(json_object_get(both, "table"), "max_pressure_MPa", 1),
               "that of the contact that feels the crack");
     CHECK_REL(entry(json_object_get(both, "table"), "half_width_mm", 1), 1.0, 0.1,
@@ -439,14 +409,13 @@ TEST(studies)
     check_refused(STUDY "--vary-1 'crack-angle 30 180'", 64,
                   "case 2: --crack-angle: expected more than 0");
     check_refused(STUDY "--vary-1 'crack-elements 3 30'", 64, "case 1: crack-elements");
-    check_refused(STUDY "--vary-1 'crack-angle 30' --derivatives half_width", 64,
-                  "have none");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --derivatives half_width", 64, "have none");
     check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "with a number as value");
     check_refused(STUDY "--vary-1 'crack-angle 30' --paris 1e-12,3", 64, "--paris");
     check_refused(STUDY "--vary-1 'crack-angle 30' --results max_shear", 64,
                   "no result 'max_shear'");
-    check_refused(STUDY "--vary-1 'crack-angle 30' --error --results error_half_width",
-                  64, "no error bar");
+    check_refused(STUDY "--vary-1 'crack-angle 30' --error --results error_half_width", 64,
+                  "no error bar");
     check_refused(STUDY "--vary-1 'steps 10' --crack-angle 30", 64, "jump over");
     check_refused(STUDY "--vary-1 'crack-angle 30' --accuracy 0.1", 64, "refine");
     assert_int_equal(rollbem(STUDY "--vary-1 'crack-angle 10 30' --crack-elements 20"),
@@ -460,10 +429,8 @@ TEST(refusals)
     check_refused(HERTZ "--crack-angle 180", 64, "outside body B");
     check_refused(HERTZ "--crack-angle -30", 64, "outside body B");
     check_refused(HERTZ "--crack-depth -1", 64, "--crack-depth: expected a number >= 0");
-    check_refused(HERTZ "--crack-angle 12 --crack-elements 20", 64,
-                  "at least 40 elements");
-    check_refused(HERTZ "--crack-angle 170 --crack-elements 20", 64,
-                  "at least 40 elements");
+    check_refused(HERTZ "--crack-angle 12 --crack-elements 20", 64, "at least 40 elements");
+    check_refused(HERTZ "--crack-angle 170 --crack-elements 20", 64, "at least 40 elements");
     check_refused(HERTZ "--crack-length 0", 64, "--crack-length");
     check_refused(HERTZ "--crack-elements 3", 64, "--crack-elements");
     check_refused(HERTZ "--steps 10", 64, "jump over the crack");
@@ -471,13 +438,11 @@ TEST(refusals)
     check_refused(HERTZ "--fluid trapped --crack-depth 1", 64, "mouth");
     check_refused(HERTZ "--closing located", 64, "only for --fluid trapped");
     check_refused(HERTZ "--unloaded", 64, "--remote-stress");
-    check_refused(HERTZ "--unloaded --remote-stress 1 --fluid pressure", 64,
-                  "--unloaded");
+    check_refused(HERTZ "--unloaded --remote-stress 1 --fluid pressure", 64, "--unloaded");
     check_refused(HERTZ "--unloaded --remote-stress 1 --plot a.png", 64, "--plot");
     check_refused(HERTZ "--layer-thickness-b 3", 64, "body B");
     check_refused(HERTZ "--radius-b 2", 64, "half-plane");
-    check_refused(HERTZ "--formulation transient --distance 12 --creep 0 --to 3", 64,
-                  "--to");
+    check_refused(HERTZ "--formulation transient --distance 12 --creep 0 --to 3", 64, "--to");
     check_refused(HERTZ "--formulation transient --distance 12 --creep 0 --steps 8", 64,
                   "jumps over the crack");
     check_refused(HERTZ "--accuracy 0.01", 64, "but no refinement");

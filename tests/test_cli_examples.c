@@ -46,8 +46,8 @@ static void compare_tables(const char *got_path, const char *wanted_path)
         const double tol = tolerance_of(name, rb_norm_inf((size_t)wanted.rows, x));
         assert_string_equal(got.name[j], name);
         for (int i = 0; i < wanted.rows; i++)
-            CHECK_ABS(got.x[i + j * wanted.rows], x[i], tol, "%s: row %d, %s",
-                      wanted_path, i + 1, name);
+            CHECK_ABS(got.x[i + j * wanted.rows], x[i], tol, "%s: row %d, %s", wanted_path, i + 1,
+                      name);
     }
 }
 
@@ -61,18 +61,18 @@ TEST(tables_are_as_recorded)
                  {"examples/carter/case.ini", "--output", "carter/output"},
                  {"examples/by-hand/case.ini", "--output", "by-hand/output"},
                  {"examples/two-bodies/case.ini", "--output", "two-bodies/output"},
-                 {"examples/cattaneo-to-carter/case.ini",
-                  "--output /dev/null --history-table", "cattaneo-to-carter/history"},
-                 {"curve examples/rail/case.ini --points 31 --contact-elements 50",
-                  "--output", "rail/curve"},
-                 {"stress examples/rail/case.ini --force-ratio -0.6 --grid 13x7",
-                  "--output", "rail/stress"}};
+                 {"examples/cattaneo-to-carter/case.ini", "--output /dev/null --history-table",
+                  "cattaneo-to-carter/history"},
+                 {"curve examples/rail/case.ini --points 31 --contact-elements 50", "--output",
+                  "rail/curve"},
+                 {"stress examples/rail/case.ini --force-ratio -0.6 --grid 13x7", "--output",
+                  "rail/stress"}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         char got[200], wanted[200];
         snprintf(got, sizeof got, "%s/table.tsv", folder);
         snprintf(wanted, sizeof wanted, "examples/%s.tsv", cases[k].wanted);
-        assert_int_equal(run("%s/rollbem %s --quiet %s %s", build_folder(),
-                             cases[k].command, cases[k].output, got),
+        assert_int_equal(run("%s/rollbem %s --quiet %s %s", build_folder(), cases[k].command,
+                             cases[k].output, got),
                          0);
         compare_tables(got, wanted);
     }
@@ -80,9 +80,8 @@ TEST(tables_are_as_recorded)
 
 TEST(figures_of_the_paper_are_drawn)
 {
-    assert_int_equal(run("ROLLBEM=%s/rollbem examples/paper/figures %s/figures",
-                         build_folder(), folder),
-                     0);
+    assert_int_equal(
+        run("ROLLBEM=%s/rollbem examples/paper/figures %s/figures", build_folder(), folder), 0);
     for (int k = 2; k <= 6; k++)
         assert_int_equal(run("test -s %s/figures/figure%d.png", folder, k), 0);
 }

@@ -79,8 +79,7 @@ TEST(a_line_per_file)
     assert_string_equal(err, "");
     const char *line = strstr(out, "\ngood\t");
     assert_non_null(line);
-    assert_int_equal(
-        sscanf(line, "\ngood\t%39s\t%d\t%d\t%lf", status, &n, &pivots, &residual), 4);
+    assert_int_equal(sscanf(line, "\ngood\t%39s\t%d\t%d\t%lf", status, &n, &pivots, &residual), 4);
     assert_string_equal(status, "solved");
     assert_int_equal(n, 2);
     assert_int_equal(pivots, 3);
@@ -149,8 +148,7 @@ TEST(plain_text_is_read)
         assert_int_equal(lcp("--solution p"), 0);
         solution(z);
         const double w1 = z[0] + 2.0 * z[1] - 1.0, w2 = 2.0 * z[0] + z[1] - 2.0;
-        CHECK_ABS(fmax(fabs(fmin(z[0], w1)), fabs(fmin(z[1], w2))), 0.0, 1e-15, "file %d",
-                  k);
+        CHECK_ABS(fmax(fabs(fmin(z[0], w1)), fabs(fmin(z[1], w2))), 0.0, 1e-15, "file %d", k);
         assert_int_equal(lcp("--solution - <p"), 0);
         assert_non_null(strstr(out, "\n# -: solved by lemke, n = 2, "));
     }
@@ -185,8 +183,7 @@ TEST(what_is_no_problem_is_refused)
 TEST(matrix_market_is_read)
 {
     double z[2];
-    put("p",
-        "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
+    put("p", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
     put("x", "-5 -6 # q\n");
     assert_int_equal(lcp("--solution --q x p"), 0);
     solution(z);
@@ -209,8 +206,7 @@ TEST(a_cover_may_hold_zeros_where_q_is_not_negative)
     CHECK_REL(z[1], 2.0 / 7.0, 1e-14, "z(2)");
     put("x", "0 1");
     assert_int_equal(lcp("--cover x p"), 65);
-    assert_non_null(
-        strstr(err, "cover(1) = 0: expected a number > 0, because q(1) = -1"));
+    assert_non_null(strstr(err, "cover(1) = 0: expected a number > 0, because q(1) = -1"));
     put("x", "1 -1");
     assert_int_equal(lcp("--cover x p"), 65);
     put("x", "1 1 1");
@@ -243,8 +239,8 @@ TEST(a_large_sparse_problem_needs_no_dense_tableau)
     char line[1500];
     double residual;
     const int length = (int)(strlen(program) - strlen("rollbem"));
-    snprintf(line, sizeof line, "'%.*sobstacle' 100 >p && '%.*sobstacle' -q 100 >x",
-             length, program, length, program);
+    snprintf(line, sizeof line, "'%.*sobstacle' 100 >p && '%.*sobstacle' -q 100 >x", length,
+             program, length, program);
     assert_int_equal(system(line), 0);
     snprintf(line, sizeof line, "%s OPENBLAS_NUM_THREADS=1 '%s' lcp --q x p >out",
              SANITIZED ? "" : "ulimit -v 600000;", program);
@@ -252,8 +248,7 @@ TEST(a_large_sparse_problem_needs_no_dense_tableau)
     slurp("out", out, sizeof out);
     line[0] = 0;
     assert_non_null(strstr(out, "\np\tsolved\t10000\t"));
-    assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\t%*s\t%*d\t%*d\t%lf", &residual),
-                     1);
+    assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\t%*s\t%*d\t%*d\t%lf", &residual), 1);
     CHECK_MAX(residual, 1e-15, "residual");
 }
 
@@ -263,12 +258,11 @@ TEST(lemke_on_a_large_sparse_problem_needs_no_tableau)
     char line[1500];
     double residual;
     const int length = (int)(strlen(program) - strlen("rollbem"));
-    snprintf(line, sizeof line, "'%.*sobstacle' 50 >p && '%.*sobstacle' -q 50 >x", length,
-             program, length, program);
+    snprintf(line, sizeof line, "'%.*sobstacle' 50 >p && '%.*sobstacle' -q 50 >x", length, program,
+             length, program);
     assert_int_equal(system(line), 0);
     assert_int_equal(lcp("--solver lemke --q x p"), 0);
-    assert_int_equal(
-        sscanf(strstr(out, "\np\t"), "\np\tsolved\t2500\t%*d\t%lf", &residual), 1);
+    assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\tsolved\t2500\t%*d\t%lf", &residual), 1);
     CHECK_MAX(residual, 1e-15, "residual");
     assert_int_equal(lcp("--json --solver lemke --q x p"), 0);
     assert_non_null(strstr(out, "\"lemke-sparse\""));
@@ -410,8 +404,8 @@ TEST(json_holds_every_file)
     assert_int_equal(json_integer_value(json_object_get(p, "dimension")), 2);
     assert_int_equal(json_array_size(json_object_get(p, "pivots")), 3);
     CHECK_MAX(json_number_value(json_object_get(p, "residual")), 1e-14, "residual");
-    CHECK_REL(json_number_value(json_array_get(json_object_get(p, "z"), 1)), 7.0 / 3.0,
-              1e-15, "z(2)");
+    CHECK_REL(json_number_value(json_array_get(json_object_get(p, "z"), 1)), 7.0 / 3.0, 1e-15,
+              "z(2)");
     assert_string_equal(text_of(json_array_get(list, 1), "status"), "secondary ray");
     p = json_array_get(list, 2);
     assert_string_equal(text_of(p, "status"), "malformed file");

@@ -11,8 +11,7 @@ TEST(the_page_carries_the_case)
 {
     write_file("page.html", page);
     write_file("case.ini", "[friction]\nmu = 0.25\n[body-a]\nsupport = halfplane\n");
-    assert_int_equal(
-        rollbem("page case.ini --page page.html --load 500 --output made.html"), 0);
+    assert_int_equal(rollbem("page case.ini --page page.html --load 500 --output made.html"), 0);
     assert_string_equal(out, "");
     slurp("made.html", out, sizeof out);
     char *from = strstr(out, "id=\"carried\">");
@@ -58,8 +57,7 @@ TEST(what_no_page_can_be_made_of_is_refused)
     write_file("filled.html", "<script type=\"application/json\" id=\"carried\">{}"
                               "</script><script type=\"application/json\" "
                               "id=\"limits\">{}</script>");
-    write_file("endless.html",
-               "<script type=\"application/json\" id=\"carried\">null</script>");
+    write_file("endless.html", "<script type=\"application/json\" id=\"carried\">null</script>");
     write_file("strange.html", "<script type=\"application/json\" id=\"carried\">null"
                                "</script><script type=\"application/json\" "
                                "id=\"limits\">{\"left_out\": [1]}</script>");
@@ -72,12 +70,10 @@ TEST(what_no_page_can_be_made_of_is_refused)
     check_refused("page --page page.html --mu -1", 64, "--mu");
     check_refused("page --page page.html --gap gap.tsv", 64, "--gap: names a file");
     check_refused("page --page page.html --error", 64, "--error: not in the page");
-    check_refused("page --page page.html --accuracy 1e-3", 64,
-                  "--accuracy: not in the page");
+    check_refused("page --page page.html --accuracy 1e-3", 64, "--accuracy: not in the page");
     check_refused("page --page page.html --contact-elements 401", 64,
                   "--contact-elements: the page goes up to 400, use the program for 401");
-    assert_int_equal(
-        rollbem("page --page page.html --contact-elements 400 --output at.html"), 0);
+    assert_int_equal(rollbem("page --page page.html --contact-elements 400 --output at.html"), 0);
     check_refused("page --page page.html --output page.html", 64, "overwritten");
     check_refused("page --page page.html --output no/folder.html", 73, "no/folder.html");
 }

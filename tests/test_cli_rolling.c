@@ -28,8 +28,7 @@ static const struct {
      "mu = 0: curve: xi R/(mu a) has no meaning"},
     {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
     {"curve --accuracy 1e-3", 64, "--accuracy: only for single cases"},
-    {"curve --mu 0 --over creep --to 1e-3 --plot c.png", 64,
-     "--plot: no curve to draw at mu = 0"},
+    {"curve --mu 0 --over creep --to 1e-3 --plot c.png", 64, "--plot: no curve to draw at mu = 0"},
     {"curve --mu 0.3,0 --over creep --to 1e-3 --plot c.png", 64,
      "--plot: no curve to draw at mu = 0"},
     {"stress --accuracy 0.1", 64, "--accuracy: stress has error bars"},
@@ -86,8 +85,7 @@ TEST(curve_follows_carter)
     for (size_t i = 0; i < 25; i++) {
         const double s = -1.2 + 0.1 * (double)i, t = fmin(fabs(s), 1.0);
         CHECK_ABS(entry(curve, "creep_ratio", i), s, 1e-9, "ratio");
-        CHECK_ABS(entry(curve, "force_ratio", i), -copysign(t * (2.0 - t), s), 1e-3,
-                  "s = %g", s);
+        CHECK_ABS(entry(curve, "force_ratio", i), -copysign(t * (2.0 - t), s), 1e-3, "s = %g", s);
         CHECK_MAX(entry(curve, "residual", i), 1e-10, "s = %g", s);
     }
     CHECK_ABS(number_in(curve, "free_creepage"), 0.0, 1e-12, "free rolling");
@@ -117,8 +115,8 @@ TEST(table_holds_the_numbers_of_json)
     for (size_t j = 0; j < 4; j++)
         for (size_t i = 0; i < 14; i++)
             CHECK_ABS(rb_io_table_column(&t, columns[j][0])[i],
-                      entry(json_array_get(curves, i / 7), columns[j][1], i % 7), 0.0,
-                      "%s", columns[j][0]);
+                      entry(json_array_get(curves, i / 7), columns[j][1], i % 7), 0.0, "%s",
+                      columns[j][0]);
     json_decref(root);
 }
 
@@ -127,16 +125,14 @@ TEST(curve_is_fast)
 {
     json_t *root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
     const json_t *curve = json_object_get(root, "curve");
-    print_message("curve of 100 points at 100 elements: %g s\n",
-                  number_in(curve, "seconds"));
+    print_message("curve of 100 points at 100 elements: %g s\n", number_in(curve, "seconds"));
     assert_int_equal(json_array_size(json_object_get(curve, "creepage")), 100);
     json_decref(root);
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */
 
-static void check_maximum(const json_t *root, const char *name, double value, double x,
-                          double y)
+static void check_maximum(const json_t *root, const char *name, double value, double x, double y)
 {
     const json_t *m = json_object_get(json_object_get(root, "maxima"), name);
     const double p0 = number_in(json_object_get(root, "summary"), "max_pressure");
@@ -158,11 +154,10 @@ TEST(maxima_are_those_of_hertz_and_full_sliding)
     check_maximum(root, "max_shear", 0.31899, -0.625, 0.601);
     const json_t *tension = json_object_get(json_object_get(root, "maxima"), "tension");
     CHECK_REL(number_in(tension, "value"),
-              0.4 * number_in(json_object_get(root, "summary"), "max_pressure"), 0.03,
-              "2 mu p0");
+              0.4 * number_in(json_object_get(root, "summary"), "max_pressure"), 0.03, "2 mu p0");
     CHECK_ABS(number_in(tension, "x"), 0.5, 0.01, "at the pulled edge");
-    assert_true(number_in(json_object_get(json_object_get(root, "maxima"), "max_shear"),
-                          "x") < 0.0); /* braked: friction on A towards -x */
+    assert_true(number_in(json_object_get(json_object_get(root, "maxima"), "max_shear"), "x") <
+                0.0); /* braked: friction on A towards -x */
     json_decref(root);
 }
 
@@ -171,8 +166,7 @@ TEST(surface_row_shows_the_tractions)
 {
     json_t *root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
                             "--grid 41x2 --contact-elements 200");
-    const json_t *grid = json_object_get(root, "grid"),
-                 *summary = json_object_get(root, "summary");
+    const json_t *grid = json_object_get(root, "grid"), *summary = json_object_get(root, "summary");
     const double p0 = number_in(summary, "max_pressure"), a = 0.5;
     assert_int_equal(number_in(grid, "nx"), 41);
     for (size_t i = 0; i < 41; i++) {
@@ -190,8 +184,7 @@ TEST(table_of_points)
 {
     OWNED(rb_io_table) t;
     write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
-    assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"),
-                     0);
+    assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"), 0);
     assert_non_null(strstr(out, "# maximum shear "));
     assert_non_null(strstr(err, "von Mises"));
     assert_int_equal(rb_io_table_read("out", &t, NULL), RB_OK);
@@ -207,8 +200,7 @@ TEST(table_of_points)
 
 static int digit(char c)
 {
-    static const char digits[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const char *at = strchr(digits, c);
     return c && at ? (int)(at - digits) : -1;
 }
@@ -256,17 +248,14 @@ static void check_cells(int points, const json_t *grid, int nx, int ny)
 {
     static double room[8000];
     const int *corner = (const int *)room;
-    const int cells =
-        (int)(read_array("connectivity", room, sizeof room) / (4 * sizeof *corner));
+    const int cells = (int)(read_array("connectivity", room, sizeof room) / (4 * sizeof *corner));
     int whole = 0, number[1000], n = 0;
     for (int k = 0; k < nx * ny; k++)
         number[k] = isnan(entry(grid, "sxx_MPa", (size_t)k)) ? -1 : n++;
     assert_int_equal(n, points);
     for (int k = 0; k + nx < nx * ny; k++) {
-        const int around[] = {number[k], number[k + 1], number[k + nx + 1],
-                              number[k + nx]};
-        if (k % nx == nx - 1 || around[0] < 0 || around[1] < 0 || around[2] < 0 ||
-            around[3] < 0)
+        const int around[] = {number[k], number[k + 1], number[k + nx + 1], number[k + nx]};
+        if (k % nx == nx - 1 || around[0] < 0 || around[1] < 0 || around[2] < 0 || around[3] < 0)
             continue;
         assert_true(whole < cells);
         assert_memory_equal(corner + 4 * whole++, around, sizeof around);
@@ -358,14 +347,14 @@ TEST(curves_and_steps_have_error_bars)
                              "--output c.tsv"),
                      0);
     assert_non_null(strstr(err, "error of Q/(mu P) <= "));
-    CHECK_ABS(last_of("c.tsv", "force_ratio"), -0.64,
-              last_of("c.tsv", "error_force_ratio"), "curve");
+    CHECK_ABS(last_of("c.tsv", "force_ratio"), -0.64, last_of("c.tsv", "error_force_ratio"),
+              "curve");
     assert_int_equal(rollbem(SIMILAR "--formulation transient --creep-ratio 0.4 "
                                      "--contact-elements 20 --distance 60 --error "
                                      "--history-table h.tsv --quiet > last.tsv"),
                      0);
-    CHECK_ABS(last_of("h.tsv", "force_ratio"), -0.64,
-              last_of("h.tsv", "error_force_ratio"), "history");
+    CHECK_ABS(last_of("h.tsv", "force_ratio"), -0.64, last_of("h.tsv", "error_force_ratio"),
+              "history");
 }
 
 /* ---- Steps ------------------------------------------------------------------------- */
@@ -435,9 +424,8 @@ TEST(friction_power_adds_up)
         power += entry(table, "friction_power_MPa", i) * entry(table, "h_mm", i);
     }
     CHECK_REL(power, number_in(summary, "dissipation"), 1e-12, "sum");
-    CHECK_REL(power,
-              -number_in(summary, "creepage") * number_in(summary, "tangential_load"),
-              1e-3, "balance");
+    CHECK_REL(power, -number_in(summary, "creepage") * number_in(summary, "tangential_load"), 1e-3,
+              "balance");
     json_decref(root);
 }
 
@@ -449,13 +437,13 @@ TEST(power_below_zero_is_named)
         "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
         "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 ";
     char line[500];
-    snprintf(line, sizeof line,
-             "curve %s --mesh uniform --from -0.25 --to 0.25 --points 3", unlike);
+    snprintf(line, sizeof line, "curve %s --mesh uniform --from -0.25 --to 0.25 --points 3",
+             unlike);
     assert_int_equal(rollbem(line), 0);
     assert_non_null(strstr(err, "below zero at 1 point, -0.00032 N/mm at xi = 0:"));
     for (int aligned = 0; aligned < 2; aligned++) {
-        snprintf(line, sizeof line, "%s --formulation steady --creep 0 --error --mesh %s",
-                 unlike, aligned ? "aligned" : "uniform");
+        snprintf(line, sizeof line, "%s --formulation steady --creep 0 --error --mesh %s", unlike,
+                 aligned ? "aligned" : "uniform");
         json_t *root = run_json(line);
         const json_t *summary = json_object_get(root, "summary");
         const double bar = number_in(json_object_get(summary, "errors"), "dissipation");
@@ -485,8 +473,7 @@ TEST(steps_too_long_for_relaxation_are_named)
                  "--history held.txt --json %s",
                  cases[k].step);
         assert_int_equal(rollbem(line), 0);
-        assert_int_equal(strstr(err, "the stress relaxes") != NULL,
-                         cases[k].says != NULL);
+        assert_int_equal(strstr(err, "the stress relaxes") != NULL, cases[k].says != NULL);
         assert_true(!cases[k].says || strstr(err, cases[k].says));
         json_t *root = json_loads(out, 0, NULL);
         CHECK_REL(number_in(json_object_get(root, "summary"), "max_pressure"), 2.66927,
@@ -502,8 +489,7 @@ TEST(curves_have_notes)
     json_t *root = run_json("curve --support hub --contact-elements 12 --points 3");
     json_t *notes = json_object_get(root, "notes");
     assert_true(json_array_size(notes) >= 1);
-    assert_int_equal(strncmp(json_string_value(json_array_get(notes, 0)), note + 6, 26),
-                     0);
+    assert_int_equal(strncmp(json_string_value(json_array_get(notes, 0)), note + 6, 26), 0);
     json_decref(root);
     assert_int_equal(rollbem("curve --support hub --contact-elements 12 --points 3"), 0);
     assert_non_null(strstr(err, note));
@@ -531,8 +517,7 @@ TEST(fitted_is_the_default_for_steady)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         json_t *root = run_json(cases[k].arguments);
         const json_t *inputs = json_object_get(root, "inputs");
-        assert_string_equal(json_string_value(json_object_get(inputs, "mesh")),
-                            cases[k].mesh);
+        assert_string_equal(json_string_value(json_object_get(inputs, "mesh")), cases[k].mesh);
         assert_int_equal(number_in(inputs, "contact-elements"), cases[k].elements);
         json_decref(root);
     }
@@ -564,8 +549,7 @@ static void check_titles_of_axes(const char *line)
     static char drawing[1 << 20];
     double from, size;
     slurp("sized.svg", drawing, sizeof drawing);
-    for (char *at = drawing; (at = strstr(at, "<g transform=\"translate(")) != NULL;
-         at++) {
+    for (char *at = drawing; (at = strstr(at, "<g transform=\"translate(")) != NULL; at++) {
         const char *end = strchr(at, '>'), *turned = strstr(at, "rotate(270)");
         const char *letters = strstr(at, "font-size=\"");
         if (!turned || turned > end || !letters || letters > end)
@@ -594,8 +578,8 @@ TEST(pictures_in_sizes)
         {"stress --support halfplane --half-width 0.05 --contact-elements 20 "
          "--grid 15x9",
          "fringes", 481, 321},
-        {"stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown", "shakedown-map",
-         481, 321},
+        {"stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown", "shakedown-map", 481,
+         321},
         {"wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 "
          "--wear-steps 2 --contact-elements 20",
          "plot", 481, 321},
@@ -634,10 +618,9 @@ TEST(pictures_in_sizes)
                 assert_int_equal(shell("gnuplot -d sized.gp | cmp - sized.svg"), 0);
         }
     }
-    assert_int_equal(
-        shell("PATH=/nonexistent \"$R\" --approach 0.5 --contact-elements 20 "
-              "--quiet --plot none.svg --plot-script alone.gp"),
-        70);
+    assert_int_equal(shell("PATH=/nonexistent \"$R\" --approach 0.5 --contact-elements 20 "
+                           "--quiet --plot none.svg --plot-script alone.gp"),
+                     70);
     slurp("alone.gp", out, sizeof out);
     assert_non_null(strstr(out, "$data << EOD"));
 }
@@ -748,8 +731,7 @@ TEST(the_shakedown_map_shows_its_case)
     const double yield_shear = 40.0;
     json_t *root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
                             "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
-    const double own =
-        number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
+    const double own = number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
     assert_true(own > 10.0);
     CHECK_REL(top_of("m.gp"), 1.1 * own, 1e-5, "p0 = %g k", own);
     json_decref(root);
@@ -816,8 +798,8 @@ TEST(almost_no_friction)
     }
 }
 
-#define RAIL                                                                             \
-    "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --gap "    \
+#define RAIL                                                                                       \
+    "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --gap "              \
     "exact --load 3111.08 --mu 0.18 --formulation steady --contact-elements 60 "
 #define FALLS "--friction-law exponential --mu-fall 0.12 --slip-scale 10 --speed 45000 "
 
@@ -827,13 +809,11 @@ TEST(bad_friction_laws_are_refused)
     write_file("back.txt", "0 0.3\n0 0.2\n");
     write_file("less.txt", "0 0.3\n1 -0.2\n");
     write_file("mu.txt", "-1 0.3\n1 0.2\n");
-    check_refused(RAIL "--mu-fall 0.1", 64,
-                  "--mu-fall: only for velocity-dependent friction");
+    check_refused(RAIL "--mu-fall 0.1", 64, "--mu-fall: only for velocity-dependent friction");
     check_refused(RAIL "--friction-law linear", 64, "needs --mu-fall and --slip-scale");
     check_refused(RAIL FALLS "--slip-scale 1,2", 64, "equally many numbers");
     check_refused(RAIL FALLS "--mu-fall -0.2", 64, "expected mu >= 0 everywhere");
-    check_refused(RAIL "--friction-law linear --mu-fall 0.1 --slip-scale 9", 64,
-                  "add --speed");
+    check_refused(RAIL "--friction-law linear --mu-fall 0.1 --slip-scale 9", 64, "add --speed");
     check_refused(RAIL "--memory 1", 64, "--memory: only for friction that changes");
     check_refused(RAIL "--mu-heat 0.1,20", 64, "--mu-heat: expected 3 numbers, got 2");
     check_refused(RAIL "--mu-heat 0.1,20,300", 64, "add --conductivity");
@@ -855,8 +835,7 @@ TEST(bad_friction_laws_are_refused)
                            "both.ini"),
                      0);
     check_refused("both.ini", 65, "both.ini:2: mu: the table");
-    assert_int_equal(shell("\"$R\" own.ini --friction-law mu.txt --quiet > table.tsv"),
-                     0);
+    assert_int_equal(shell("\"$R\" own.ini --friction-law mu.txt --quiet > table.tsv"), 0);
     check_refused(RAIL FALLS "--force -840", 64, "the largest is -5");
     check_refused(RAIL FALLS "--force -100 --all-solutions", 64, "a given creepage");
     check_refused(RAIL "--all-solutions", 64, "friction that depends on");
@@ -867,12 +846,11 @@ TEST(friction_laws_by_words)
 {
     json_t *mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
                                      "--slip-scale 100,50");
-    json_t *si =
-        run_json("--support halfplane --similar --radius 0.46 --young 209920e6 "
-                 "--poisson 0.28 --gap exact --load 3111080 --mu 0.18 "
-                 "--formulation steady --contact-elements 60 --friction-law "
-                 "exponential --mu-fall 0.1,0.02 --slip-scale 0.1,0.05 --speed 45 "
-                 "--memory 1e-6,2e-3 --creep 0.001 --units si");
+    json_t *si = run_json("--support halfplane --similar --radius 0.46 --young 209920e6 "
+                          "--poisson 0.28 --gap exact --load 3111080 --mu 0.18 "
+                          "--formulation steady --contact-elements 60 --friction-law "
+                          "exponential --mu-fall 0.1,0.02 --slip-scale 0.1,0.05 --speed 45 "
+                          "--memory 1e-6,2e-3 --creep 0.001 --units si");
     CHECK_REL(number_in(json_object_get(mm, "summary"), "force_ratio"),
               number_in(json_object_get(si, "summary"), "force_ratio"), 1e-9, "units");
     const json_t *scales = json_object_get(json_object_get(si, "inputs"), "slip-scale");
@@ -880,14 +858,12 @@ TEST(friction_laws_by_words)
     json_decref(mm);
     json_decref(si);
 
-    assert_int_equal(rollbem(RAIL FALLS "--creep 0.001 --json --quiet --output r.json"),
-                     0);
+    assert_int_equal(rollbem(RAIL FALLS "--creep 0.001 --json --quiet --output r.json"), 0);
     assert_int_equal(rollbem("check r.json"), 0);
     assert_non_null(strstr(out, "r.json: valid: "));
 
-    assert_int_equal(rollbem(RAIL FALLS
-                             "--mesh uniform --zone 4.65 --contact-elements 93 "
-                             "--creep 0.0009999 --all-solutions --json"),
+    assert_int_equal(rollbem(RAIL FALLS "--mesh uniform --zone 4.65 --contact-elements 93 "
+                                        "--creep 0.0009999 --all-solutions --json"),
                      0);
     assert_non_null(strstr(err, "2 solutions that differ from 82 starts"));
     assert_non_null(strstr(err, "\n  1   Q/(mu P) = "));

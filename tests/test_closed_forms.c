@@ -32,8 +32,8 @@ static double integral(traction c)
     gsl_integration_workspace *ws = gsl_integration_workspace_alloc(200);
     gsl_function f = {integrand, &c};
     double result, error;
-    gsl_integration_qag(&f, -M_PI_2, M_PI_2, 1e-9 * c.p0 * c.a, 1e-9, 200,
-                        GSL_INTEG_GAUSS61, ws, &result, &error);
+    gsl_integration_qag(&f, -M_PI_2, M_PI_2, 1e-9 * c.p0 * c.a, 1e-9, 200, GSL_INTEG_GAUSS61, ws,
+                        &result, &error);
     gsl_integration_workspace_free(ws);
     return result;
 }
@@ -111,15 +111,12 @@ TEST(spence_of_complementary_parts)
 TEST(bentall_johnson_published_numbers)
 {
     const double beta = 0.143834, R = 25.0;
-    const rb_closed_bentall_johnson b =
-        rb_closed_bentall_johnson_stick(beta, 0.1, R, 51572.3);
+    const rb_closed_bentall_johnson b = rb_closed_bentall_johnson_stick(beta, 0.1, R, 51572.3);
     CHECK_REL(b.creepage, 3.67269e-4, 1e-5, "mu -> infinity");
-    CHECK_REL(rb_closed_bentall_johnson_slip(beta, 0.1, R),
-              2.0 * beta * 0.1 / R * 0.457386, 1e-5, "mu -> 0");
-    const rb_closed_bentall_johnson similar =
-        rb_closed_bentall_johnson_stick(0.0, 0.1, R, 51572.3);
-    CHECK_REL(similar.mid_pressure, 51572.3 * 0.1 / (2.0 * R), 1e-14,
-              "Hertz at beta = 0");
+    CHECK_REL(rb_closed_bentall_johnson_slip(beta, 0.1, R), 2.0 * beta * 0.1 / R * 0.457386, 1e-5,
+              "mu -> 0");
+    const rb_closed_bentall_johnson similar = rb_closed_bentall_johnson_stick(0.0, 0.1, R, 51572.3);
+    CHECK_REL(similar.mid_pressure, 51572.3 * 0.1 / (2.0 * R), 1e-14, "Hertz at beta = 0");
     CHECK_ABS(similar.creepage, 0.0, 0.0, "no creepage at beta = 0");
 }
 
@@ -129,8 +126,7 @@ TEST(half_cylinder_approach)
     const double R = 50.0, E = 94500.0 / 0.99, P = 100.0;
     const double a = rb_closed_hertz_half_width(P, R, E);
     CHECK_REL(rb_closed_half_cylinder_approach(P, R, E, a),
-              a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0), 1e-13,
-              "P = pi E* a^2/4R");
+              a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0), 1e-13, "P = pi E* a^2/4R");
 }
 
 /* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress.

@@ -75,8 +75,7 @@ static void curve(random_case *c)
 static void sweep(random_case *c)
 {
     static const char *const varied[] = {"mu 0.05:0.5:4", "young 1000:9e4:3",
-                                         "contact-elements 12,24,48",
-                                         "formulation static,steady"};
+                                         "contact-elements 12,24,48", "formulation static,steady"};
     const int first = random_choice(c, 4);
     add(" --vary-1 '%s'", varied[first]);
     if (random_choice(c, 2))
@@ -86,25 +85,21 @@ static void sweep(random_case *c)
 static void wear(random_case *c)
 {
     if (c->regime == RANDOM_STATIC || c->regime == RANDOM_STEPS)
-        add(random_choice(c, 2) ? " --slide %.4g" : " --cycles %.4g",
-            random_log(c, 1.0, 1e6));
+        add(random_choice(c, 2) ? " --slide %.4g" : " --cycles %.4g", random_log(c, 1.0, 1e6));
     else
         add(" --cycles %.4g", random_log(c, 1.0, 1e6));
-    add(" --wear-coefficient %.4g --wear-steps %d --wear-share %.2g",
-        random_log(c, 1e-12, 1e-7), 1 + random_choice(c, 20),
-        random_choice(c, 2) ? random_between(c, 0.0, 1.0) : 0.0);
+    add(" --wear-coefficient %.4g --wear-steps %d --wear-share %.2g", random_log(c, 1e-12, 1e-7),
+        1 + random_choice(c, 20), random_choice(c, 2) ? random_between(c, 0.0, 1.0) : 0.0);
 }
 
 static void crack(random_case *c)
 {
-    static const char *const fluid[] = {"", " --fluid trapped", " --fluid pressure",
-                                        " --coupled"};
+    static const char *const fluid[] = {"", " --fluid trapped", " --fluid pressure", " --coupled"};
     add(" --crack-length %.4g --crack-angle %.4g --crack-friction %.3g --crack-elements "
         "%d"
         " --passes %d%s",
-        random_log(c, 0.1, 5.0), random_between(c, 10.0, 170.0),
-        random_between(c, 0.0, 0.8), 4 + random_choice(c, 100), 1 + random_choice(c, 3),
-        fluid[random_choice(c, 4)]);
+        random_log(c, 0.1, 5.0), random_between(c, 10.0, 170.0), random_between(c, 0.0, 0.8),
+        4 + random_choice(c, 100), 1 + random_choice(c, 3), fluid[random_choice(c, 4)]);
     if (!random_choice(c, 4))
         add(" --paris 1e-10,3 --grow-steps %d%s", 1 + random_choice(c, 5),
             random_choice(c, 2) ? " --growth tension" : "");
@@ -112,19 +107,18 @@ static void crack(random_case *c)
 
 static void design(random_case *c)
 {
-    static const char *const result[] = {"max_pressure", "dissipation", "approach",
-                                         "half_width", "max_strain"};
-    add(" --minimise %s --over radius=%.5g:%.5g", result[random_choice(c, 5)],
-        0.5 * c->radius, 2.0 * c->radius);
+    static const char *const result[] = {"max_pressure", "dissipation", "approach", "half_width",
+                                         "max_strain"};
+    add(" --minimise %s --over radius=%.5g:%.5g", result[random_choice(c, 5)], 0.5 * c->radius,
+        2.0 * c->radius);
     if (random_choice(c, 2))
         add(" --over mu=0.05:0.6");
 }
 
 static void fit(random_case *c)
 {
-    write_file("creep.tsv",
-               "creep_ratio\tforce_ratio\n0.2\t-0.35\n0.4\t-0.62\n0.7\t-0.88\n"
-               "1\t-0.97\n1.4\t-0.99\n");
+    write_file("creep.tsv", "creep_ratio\tforce_ratio\n0.2\t-0.35\n0.4\t-0.62\n0.7\t-0.88\n"
+                            "1\t-0.97\n1.4\t-0.99\n");
     add(" creep.tsv --fit %s", random_choice(c, 2) ? "mu" : "mu,young");
 }
 
@@ -132,9 +126,8 @@ static const struct {
     const char *name;
     int weight;
     void (*add)(random_case *c);
-} kinds[] = {{"", 24, single},      {"stress", 5, stress}, {"curve", 4, curve},
-             {"sweep", 3, sweep},   {"wear", 4, wear},     {"crack", 4, crack},
-             {"design", 2, design}, {"fit", 2, fit}};
+} kinds[] = {{"", 24, single},  {"stress", 5, stress}, {"curve", 4, curve},   {"sweep", 3, sweep},
+             {"wear", 4, wear}, {"crack", 4, crack},   {"design", 2, design}, {"fit", 2, fit}};
 
 /* ---- Problems in files --------------------------------------------------------------
  */
@@ -149,8 +142,7 @@ static void write_lcp(random_case *c, const char *name)
     fprintf(file, "%d\n", n);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            fprintf(file, "%.6g%c",
-                    (i == j && !any ? n : 0.0) + random_between(c, -1.0, 1.0),
+            fprintf(file, "%.6g%c", (i == j && !any ? n : 0.0) + random_between(c, -1.0, 1.0),
                     j + 1 < n ? ' ' : '\n');
     for (int i = 0; i < n; i++)
         fprintf(file, "%.6g\n", random_between(c, -1.0, 1.0));
@@ -161,16 +153,15 @@ static void problem(random_case *c)
 {
     static const char *const lcp[] = {"",        " --solver lemke", " --solver newton",
                                       " --json", " --trace",        " --all"};
-    static const char *const examples[] = {
-        "example bar",
-        "example bar --solver nsgs-ac",
-        "example truss --nodes 20",
-        "example truss --layout upper-overhanging --nodes 8",
-        "verify",
-        "examples",
-        "help rubber",
-        "friction two-blocks.dat",
-        "friction two-blocks.dat --trace --json"};
+    static const char *const examples[] = {"example bar",
+                                           "example bar --solver nsgs-ac",
+                                           "example truss --nodes 20",
+                                           "example truss --layout upper-overhanging --nodes 8",
+                                           "verify",
+                                           "examples",
+                                           "help rubber",
+                                           "friction two-blocks.dat",
+                                           "friction two-blocks.dat --trace --json"};
     if (random_choice(c, 3)) {
         write_lcp(c, "problem.txt");
         add("lcp problem.txt%s", lcp[random_choice(c, 6)]);
@@ -252,8 +243,7 @@ TEST(long_commands_say_so)
     print_message("%d commands (%d with covers): %d end well, %d not solved, %d refused; "
                   "%d take more than %d s of the processor, %d of them in silence; "
                   "slowest %.1f s\n",
-                  n, with_cover, ended[0], ended[1], ended[2], longer, PROCESSOR, silent,
-                  slowest);
+                  n, with_cover, ended[0], ended[1], ended[2], longer, PROCESSOR, silent, slowest);
     assert_int_equal(wrong, 0);
     assert_int_equal(silent, 0);
     assert_true(ended[0] > n / 4);

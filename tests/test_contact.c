@@ -28,8 +28,8 @@ static const char frame[] = "%% our own\n"
 #define GRID " 1\n 60 1 -1.5 -50. 0.05 100.\n"
 #define GAP "0.00166666666666666667 0. 0. 0. 0. 0."
 
-static json_t *run_file(const char *options, int t, int f, const char *force,
-                        const char *angle, const char *grid, const char *gap)
+static json_t *run_file(const char *options, int t, int f, const char *force, const char *angle,
+                        const char *grid, const char *gap)
 {
     char text[2000], line[200];
     snprintf(text, sizeof text, frame, t, f, force, angle, grid, gap);
@@ -54,23 +54,21 @@ TEST(a_case_is_the_one_of_our_options)
                {1, 0, "-0.0004", "--formulation static"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[500];
-        json_t *got = run_file("", all[k].t, all[k].f, all[k].force,
-                               all[k].t == 3 ? ROLLS : "", GRID, GAP);
-        snprintf(
-            line, sizeof line,
-            "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
-            "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
-            "--contact-elements 60 --datum 100 --datum-b 100 %s",
-            all[k].ours);
+        json_t *got =
+            run_file("", all[k].t, all[k].f, all[k].force, all[k].t == 3 ? ROLLS : "", GRID, GAP);
+        snprintf(line, sizeof line,
+                 "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
+                 "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
+                 "--contact-elements 60 --datum 100 --datum-b 100 %s",
+                 all[k].ours);
         /* the strip's tangential datum is 100 exp(nu/(1 - nu)): of both bodies that is
          * worth 2 nu (1 + nu)/(pi E) of displacement per force more each */
         if (all[k].t == 1 && all[k].f == 0)
             snprintf(line + strlen(line), sizeof line - strlen(line), " --shift %.17g",
-                     -0.0004 + 4.0 * 0.3 * 1.3 / (acos(-1.0) * 213200.0) *
-                                   number_in(got, "FX") / 100.0);
+                     -0.0004 +
+                         4.0 * 0.3 * 1.3 / (acos(-1.0) * 213200.0) * number_in(got, "FX") / 100.0);
         json_t *wanted = run_json(line), *s = json_object_get(wanted, "summary");
-        CHECK_REL(number_in(got, "FX_REL"), number_in(s, "force_ratio"), 1e-9, "%s",
-                  line);
+        CHECK_REL(number_in(got, "FX_REL"), number_in(s, "force_ratio"), 1e-9, "%s", line);
         CHECK_REL(number_in(got, "PEN"), number_in(s, "approach"), 1e-9, "%s", line);
         CHECK_REL(number_in(got, "PMAX"), number_in(s, "max_pressure"), 1e-9, "%s", line);
         CHECK_REL(number_in(got, "FX"), 100.0 * number_in(s, "tangential_load"), 1e-9,
@@ -107,8 +105,7 @@ TEST(a_huge_yield_stress_is_none)
         in.yield = stress[k];
         rb_case_from_contact(&in, &c);
         assert_true(c.runs);
-        CHECK_ABS(c.rc.yield_stress, k < 2 ? stress[k] : 0.0, 0.0, "TAU_C0 = %g",
-                  in.yield);
+        CHECK_ABS(c.rc.yield_stress, k < 2 ? stress[k] : 0.0, 0.0, "TAU_C0 = %g", in.yield);
         CHECK_ABS(c.rc.hardening, k < 2 ? 5.0 : 0.0, 0.0, "K_TAU, TAU_C0 = %g", in.yield);
     }
 }
@@ -137,9 +134,8 @@ TEST(grids_and_gaps_are_those_of_the_file)
         json_decref(got);
     }
     /* (x - 1)^2/(2R) = B1 x^2 - 2 B1 x + const */
-    json_t *moved =
-        run_file("", 3, 0, "-0.0004", ROLLS, " 1\n 60 1 -0.5 -50. 0.05 100.\n",
-                 "0.00166666666666666667 0. 0. -0.0033333333333333333 0. 0.");
+    json_t *moved = run_file("", 3, 0, "-0.0004", ROLLS, " 1\n 60 1 -0.5 -50. 0.05 100.\n",
+                             "0.00166666666666666667 0. 0. -0.0033333333333333333 0. 0.");
     CHECK_REL(number_in(moved, "FX"), number_in(wanted, "FX"), 1e-9, "moved by 1");
     json_decref(moved);
     json_decref(wanted);
@@ -168,22 +164,21 @@ TEST(what_is_left_out_is_named)
 {
     static const struct {
         const char *second, *wanted;
-    } all[] = {
-        {" 1 MODULE\n 1 2 3\n", "case 2 skipped: module 1"},
-        {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n 1\n"
-         " 20 20 -1. -1. .1 .1\n",
-         "three dimensions (MY = 20"},
-        {" 3 MODULE\n 102100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n",
-         "another state to go on from (P = 1; 0 and 2 are read)"},
-        {" 3 MODULE\n 203100\n 000000\n 0101331\n 25000. -.0004 0. 0.\n .3 .2\n",
-         "another friction law (L = 0): mu = 0.3"},
-        {" 3 MODULE\n 203100\n 100000\n 0101331\n 25000. -.0004 .1 0.\n", "CETA"},
-        {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n -3\n"
-         " 20 1 1. 1. 1.2\n",
-         "a contact ellipse (IPOTCN = -3;"},
-        {" 3 MODULE\n 203100\n 120000\n 0101331\n -1. -.0004 0. 0.\n -5\n"
-         " 20 1 1. 1. 1.2\n",
-         "Hertzian input without a positive load, radius or length (IPOTCN = -5)"}};
+    } all[] = {{" 1 MODULE\n 1 2 3\n", "case 2 skipped: module 1"},
+               {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n 1\n"
+                " 20 20 -1. -1. .1 .1\n",
+                "three dimensions (MY = 20"},
+               {" 3 MODULE\n 102100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n",
+                "another state to go on from (P = 1; 0 and 2 are read)"},
+               {" 3 MODULE\n 203100\n 000000\n 0101331\n 25000. -.0004 0. 0.\n .3 .2\n",
+                "another friction law (L = 0): mu = 0.3"},
+               {" 3 MODULE\n 203100\n 100000\n 0101331\n 25000. -.0004 .1 0.\n", "CETA"},
+               {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n -3\n"
+                " 20 1 1. 1. 1.2\n",
+                "a contact ellipse (IPOTCN = -3;"},
+               {" 3 MODULE\n 203100\n 120000\n 0101331\n -1. -.0004 0. 0.\n -5\n"
+                " 20 1 1. 1. 1.2\n",
+                "Hertzian input without a positive load, radius or length (IPOTCN = -5)"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         two_cases(all[k].second);
         assert_int_equal(rollbem("contact two.inp"), 0);
@@ -201,8 +196,8 @@ static void sequence(int t, int f, const char *force, const char *angle, int cou
                      const char *next)
 {
     char text[9000];
-    size_t n = (size_t)snprintf(text, sizeof text, frame, t, f, force,
-                                t >= 2 ? angle : "", GRID, GAP);
+    size_t n =
+        (size_t)snprintf(text, sizeof text, frame, t, f, force, t >= 2 ? angle : "", GRID, GAP);
     char *end = strstr(text, " 0 MODULE");
     n = (size_t)(end - text);
     for (int k = 0; k < count; k++)
@@ -223,8 +218,8 @@ static json_t *case_of(const char *file, size_t k)
     return one;
 }
 
-#define STEP                                                                             \
-    " 3 MODULE\n 002110\n 102000\n 0101331\n 25000. .6 0. 0.\n 0. %s 1000.\n"            \
+#define STEP                                                                                       \
+    " 3 MODULE\n 002110\n 102000\n 0101331\n 25000. .6 0. 0.\n 0. %s 1000.\n"                      \
     " .3 .3 82000. 82000.\n"
 #define NEXT " 3 MODULE\n 002110\n 100000\n 0101331\n 25000. .6 0. 0.\n"
 
@@ -241,13 +236,12 @@ TEST(steps_are_those_of_our_transients)
         sequence(1, 1, "0.6", "", STEPS, next);
         json_t *got = case_of("steps.inp", STEPS);
         const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);
-        snprintf(
-            line, sizeof line,
-            "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
-            "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
-            "--contact-elements 60 --datum 100 --datum-b 100 --formulation transient "
-            "--force-ratio 0.6 --steps %d --distance %.17g",
-            STEPS, STEPS * step / a);
+        snprintf(line, sizeof line,
+                 "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
+                 "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
+                 "--contact-elements 60 --datum 100 --datum-b 100 --formulation transient "
+                 "--force-ratio 0.6 --steps %d --distance %.17g",
+                 STEPS, STEPS * step / a);
         json_t *root = run_json(line), *s = json_object_get(root, "summary");
         CHECK_REL(number_in(got, "CKSI"), number_in(s, "creepage"), 1e-9, "CKSI");
         CHECK_REL(number_in(got, "FX_REL"), 0.6, 1e-12, "FX");
@@ -264,8 +258,7 @@ TEST(steps_end_in_steady_rolling)
     sequence(3, 1, "0.6", ROLLS, 3, NEXT);
     json_t *steady = case_of("steps.inp", 0), *on = case_of("steps.inp", 3);
     CHECK_REL(number_in(on, "CKSI"), number_in(steady, "CKSI"), 1e-9, "it stays steady");
-    CHECK_REL(number_in(on, "FRIC_POWER"), number_in(steady, "FRIC_POWER"), 1e-8,
-              "power");
+    CHECK_REL(number_in(on, "FRIC_POWER"), number_in(steady, "FRIC_POWER"), 1e-8, "power");
     json_decref(on);
     snprintf(next, sizeof next, STEP, "0.05");
     sequence(1, 1, "0.6", "", 1, next);
@@ -282,10 +275,8 @@ TEST(steps_end_in_steady_rolling)
  * leaves Mindlin's remainder. */
 TEST(shifts_add_up)
 {
-    static const char half[] =
-        " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. -.0002 0. 0.\n";
-    static const char back[] =
-        " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. .0002 0. 0.\n";
+    static const char half[] = " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. -.0002 0. 0.\n";
+    static const char back[] = " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. .0002 0. 0.\n";
     sequence(1, 0, "-0.0004", "", 0, "");
     json_t *once = case_of("steps.inp", 0);
     sequence(1, 0, "-0.0002", "", 1, half);
@@ -307,8 +298,7 @@ TEST(hertzian_input_is_the_grid_it_means)
 {
     const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);
     char grid[3][200];
-    snprintf(grid[0], sizeof *grid, " 1\n 60 1 %.17g -50. %.17g 100.\n", -1.25 * a,
-             2.5 * a / 60);
+    snprintf(grid[0], sizeof *grid, " 1\n 60 1 %.17g -50. %.17g 100.\n", -1.25 * a, 2.5 * a / 60);
     snprintf(grid[1], sizeof *grid, " -4\n 60 1 0.00166666666666666667 50. 1.25\n");
     snprintf(grid[2], sizeof *grid, " -5\n 60 1 %.17g 50. 1.25\n", a);
     json_t *wanted = run_file("", 3, 0, "-0.0004", ROLLS, grid[0], GAP);
@@ -358,8 +348,7 @@ TEST(steps_elsewhere_are_refused)
 /* Each reason once; one line in the end; most cases skipped is not success. */
 TEST(skipped_cases_are_counted)
 {
-    static const char step[] =
-        " 3 MODULE\n 213100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n";
+    static const char step[] = " 3 MODULE\n 213100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n";
     char two[400], three[800];
     snprintf(two, sizeof two, "%s", step);
     snprintf(three, sizeof three, "%s%s%s", step, step, step);
@@ -386,8 +375,7 @@ TEST(what_is_left_out_is_said)
         {1, "s/^ 1$/ -1/", "skipped: a contact ellipse (IPOTCN = -1;"},
         {1, "s/^ 1$/ -5/", "skipped: Hertzian input without a positive load"},
         {1, "s/022020   L/2022020   L/", "skipped: friction of its own in every row"},
-        {1, "s/0000331/0000333/",
-         "skipped: a case that the file itself does not calculate"},
+        {1, "s/0000331/0000333/", "skipped: a case that the file itself does not calculate"},
         {1, "s/1   1   IBASE/3   1   IBASE/;s/^   0.0016/ 1 2 &/", "skipped: IBASE = 3"},
         {1, "s/0.0016666/-0.0016666/", "skipped: a gap without curvature"},
         {1, "s/203100/002100/", "skipped: a step from a case without a result"},
@@ -397,13 +385,11 @@ TEST(what_is_left_out_is_said)
         {1, "s/203100/002100/;s/022020   L/022120   L/;/POISS/a 1 1 1 1",
          "a step of viscoelastic bodies"},
         {1, "s/203100/213100/", "skipped: approximate pressure (B = 1)"},
-        {1, "s/203100/203000/;s/25000\\./0.02/",
-         "reaches the end of the potential contact"},
+        {1, "s/203100/203000/;s/25000\\./0.02/", "reaches the end of the potential contact"},
         {0, "s/022020   L/022220   L/;/POISS/a 1 1 1 1", "the simplified theory (M = 2)"},
         {0, "s/022020   L/022320   L/;/POISS/a 1 1 1 1", "that of Fastsim (M = 3)"},
         {0, "s/022020   L/022920   L/;/POISS/a 1 1 1 1", "the material (M = 9)"},
-        {0, "s/1   1   IBASE/1   2   IBASE/;/^   0.0016/a 1 2 3 4 5 6",
-         "the planform (IPLAN = 2)"},
+        {0, "s/1   1   IBASE/1   2   IBASE/;/^   0.0016/a 1 2 3 4 5 6", "the planform (IPLAN = 2)"},
         {0, "s/ 0000331/ 1000331/", "temperatures (H = 1)"},
         {0, "s/ 0000331/ 3000331/;/POISS/a 1 2 3 4\\n 1 2 3 4", "temperatures (H = 3)"},
         {0, "s/022020/022022/", "the rigid slip per element (E = 2)"},
@@ -418,8 +404,7 @@ TEST(what_is_left_out_is_said)
     write_file("own.inp", text);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         snprintf(line, sizeof line,
-                 "sed '%s' own.inp >changed.inp; \"$R\" contact changed.inp --json",
-                 all[k].change);
+                 "sed '%s' own.inp >changed.inp; \"$R\" contact changed.inp --json", all[k].change);
         const int code = shell(line);
         if (code != all[k].code || !strstr(err, all[k].said))
             print_error("%s: %d, %s\n", all[k].change, code, err);
@@ -438,12 +423,10 @@ TEST(bad_files_are_refused)
     check_refused("contact bad.inp", 65, "not an input file of CONTACT");
     write_file("bad.inp", " 3 MODULE\n 203100\n");
     check_refused("contact bad.inp", 65, "the digits L-D-C-M-Z-E, got 'the end of");
-    write_file("bad.inp",
-               " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2 3 4 5\n 25000. -0.0004 "
-               "0. 0.\n 0.25 0.25\n 0. 0.05 1000.\n 0.3 0.3 82000. 82000.\n 1\n "
-               "1.6e12 1 0. 0. 1. 1.\n");
-    check_refused("contact bad.inp", 65,
-                  "bad.inp:11: MX: expected whole numbers, got 1.6e+12");
+    write_file("bad.inp", " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2 3 4 5\n 25000. -0.0004 "
+                          "0. 0.\n 0.25 0.25\n 0. 0.05 1000.\n 0.3 0.3 82000. 82000.\n 1\n "
+                          "1.6e12 1 0. 0. 1. 1.\n");
+    check_refused("contact bad.inp", 65, "bad.inp:11: MX: expected whole numbers, got 1.6e+12");
     check_refused("contact none.inp", 66, "none.inp");
     check_refused("contact", 64, "FILE.inp");
 }
@@ -454,30 +437,27 @@ TEST(every_number_has_its_name)
     rb_io_contact_case *c;
     rb_message why = {""};
     int n;
-    write_file("all.inp",
-               "%% every line that there is\n"
-               " 3   MODULE\n 203110\n 022422\n 13203310\n of debugging\n"
-               " 1 2 3 4 5\n 0.5 1 -1 1.1\n 25000, 0.5 0.6 0.7 a comment\n 0.3 0.25\n"
-               " 90d 0.05 1000\n 0.28 0.29 81000 82000\n 800 0.02 30 7\n"
-               " 1 2 3 4\n 5 6 7 8\n of plastic heat\n"
-               " 4\n 3 2 10 20 14 21\n 2 1\n 2 7 8 9 10\n 3 4\n\n"
-               " 3 MODULE\n 103000\n 422122\n 00100000\n -1 2 3 4\n"
-               " 0.3 0.1 0.2 0.05 0.4\n 0.9 0.8\n"
-               " 1.5707963267948966 0.1 10\n .1 .2 3 4\n .5 .6 .7 .8\n"
-               " 2\n 4 2 0 0 2 1\n 1 1\n 1 2 3 4 5 6\n"
-               " 3 MODULE\n 203100\n 520000\n 00100000\n 25000. 0.6 0. 0.\n"
-               " 1 2 3 4 5\n 6 7\n 3\n 5 1 1 1 0.5 0.25\n"
-               " 3 MODULE\n 200100\n 100000\n 10\n 1 2 3 4 5\n 1 0.6 0. 0.\n"
-               " 4 MODULE\n 0 MODULE\n 3 MODULE\n");
+    write_file("all.inp", "%% every line that there is\n"
+                          " 3   MODULE\n 203110\n 022422\n 13203310\n of debugging\n"
+                          " 1 2 3 4 5\n 0.5 1 -1 1.1\n 25000, 0.5 0.6 0.7 a comment\n 0.3 0.25\n"
+                          " 90d 0.05 1000\n 0.28 0.29 81000 82000\n 800 0.02 30 7\n"
+                          " 1 2 3 4\n 5 6 7 8\n of plastic heat\n"
+                          " 4\n 3 2 10 20 14 21\n 2 1\n 2 7 8 9 10\n 3 4\n\n"
+                          " 3 MODULE\n 103000\n 422122\n 00100000\n -1 2 3 4\n"
+                          " 0.3 0.1 0.2 0.05 0.4\n 0.9 0.8\n"
+                          " 1.5707963267948966 0.1 10\n .1 .2 3 4\n .5 .6 .7 .8\n"
+                          " 2\n 4 2 0 0 2 1\n 1 1\n 1 2 3 4 5 6\n"
+                          " 3 MODULE\n 203100\n 520000\n 00100000\n 25000. 0.6 0. 0.\n"
+                          " 1 2 3 4 5\n 6 7\n 3\n 5 1 1 1 0.5 0.25\n"
+                          " 3 MODULE\n 200100\n 100000\n 10\n 1 2 3 4 5\n 1 0.6 0. 0.\n"
+                          " 4 MODULE\n 0 MODULE\n 3 MODULE\n");
     if (rb_io_contact_read("all.inp", &n, &c, &why) != RB_OK)
         fail_msg("%s", why.text);
     assert_int_equal(n, 5);
     assert_true(c[0].line == 2 && c[0].module == 3 && c[4].module == 4);
     const rb_io_contact_digits *d = &c[0].digit;
-    assert_true(d->P == 2 && d->B == 0 && d->T == 3 && d->N == 1 && d->F == 1 &&
-                d->S == 0);
-    assert_true(d->L == 0 && d->D == 2 && d->C == 2 && d->M == 4 && d->Z == 2 &&
-                d->E == 2);
+    assert_true(d->P == 2 && d->B == 0 && d->T == 3 && d->N == 1 && d->F == 1 && d->S == 0);
+    assert_true(d->L == 0 && d->D == 2 && d->C == 2 && d->M == 4 && d->Z == 2 && d->E == 2);
     assert_true(d->X == 1 && d->H == 3 && d->G == 2);
     assert_true(c[3].digit.X == 0 && c[3].digit.H == 0 && c[3].digit.G == 0);
     const struct {
@@ -558,11 +538,9 @@ TEST(short_lines_are_named)
         const char *text, *said;
     } all[] = {
         {" 3 MODULE\n 20310000x\n", ":2: expected"},
-        {" 3 MODULE\n 203100203\n",
-         ":2: expected the digits P-B-T-N-F-S, got '203100203'"},
+        {" 3 MODULE\n 203100203\n", ":2: expected the digits P-B-T-N-F-S, got '203100203'"},
         {" 3 MODULE\n x\n", ":2: expected the digits P-B-T-N-F-S, got 'x'"},
-        {DIGITS " 1 2 3\n",
-         ":6: expected FN or PEN, CKSI or FX, CETA or FY, CPHI, got '1 2 3'"},
+        {DIGITS " 1 2 3\n", ":6: expected FN or PEN, CKSI or FX, CETA or FY, CPHI, got '1 2 3'"},
         {DIGITS " 1 2 3 inf\n", ":6: expected FN"},
         {DIGITS " 1 2 3 4\n 0.3\n", ":7: expected FSTAT, FKIN"},
         {DIGITS " 1 2 3 4\n .3 .3\n 0 1\n", ":8: expected CHI, DQ, VELOC"},
@@ -570,14 +548,12 @@ TEST(short_lines_are_named)
         {BODIES " 5\n", "got '5'"},
         {BODIES " 1.5\n", ":10: IPOTCN: expected whole numbers, got 1.5"},
         {BODIES " 1\n 1 1 0 0 1\n", ":11: expected MX, MY and the grid"},
-        {BODIES " 1\n 0 1 0 0 1 1\n",
-         ":11: expected MX, MY >= 1 and DX > 0, got 'another grid'"},
+        {BODIES " 1\n 0 1 0 0 1 1\n", ":11: expected MX, MY >= 1 and DX > 0, got 'another grid'"},
         {BODIES " 1\n 1 0 0 0 1 1\n", "got 'another grid'"},
         {BODIES " 1\n 1 1 0 0 0 1\n", "got 'another grid'"},
         {BODIES " 4\n 1 1 0 0 1 1\n", /* one midpoint has no distance */
          "got 'another grid'"},
-        {BODIES " 1\n 1 1 0 0 1 1\n 1.5 1\n",
-         ":12: IBASE: expected whole numbers, got 1.5"},
+        {BODIES " 1\n 1 1 0 0 1 1\n 1.5 1\n", ":12: IBASE: expected whole numbers, got 1.5"},
         {BODIES " 1\n 1 1 0 0 1 1\n 1 1\n 1 2 3 4 5\n", ":13: expected B1, ..., B6"},
         {BODIES " 1\n 1 1 0 0 1 1\n 2 1\n 1 2\n", ":13: expected NN, XM, RX1, Y1, DY1"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
@@ -704,19 +680,16 @@ TEST(plastic_steps_are_met)
                " 0.001 0. 0. 0. 0. 0.\n"
                " 3 MODULE\n 002100\n 102400\n 102341\n 35780. -0.0004 0. 0.\n"
                " 0. 0.08 30000.\n 0.28 0.28 82000. 82000.\n 82000. 0. 35. 123000.\n");
-    assert_int_equal(
-        shell("for k in 1 2 3 4; do printf ' 3 MODULE\\n 002100\\n 101400\\n "
-              "102341\\n 35780. -0.0004 0. 0.\\n'; done >>plastic.inp"),
-        0);
-    json_t *root = run_json("contact plastic.inp"),
-           *cases = json_object_get(root, "cases");
+    assert_int_equal(shell("for k in 1 2 3 4; do printf ' 3 MODULE\\n 002100\\n 101400\\n "
+                           "102341\\n 35780. -0.0004 0. 0.\\n'; done >>plastic.inp"),
+                     0);
+    json_t *root = run_json("contact plastic.inp"), *cases = json_object_get(root, "cases");
     assert_int_equal(json_array_size(cases), 6);
     for (size_t k = 0; k < 6; k++) {
         const json_t *one = json_array_get(cases, k);
         CHECK_ABS(number_in(one, "FX_REL"), want[k].ratio, 1e-4, "case %zu", k + 1);
         if (k > 0)
-            CHECK_REL(number_in(one, "FRIC_POWER"), want[k].power, 5e-4, "case %zu",
-                      k + 1);
+            CHECK_REL(number_in(one, "FRIC_POWER"), want[k].power, 5e-4, "case %zu", k + 1);
         CHECK_ABS(number_in(one, "NADH"), want[k].stick, 0.0, "case %zu", k + 1);
         CHECK_ABS(number_in(one, "NSLIP"), want[k].slip, 0.0, "case %zu", k + 1);
         CHECK_ABS(number_in(one, "NPLAST"), want[k].yield, 0.0, "case %zu", k + 1);
@@ -731,12 +704,11 @@ TEST(plastic_examples_are_met)
     static const struct {
         double ratio, power;
         int stick, slip, yield;
-    } want[] = {{0.6562, -126.1, 12, 11, 3},  {0.6420, -92.34, 11, 8, 7},
-                {0.5959, -26.86, 9, 4, 13},   {0.5509, -11.41, 8, 3, 15},
-                {0.6478, -130.9, 25, 21, 5},  {0.6340, -97.86, 22, 15, 14},
-                {0.5896, -31.36, 19, 7, 25},  {0.5457, -9.425, 17, 4, 30},
-                {0.6436, -133.4, 52, 41, 8},  {0.6299, -99.53, 46, 29, 26},
-                {0.5864, -30.12, 39, 12, 50}, {0.5430, -5.958, 34, 5, 62}};
+    } want[] = {
+        {0.6562, -126.1, 12, 11, 3},  {0.6420, -92.34, 11, 8, 7},   {0.5959, -26.86, 9, 4, 13},
+        {0.5509, -11.41, 8, 3, 15},   {0.6478, -130.9, 25, 21, 5},  {0.6340, -97.86, 22, 15, 14},
+        {0.5896, -31.36, 19, 7, 25},  {0.5457, -9.425, 17, 4, 30},  {0.6436, -133.4, 52, 41, 8},
+        {0.6299, -99.53, 46, 29, 26}, {0.5864, -30.12, 39, 12, 50}, {0.5430, -5.958, 34, 5, 62}};
     char line[700];
     snprintf(line, sizeof line, "contact %s", data("carter_plast.inp"));
     json_t *root = run_json(line), *cases = json_object_get(root, "cases");

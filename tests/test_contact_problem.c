@@ -8,8 +8,7 @@
 /* By all solvers, cold and then warm. */
 static outcome check_solvers(const kind *of)
 {
-    static const rb_contact_solver solvers[] = {RB_SOLVER_AUTO, RB_SOLVER_LEMKE,
-                                                RB_SOLVER_NEWTON};
+    static const rb_contact_solver solvers[] = {RB_SOLVER_AUTO, RB_SOLVER_LEMKE, RB_SOLVER_NEWTON};
     OWNED(rb_contact_problem) p;
     OWNED(rb_contact_state) s;
     outcome o = {0};
@@ -58,16 +57,13 @@ TEST(full_sliding_has_the_least_creepage)
                          .load_given = k / 4,
                          .force_given = 1};
         const double sign = k % 2 ? 1.0 : -1.0;
-        rb_contact_options options =
-            options_of(k % 3 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
+        rb_contact_options options = options_of(k % 3 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         double least = INFINITY;
-        options.sliding =
-            k / 2 % 2 ? options.sliding : 1e-2 * SLIP; /* too small to slide */
+        options.sliding = k / 2 % 2 ? options.sliding : 1e-2 * SLIP; /* too small to slide */
         random_problem(&of, &p);
-        memset(p.load_T, 0,
-               sizeof(double) * (size_t)of.n); /* level: P has no friction in it */
+        memset(p.load_T, 0, sizeof(double) * (size_t)of.n); /* level: P has no friction in it */
         memset(p.force_N, 0, sizeof(double) * (size_t)of.n);
         memcpy(p.force_T, p.load_N, sizeof(double) * (size_t)of.n);
         p.force_ratio = sign;
@@ -121,11 +117,8 @@ TEST(strong_layers_forget_what_has_yielded)
 {
     numbers = 6;
     for (int k = 0; k < 12; k++) {
-        const kind of = {.n = 7,
-                         .mu = 0.3,
-                         .coupling = 0.05,
-                         .load_given = k % 2,
-                         .yields = 1 + k % 3};
+        const kind of = {
+            .n = 7, .mu = 0.3, .coupling = 0.05, .load_given = k % 2, .yields = 1 + k % 3};
         const rb_contact_options options = options_of(RB_SOLVER_AUTO);
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
@@ -209,8 +202,8 @@ TEST(pivots_leave_no_rounding)
 /* ---- Zones that are held ----------------------------------------------------------- */
 
 /* The linear problem of the zones, by its equations. */
-static void check_held(const rb_contact_problem *p, const rb_contact_state *s,
-                       const double *gaps, int round)
+static void check_held(const rb_contact_problem *p, const rb_contact_state *s, const double *gaps,
+                       int round)
 {
     static const double slope[] = {0.0, 0.0, -1.0, 1.0};
     double most;
@@ -356,8 +349,7 @@ static void make_diagonal(by_products *k)
 TEST(an_exact_preconditioner_needs_one_step)
 {
     for (int k = 0; k < 8; k++) {
-        const kind of = {
-            .n = 9, .mu = 0.3, .load_given = k % 2, .force_given = k / 2 % 2};
+        const kind of = {.n = 9, .mu = 0.3, .load_given = k % 2, .force_given = k / 2 % 2};
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         by_products by;
@@ -377,8 +369,7 @@ TEST(an_exact_preconditioner_needs_one_step)
         CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
         CHECK_MAX(by.products, 5, "case %d", k);
         for (int i = 2; i < of.n; i++) {
-            CHECK_REL(s.p[i], STRESS / GAP * (s.delta - p.d_N[i]), 1e-9, "pressure %d",
-                      i);
+            CHECK_REL(s.p[i], STRESS / GAP * (s.delta - p.d_N[i]), 1e-9, "pressure %d", i);
             if (s.zone[i] == RB_ZONE_STICK)
                 CHECK_REL(s.q[i], -STRESS / SLIP * (p.d_T[i] + s.xi * p.e_T[i]), 1e-9,
                           "friction %d", i);
@@ -503,8 +494,8 @@ static int place(const rb_contact_lcp *lcp, int n, int group, int i, int sign)
                                     : n + 2 * n * group + n * sign + i;
 }
 
-static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                           const double *z, const double *w)
+static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
+                           const double *w)
 {
     const int n = p->n, kwak = lcp->form == RB_LCP_KWAK;
     const double o = lcp->mirrored ? -1.0 : 1.0;
@@ -525,17 +516,14 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
             const int plus = place(lcp, n, 1, i, 0), minus = place(lcp, n, 1, i, 1);
             s_plus = SLIP * z[plus];
             s_minus = SLIP * z[minus];
-            CHECK_ABS(s.plastic[i], o * (s_plus - s_minus), 1e-12 * SLIP, "plastic %d",
-                      i);
+            CHECK_ABS(s.plastic[i], o * (s_plus - s_minus), 1e-12 * SLIP, "plastic %d", i);
             const double u =
                 p->recall[0] * next + p->recall[1] * second + p->own * (s_plus + s_minus);
             const double yield = p->yield[i] + p->hardening * u;
             second = next;
             next = u;
-            CHECK_ABS(w[plus] * lcp->w_scale[plus], yield + o * s.q[i], 1e-9 * STRESS,
-                      "+ %d", i);
-            CHECK_ABS(w[minus] * lcp->w_scale[minus], yield - o * s.q[i], 1e-9 * STRESS,
-                      "- %d", i);
+            CHECK_ABS(w[plus] * lcp->w_scale[plus], yield + o * s.q[i], 1e-9 * STRESS, "+ %d", i);
+            CHECK_ABS(w[minus] * lcp->w_scale[minus], yield - o * s.q[i], 1e-9 * STRESS, "- %d", i);
         }
         const int first = place(lcp, n, 0, i, 0), other = place(lcp, n, 0, i, 1);
         const double plus = p->bound[i] * s.p[i] + o * s.q[i],
@@ -543,25 +531,21 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
         slip -= s.plastic[i];
         if (kwak) {
             CHECK_ABS(SLIP * (z[first] - z[other]), slip, 1e-9 * SLIP, "slip %d", i);
-            CHECK_ABS(w[first] * lcp->w_scale[first], plus, 1e-9 * STRESS, "gamma+ %d",
-                      i);
+            CHECK_ABS(w[first] * lcp->w_scale[first], plus, 1e-9 * STRESS, "gamma+ %d", i);
         } else {
-            CHECK_ABS(w[first] * lcp->w_scale[first] - SLIP * z[other], o * slip,
-                      1e-9 * SLIP, "slip %d", i);
-            CHECK_ABS(z[first] * lcp->z_scale[first], plus, 1e-9 * STRESS, "gamma+ %d",
-                      i);
+            CHECK_ABS(w[first] * lcp->w_scale[first] - SLIP * z[other], o * slip, 1e-9 * SLIP,
+                      "slip %d", i);
+            CHECK_ABS(z[first] * lcp->z_scale[first], plus, 1e-9 * STRESS, "gamma+ %d", i);
         }
         CHECK_ABS(w[other] * lcp->w_scale[other], minus, 1e-9 * STRESS, "gamma- %d", i);
     }
     if (p->load_given)
-        CHECK_ABS(w[lcp->size - 1 - p->force_given] *
-                      lcp->w_scale[lcp->size - 1 - p->force_given],
-                  sum_of(n, p->load_N, s.p, p->load_T, s.q) - p->load, 1e-9 * p->load,
-                  "load");
+        CHECK_ABS(w[lcp->size - 1 - p->force_given] * lcp->w_scale[lcp->size - 1 - p->force_given],
+                  sum_of(n, p->load_N, s.p, p->load_T, s.q) - p->load, 1e-9 * p->load, "load");
     if (p->force_given)
         CHECK_ABS(w[lcp->size - 1] * lcp->w_scale[lcp->size - 1],
-                  (lcp->xi0 > 0.0 ? 1.0 : -1.0) * force_error(p, &s, &most),
-                  1e-9 * p->load, "force");
+                  (lcp->xi0 > 0.0 ? 1.0 : -1.0) * force_error(p, &s, &most), 1e-9 * p->load,
+                  "force");
 }
 
 TEST(every_row_of_the_lcp_is_its_equation)
@@ -581,9 +565,8 @@ TEST(every_row_of_the_lcp_is_its_equation)
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_lcp) lcp;
         random_problem(&of, &p);
-        CHECK_STATUS(
-            rb_contact_lcp_create(&p, form, k / 4 % 3, k % 5 ? SLIP : -SLIP, &lcp, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_contact_lcp_create(&p, form, k / 4 % 3, k % 5 ? SLIP : -SLIP, &lcp, NULL),
+                     RB_OK);
         assert_int_equal(lcp.size, (of.yields ? 5 : 3) * of.n + k % 2 + k / 2 % 2);
         assert_int_equal(lcp.mirrored, k / 4 % 3 == 1);
         for (int i = 0; i < lcp.size; i++)
@@ -615,14 +598,13 @@ TEST(variables_have_names)
 
     numbers = 7;
     for (int k = 0; k < 6; k++) {
-        const kind of = {
-            .n = 2, .mu = 0.3, .load_given = 1, .force_given = 1, .yields = k / 3};
+        const kind of = {.n = 2, .mu = 0.3, .load_given = 1, .force_given = 1, .yields = k / 3};
         char name[RB_CONTACT_VARIABLE];
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_lcp) lcp;
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_lcp_create(&p, k % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED,
-                                           k % 3, SLIP, &lcp, NULL),
+        CHECK_STATUS(rb_contact_lcp_create(&p, k % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED, k % 3,
+                                           SLIP, &lcp, NULL),
                      RB_OK);
         for (int v = 0; v <= 2 * lcp.size; v++) {
             const int half = v / lcp.size * 12, at = v % lcp.size;
@@ -650,8 +632,7 @@ TEST(the_lcp_of_a_state_is_the_one_that_gave_it)
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
         assert_int_equal(s.solver, k ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
         for (int with = 0; with < 2; with++) {
-            CHECK_STATUS(rb_contact_lcp_first(&p, &options, with ? &s : NULL, &lcp, NULL),
-                         RB_OK);
+            CHECK_STATUS(rb_contact_lcp_first(&p, &options, with ? &s : NULL, &lcp, NULL), RB_OK);
             assert_int_equal(lcp.form, options.lcp_form);
             CHECK_ABS(lcp.xi0, -options.sliding, 0.0, "against a positive force");
             assert_int_equal(lcp.mirrored, k < 2);
@@ -675,8 +656,8 @@ static rb_status says;
 static double noise;
 
 /* The solution but for some noise, with the status that the test wants. */
-static rb_status hand_back(const char *name, const rb_contact_cone *cone, double tol,
-                           double *r, int *iterations, rb_message *why)
+static rb_status hand_back(const char *name, const rb_contact_cone *cone, double tol, double *r,
+                           int *iterations, rb_message *why)
 {
     (void)name, (void)tol, (void)iterations, (void)why;
     for (int i = 0; i < cone->n; i++) {
@@ -695,17 +676,13 @@ TEST(the_residual_judges_cone_solvers)
         rb_status says;
         double noise;
         rb_status wanted;
-    } all[] = {{RB_OK, 0.0, RB_OK},       {RB_OK, 1e-7, RB_OK},
-               {RB_MAXITER, 1e-7, RB_OK}, {RB_OK, -1.0, RB_INACCURATE},
-               {RB_RAY, -1.0, RB_RAY},    {RB_ENOMEM, 0.0, RB_ENOMEM}};
+    } all[] = {{RB_OK, 0.0, RB_OK},          {RB_OK, 1e-7, RB_OK},   {RB_MAXITER, 1e-7, RB_OK},
+               {RB_OK, -1.0, RB_INACCURATE}, {RB_RAY, -1.0, RB_RAY}, {RB_ENOMEM, 0.0, RB_ENOMEM}};
     static const rb_contact_cone_solvers by = {knows_it, hand_back};
 
     for (size_t k = 0; k < 4 * sizeof all / sizeof *all; k++) {
-        const kind of = {.n = 7,
-                         .mu = 0.3,
-                         .coupling = 0.05,
-                         .load_given = k / 6 % 2,
-                         .force_given = k / 12};
+        const kind of = {
+            .n = 7, .mu = 0.3, .coupling = 0.05, .load_given = k / 6 % 2, .force_given = k / 12};
         rb_contact_options options = options_of(RB_SOLVER_NEWTON);
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
@@ -752,8 +729,7 @@ TEST(products_have_no_lcp)
     random_problem(&of, &p);
     use_products(&p, &by);
     CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
-    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_PIVOTED, 0, 1.0, &lcp, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_PIVOTED, 0, 1.0, &lcp, &why), RB_EINVAL);
     assert_string_equal(why.text, "4 contact elements are too many for an LCP");
     CHECK_STATUS(rb_contact_cone_create(&p, 0.0, 0.0, &cone, &why), RB_EINVAL);
     assert_string_equal(why.text, "4 elements are too many for a dense W");
@@ -789,8 +765,7 @@ TEST(forces_that_nothing_carries_are_refused)
         const char *said;
     } all[] = {{0, 1.1, 0.0, 0.0, "friction carries at most mu P = "},
                {0, -1.1, 0.0, 0.0, "friction carries at most mu P = "},
-               {1, 0.98, 0.0, 0.0,
-                NULL}, /* the more slip, the more a layer that hardens carries */
+               {1, 0.98, 0.0, 0.0, NULL}, /* the more slip, the more a layer that hardens carries */
                {2, 0.98, 0.0, 0.0, "the interface yields, and carries at most "},
                {2, -0.98, 0.0, 0.0, "the interface yields, and carries at most "},
                {2, 0.0, 0.98, 0.0, "the interface yields, and carries at most "},
@@ -822,8 +797,7 @@ TEST(forces_that_nothing_carries_are_refused)
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
         if (all[k].said) {
-            if (status != RB_EINVAL || !strstr(why.text, all[k].said) ||
-                !strstr(why.text, " N/mm"))
+            if (status != RB_EINVAL || !strstr(why.text, all[k].said) || !strstr(why.text, " N/mm"))
                 fail_msg("%zu: %d, %s", k, status, why.text);
         } else {
             assert_true(status >= 0);
@@ -1000,8 +974,7 @@ TEST(no_memory_is_said)
         if (k == 1)
             use_products(&p[k], &by);
     }
-    assert_true(alloc_fail_every_call(solve_all, p) >
-                10); /* one alone, then all from one on */
+    assert_true(alloc_fail_every_call(solve_all, p) > 10); /* one alone, then all from one on */
     for (int count = 0, refused = 1; refused; count++) {
         alloc_fail_after(count);
         const rb_status s = solve_all(p);

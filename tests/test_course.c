@@ -116,10 +116,9 @@ static int count_unfounded(const numbers *all, const char *page)
                 continue;
             }
             const char *end = number_at(p.text, s, &x, &unit);
-            if (end && is_figure(p.text, s, end) &&
-                !has_number(all, x, unit > 0.0 ? unit : 1e-9)) {
-                print_error("%s: %.*s is printed by no block: ...%.*s\n", page,
-                            (int)(end - s), s, 60, s);
+            if (end && is_figure(p.text, s, end) && !has_number(all, x, unit > 0.0 ? unit : 1e-9)) {
+                print_error("%s: %.*s is printed by no block: ...%.*s\n", page, (int)(end - s), s,
+                            60, s);
                 wrong++;
             }
             s = end ? end : s + 1;
@@ -189,9 +188,9 @@ static int check_links(const char *page)
             if (fragment)
                 check_link_to_the_page(page, fragment);
         } else {
-            const int missing =
-                built ? run("test -s %s/pictures/%s", folder, strrchr(built, '/') + 1)
-                      : run("cd $(dirname %s) && test -e %s", page, target);
+            const int missing = built
+                                    ? run("test -s %s/pictures/%s", folder, strrchr(built, '/') + 1)
+                                    : run("cd $(dirname %s) && test -e %s", page, target);
             if (missing)
                 print_error("%s: %s leads nowhere\n", page, target);
             assert_int_equal(missing, 0);
@@ -203,8 +202,7 @@ static int check_links(const char *page)
 TEST(links_and_pictures_are_there)
 {
     assert_int_equal(
-        run("ROLLBEM=%s/build/rollbem docs/course/pictures %s/pictures", folder, folder),
-        0);
+        run("ROLLBEM=%s/build/rollbem docs/course/pictures %s/pictures", folder, folder), 0);
     for (size_t k = 0; k < lessons.gl_pathc; k++) {
         assert_true(check_links(lessons.gl_pathv[k]) >= 1);
         check_links(solutions.gl_pathv[k]);
@@ -217,14 +215,12 @@ TEST(links_and_pictures_are_there)
 TEST(lessons_have_all_their_parts)
 {
     static char text[MAX_TEXT];
-    static const char *wanted[] = {"**Aim.**",         "](../../build/course/",
-                                   "\n## The command", "\n## What to see",
-                                   "\n## On the page", "\n## Exercises"};
+    static const char *wanted[] = {"**Aim.**",         "](../../build/course/", "\n## The command",
+                                   "\n## What to see", "\n## On the page",      "\n## Exercises"};
     assert_int_equal(lessons.gl_pathc, LESSONS);
     assert_int_equal(solutions.gl_pathc, LESSONS);
     for (size_t k = 0; k < lessons.gl_pathc; k++) {
-        assert_string_equal(strrchr(lessons.gl_pathv[k], '/'),
-                            strrchr(solutions.gl_pathv[k], '/'));
+        assert_string_equal(strrchr(lessons.gl_pathv[k], '/'), strrchr(solutions.gl_pathv[k], '/'));
         slurp(lessons.gl_pathv[k], text);
         for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
             if (!strstr(text, wanted[i]))

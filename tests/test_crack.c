@@ -69,10 +69,8 @@ TEST(edge_cracks_in_tension)
             in_tension(want[0], 20 << i, K[i]);
         for (int mode = 0; mode < 2; mode++) {
             const double extrapolated = (4.0 * K[2][mode] - K[1][mode]) / 3.0;
-            CHECK_ABS(K[2][mode], want[1 + mode], 1e-4, "%g degrees, K %d", want[0],
-                      mode);
-            CHECK_ABS(extrapolated, want[1 + mode], 2e-6, "%g degrees, K %d, limit",
-                      want[0], mode);
+            CHECK_ABS(K[2][mode], want[1 + mode], 1e-4, "%g degrees, K %d", want[0], mode);
+            CHECK_ABS(extrapolated, want[1 + mode], 2e-6, "%g degrees, K %d, limit", want[0], mode);
             if (want[0] < 90.0)
                 CHECK_ABS((K[0][mode] - K[1][mode]) / (K[1][mode] - K[2][mode]), 4.0, 0.2,
                           "%g degrees: order 2", want[0]);
@@ -228,8 +226,7 @@ TEST(stress_of_strips)
         mirrored[i] = -load.q[i];
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
         rb_crack_shape shape = edge_crack(0.0, N, 0.0);
-        shape.path =
-            rb_crack_straight(0.0, 0.5, 1e-6, 0.0); /* short: stress is constant */
+        shape.path = rb_crack_straight(0.0, 0.5, 1e-6, 0.0); /* short: stress is constant */
         rb_crack *c = create(shape);
         double T[2 * (N - 1)], hat[N - 1], places[2 * (N - 1)], stress[3 * (N - 1)];
         rb_crack_places(c, places, NULL, hat, NULL, NULL);
@@ -238,15 +235,13 @@ TEST(stress_of_strips)
             places[2 * j + 1] = 0.5;
         }
         const rb_bem_edge_load above = {STRIPS, load.x, load.p, mirrored};
-        CHECK_STATUS(
-            rb_bem_halfplane_stress(&above, (rb_bem_points){N - 1, places}, stress),
-            RB_OK);
+        CHECK_STATUS(rb_bem_halfplane_stress(&above, (rb_bem_points){N - 1, places}, stress),
+                     RB_OK);
         CHECK_STATUS(rb_crack_load(c, &load.load, at[k], 0.0, T), RB_OK);
         for (int j = 0; j < N - 1; j++) {
             CHECK_ABS(T[j] / hat[j], stress[3 * j + 1], 1e-7, "syy, x = %g", at[k]);
             /* along t = +x: sigma_ns is sxy, which the mirror turns */
-            CHECK_ABS(T[N - 1 + j] / hat[j], -stress[3 * j + 2], 1e-7, "sxy, x = %g",
-                      at[k]);
+            CHECK_ABS(T[N - 1 + j] / hat[j], -stress[3 * j + 2], 1e-7, "sxy, x = %g", at[k]);
         }
         rb_crack_free(c);
     }
@@ -254,8 +249,7 @@ TEST(stress_of_strips)
 
 /* Slope dv/dx of the surface, times 2 G/(kappa + 1), of a crack with sliding and opening
  * D at nodes z and a tip: potentials of its dislocations (C2) again, by Gauss points. */
-static double surface_slope(int n, const double complex *z, const double complex *D,
-                            double x)
+static double surface_slope(int n, const double complex *z, const double complex *D, double x)
 {
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(24);
     const double shear = 1.0, kappa = 3.0 - 4.0 * 0.3;
@@ -265,10 +259,8 @@ static double surface_slope(int n, const double complex *z, const double complex
             double u, w;
             gsl_integration_glfixed_point(0.0, 1.0, i, &u, &w, rule);
             const double complex at = z[l] + u * (z[l + 1] - z[l]), c = x - conj(at),
-                                 g = shear * (D[l] - D[l + 1]) /
-                                     (I * M_PI * (kappa + 1.0));
-            slope += w * cimag(g / (x - at) - (conj(g) + g) / c -
-                               conj(g) * (at - x) / (c * c));
+                                 g = shear * (D[l] - D[l + 1]) / (I * M_PI * (kappa + 1.0));
+            slope += w * cimag(g / (x - at) - (conj(g) + g) / c - conj(g) * (at - x) / (c * c));
         }
     gsl_integration_glfixed_table_free(rule);
     return slope;
@@ -326,8 +318,8 @@ typedef struct {
 /* Whether trapped fluid is that of the place where the mouth closes. */
 static int located;
 
-static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int steps,
-                int passes, pass *p)
+static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int steps, int passes,
+                pass *p)
 {
     static double x[4 * STEPS];
     hertz load;
@@ -354,11 +346,9 @@ static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int 
 TEST(passes_of_a_contact)
 {
     static const double reference[][11] = {
-        {.1, 0, -.09154, .15226, .0002, -.02567, .03211, .15226, -.00518, -.09116,
-         -.00617},
+        {.1, 0, -.09154, .15226, .0002, -.02567, .03211, .15226, -.00518, -.09116, -.00617},
         {.3, 0, -.05491, .06401, 0, -.02366, -.00368, .06401, .06401, -.04651, -.00695},
-        {.3, -.1, -.05736, .05546, .00485, -.03968, -.01912, .05546, .05546, -.02563,
-         .00152}};
+        {.3, -.1, -.05736, .05546, .00485, -.03968, -.01912, .05546, .05546, -.02563, .00152}};
     static const int step[] = {45, 55, 65, 75, 80, 120};
     const double unit = sqrt(M_PI);
     for (size_t k = 0; k < sizeof reference / sizeof *reference; k++) {
@@ -374,15 +364,14 @@ TEST(passes_of_a_contact)
                 CHECK_ABS(p.s.K_II_max / unit, want[3], 3e-5, "K_II max");
                 CHECK_ABS(p.s.K_I_max / unit, want[4], 5e-5, "K_I max");
                 for (int m = 0; m < 6; m++)
-                    CHECK_ABS(p.h.K_II[step[m]] / unit, want[5 + m], 3e-5,
-                              "K_II, step %d", step[m]);
+                    CHECK_ABS(p.h.K_II[step[m]] / unit, want[5 + m], 3e-5, "K_II, step %d",
+                              step[m]);
             }
             CHECK_MAX(p.s.pass_change, 1e-12, "shakedown: the third pass is the second");
             CHECK_MAX(p.s.residual, 1e-9, "residual");
             rb_crack_history_free(&p.h);
         }
-        CHECK_ABS((largest[0] - largest[1]) / (largest[1] - largest[2]), 4.3, 1.0,
-                  "order 2");
+        CHECK_ABS((largest[0] - largest[1]) / (largest[1] - largest[2]), 4.3, 1.0, "order 2");
         CHECK_ABS(largest[0], (4.0 * largest[2] - largest[1]) / 3.0, 4.5e-4, "n = 20");
     }
 }
@@ -405,12 +394,10 @@ TEST(below_the_surface_under_carter)
     double x[STEPS], most[2] = {0.0};
     hertz load;
     set_hertz(0.0, &load);
-    for (int i = 0; i < STRIPS;
-         i++) { /* the stick zone is that of a contact half as wide */
+    for (int i = 0; i < STRIPS; i++) { /* the stick zone is that of a contact half as wide */
         const double h = load.x[i + 1] - load.x[i];
         const double stuck =
-            0.25 *
-            (primitive(2.0 * load.x[i + 1] - 1.0) - primitive(2.0 * load.x[i] - 1.0)) / h;
+            0.25 * (primitive(2.0 * load.x[i + 1] - 1.0) - primitive(2.0 * load.x[i] - 1.0)) / h;
         load.q[i] = -0.3 * (load.p[i] - stuck);
     }
     for (int k = 0; k < STEPS; k++)
@@ -427,8 +414,7 @@ TEST(below_the_surface_under_carter)
         for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
             const int i = want[k].step;
             const double off[] = {h.K_I_upper[i] - want[k].K_I_upper,
-                                  h.K_II_upper[i] - want[k].K_II_upper,
-                                  h.K_II[i] - want[k].K_II};
+                                  h.K_II_upper[i] - want[k].K_II_upper, h.K_II[i] - want[k].K_II};
             for (int m = 0; m < 3; m++)
                 most[n / 40 - 1] = fmax(most[n / 40 - 1], fabs(off[m]));
         }
@@ -495,8 +481,7 @@ TEST(trapped_fluid)
         pass p;
         run(20 << k, 0.1, 0.3, RB_CRACK_TRAPPED, 2 * STEPS - 1, 1, &p);
         K_I[k] = p.s.K_I_max / sqrt(M_PI);
-        CHECK_ABS(p.s.fluid_pressure_max, 1.0909, k == 0 ? 3e-3 : 6e-4,
-                  "p_f, between positions");
+        CHECK_ABS(p.s.fluid_pressure_max, 1.0909, k == 0 ? 3e-3 : 6e-4, "p_f, between positions");
         rb_crack_history_free(&p.h);
     }
     CHECK_ABS((K_I[0] - K_I[1]) / (K_I[1] - K_I[2]), 4.0, 1.2, "order 2");
@@ -507,8 +492,7 @@ TEST(trapped_fluid)
         CHECK_REL(p.s.K_I_max / sqrt(M_PI), K_I[1], 2e-3, "%d steps", steps);
         rb_crack_history_free(&p.h);
     }
-    for (double at = -6.0; at < 0.5;
-         positions++) { /* 1e-4 apart where the mouth closes */
+    for (double at = -6.0; at < 0.5; positions++) { /* 1e-4 apart where the mouth closes */
         x[positions] = at;
         at += at > -0.99 && at < -0.98 ? 1e-4 : at > -1.04 && at < -0.97 ? 5e-3 : 0.05;
     }
@@ -565,8 +549,7 @@ TEST(a_kink_of_no_angle)
  * the angle over pi. */
 static void series_of_kinks(double m, double *K_I, double *K_II)
 {
-    const double p = M_PI, p2 = p * p, p3 = p2 * p, p4 = p2 * p2, p5 = p4 * p,
-                 p6 = p4 * p2;
+    const double p = M_PI, p2 = p * p, p3 = p2 * p, p4 = p2 * p2, p5 = p4 * p, p6 = p4 * p2;
     const double opening[] = {1.0,
                               -3.0 * p2 / 8.0,
                               p2 - 5.0 * p4 / 128.0,
@@ -606,9 +589,8 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
     double x[N + 1], y[N + 1], t_x[N], t_y[N], T[2 * (N - 1)];
     rb_crack_state s;
     shape.full_plane = 1;
-    shape.path = (rb_crack_path){.pieces = 2,
-                                 .x = {-2.0, 0.0, length * cos(w)},
-                                 .y = {0.0, 0.0, -length * sin(w)}};
+    shape.path = (rb_crack_path){
+        .pieces = 2, .x = {-2.0, 0.0, length * cos(w)}, .y = {0.0, 0.0, -length * sin(w)}};
     rb_crack *c = create(shape);
     CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
     rb_crack_places(c, x + 1, y + 1, NULL, t_x, t_y);
@@ -646,8 +628,7 @@ TEST(kinks)
  * largest over the steps counts. */
 TEST(directions)
 {
-    double x[3] = {0.0}, K_I[] = {2.0, 0.0, 0.0}, K_II[] = {0.0, 1.0, -1.5},
-           none[3] = {0.0};
+    double x[3] = {0.0}, K_I[] = {2.0, 0.0, 0.0}, K_II[] = {0.0, 1.0, -1.5}, none[3] = {0.0};
     rb_crack_history h = {.n = 1,
                           .x = x,
                           .K_I = K_I,
@@ -705,10 +686,7 @@ TEST(bad_input)
     rb_crack *c = create(closed_crack(10, 0.1));
     rb_message why = {""};
     const rb_crack_passage none = {.steps = 0, .x = &x, .passes = 1},
-                           wet = {.steps = 1,
-                                  .x = &x,
-                                  .passes = 1,
-                                  .fluid = RB_CRACK_TRAPPED};
+                           wet = {.steps = 1, .x = &x, .passes = 1, .fluid = RB_CRACK_TRAPPED};
     CHECK_STATUS(rb_crack_pass(c, &none, &h, &why), RB_EINVAL);
     CHECK_STATUS(rb_crack_pass(c, &wet, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "mouth"));

@@ -4,8 +4,8 @@
 #include "cli_run.h"
 #include "rollbem/report.h"
 
-#define CONTACT                                                                          \
-    "crack --similar --support halfplane --half-width 1 --radius 1000 --crack-elements " \
+#define CONTACT                                                                                    \
+    "crack --similar --support halfplane --half-width 1 --radius 1000 --crack-elements "           \
     "12 --contact-elements 20 "
 #define DRIVEN "--mu 0.3 --formulation steady --creep-ratio -3 "
 #define STATES " --json --states --quiet > r.json"
@@ -75,8 +75,7 @@ TEST(the_laws_of_the_faces_are_judged)
     size_t node[4] = {0};
     for (size_t k = 0; k < json_array_size(zones); k++)
         for (size_t i = 0; i < 12; i++) {
-            const int zone =
-                (int)json_integer_value(json_array_get(json_array_get(zones, k), i));
+            const int zone = (int)json_integer_value(json_array_get(json_array_get(zones, k), i));
             if (!found[zone]) {
                 found[zone] = 1;
                 step[zone] = (int)k;
@@ -85,10 +84,9 @@ TEST(the_laws_of_the_faces_are_judged)
         }
     for (int zone = 0; zone < 4; zone++) {
         assert_true(found[zone]);
-        const double pressure = json_number_value(
-            json_array_get(json_array_get(p, (size_t)step[zone]), node[zone]));
-        tampered("faces", "zone", step[zone], node[zone], (zone + 1) % 4,
-                 "faces: zone of node");
+        const double pressure =
+            json_number_value(json_array_get(json_array_get(p, (size_t)step[zone]), node[zone]));
+        tampered("faces", "zone", step[zone], node[zone], (zone + 1) % 4, "faces: zone of node");
         tampered("faces", "p_MPa", step[zone], node[zone],
                  zone == 0 ? 1.0 : pressure * (1.0 + 1e-4), "faces: node");
     }
@@ -105,17 +103,15 @@ TEST(the_coupled_contact_is_judged)
     (void)state;
     make(CONTACT "--mu 0 --coupled --steps 60");
     json_t *root = json_load_file("r.json", 0, NULL);
-    const json_t *p = json_array_get(
-        json_object_get(json_object_get(root, "faces"), "contact_p_MPa"), 30);
+    const json_t *p =
+        json_array_get(json_object_get(json_object_get(root, "faces"), "contact_p_MPa"), 30);
     size_t most = 0;
     for (size_t i = 0; i < json_array_size(p); i++)
-        if (json_number_value(json_array_get(p, i)) >
-            json_number_value(json_array_get(p, most)))
+        if (json_number_value(json_array_get(p, i)) > json_number_value(json_array_get(p, most)))
             most = i;
     const double pressure = json_number_value(json_array_get(p, most));
     tampered("faces", "contact_p_MPa", 30, most, pressure * (1.0 + 1e-4), "its load");
-    tampered("faces", "contact_p_MPa", 30, most, pressure * (1.0 + 1e-4),
-             "contact: element");
+    tampered("faces", "contact_p_MPa", 30, most, pressure * (1.0 + 1e-4), "contact: element");
     tampered("faces", "contact_p_MPa", 30, most, -1.0, "contact: element");
     tampered("faces", "contact_p_MPa", 30, 0, 1.0, "reaches an end");
     tampered("table", "max_pressure", -1, 30, pressure * (1.0 + 1e-4), "max_pressure");
@@ -126,9 +122,8 @@ TEST(the_coupled_contact_is_judged)
 
 TEST(what_cannot_be_checked_is_refused)
 {
-    static const char *const refused[][2] = {
-        {"--mu 0 --paris 1e-12,3", "a crack that grows"},
-        {"--mu 0 --error", "error bars"}};
+    static const char *const refused[][2] = {{"--mu 0 --paris 1e-12,3", "a crack that grows"},
+                                             {"--mu 0 --error", "error bars"}};
     (void)state;
     for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
         char line[400];
@@ -138,24 +133,20 @@ TEST(what_cannot_be_checked_is_refused)
     }
     assert_int_equal(rollbem(CONTACT "--mu 0 --steps 60 --json --quiet > r.json"), 0);
     check_refused("check r.json", 65, "take --states");
-    assert_int_equal(
-        rollbem(CONTACT "--mu 0 --steps 60 --units inch --json --quiet > r.json"), 0);
+    assert_int_equal(rollbem(CONTACT "--mu 0 --steps 60 --units inch --json --quiet > r.json"), 0);
     check_refused("check r.json", 65, "take --states");
     check_refused(CONTACT "--mu 0 --states", 64, "--states: with --json");
-    check_refused(CONTACT "--mu 0 --states --json --units inch", 64,
-                  "--states: with --json");
+    check_refused(CONTACT "--mu 0 --states --json --units inch", 64, "--states: with --json");
     assert_int_equal(rollbem(CONTACT "--mu 0 --steps 60 > r.tsv"), 0);
     check_refused("check r.tsv", 65, "a table of rollbem crack");
     make(CONTACT "--mu 0 --steps 60");
     assert_int_equal(shell("sed 's/\"contact_table\"/\"other\"/' r.json > o.json"), 0);
     check_refused("check o.json", 65, "results with 'other'");
     assert_int_equal(
-        shell("sed 's/\"crack-angle\": 30.0/\"crack-angle\": \"up\"/' r.json > o.json"),
-        0);
+        shell("sed 's/\"crack-angle\": 30.0/\"crack-angle\": \"up\"/' r.json > o.json"), 0);
     check_refused("check o.json", 65, "crack-angle");
-    assert_int_equal(
-        shell("sed 's/\"crack-angle\": 30.0/\"crack-angle\": 190.0/' r.json > o.json"),
-        0);
+    assert_int_equal(shell("sed 's/\"crack-angle\": 30.0/\"crack-angle\": 190.0/' r.json > o.json"),
+                     0);
     check_refused("check o.json", 65, "crack-angle");
     assert_int_equal(shell("sed 's/\"fluid_volume_mm2\"/\"else\"/' r.json > o.json"), 0);
     check_refused("check o.json", 65, "fluid_volume_mm2");
@@ -165,10 +156,9 @@ TEST(what_cannot_be_checked_is_refused)
     json_decref(root);
     check_refused("check o.json", 65, "contact_table has no elements");
     /* the command line is compared with the inputs */
-    assert_int_equal(
-        shell("sed 's/\\(\"command\": .*\\)--steps 60/\\1--steps 61/' r.json "
-              "> o.json; \"$R\" check o.json"),
-        1);
+    assert_int_equal(shell("sed 's/\\(\"command\": .*\\)--steps 60/\\1--steps 61/' r.json "
+                           "> o.json; \"$R\" check o.json"),
+                     1);
     assert_non_null(strstr(out, "command: it has other inputs"));
 }
 
@@ -177,9 +167,9 @@ static rb_status certify(void *context)
     rb_report_certificate found;
     FILE *lines = tmpfile();
     rb_case *words = rb_case_create(RB_CASE_CRACK);
-    const rb_status s = words ? rb_report_certify_solutions(lines, "r", context, words,
-                                                            &found, &(rb_message){""})
-                              : RB_ENOMEM;
+    const rb_status s =
+        words ? rb_report_certify_solutions(lines, "r", context, words, &found, &(rb_message){""})
+              : RB_ENOMEM;
     rb_case_free(words);
     fclose(lines);
     return s;

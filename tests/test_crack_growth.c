@@ -43,14 +43,12 @@ static double last(rb_api *a, const char *name)
 
 TEST(straight_growth)
 {
-    static const char *const grown[] = {"paris",   "1e-12,2", "grow-steps",     "2",
-                                        "grow-to", "1.6",     "crack-friction", "0.2",
-                                        NULL},
-                             *const longer[] = {"crack-length", "1.6", "crack-friction",
-                                                "0.2", NULL};
+    static const char *const grown[] = {"paris", "1e-12,2",        "grow-steps", "2", "grow-to",
+                                        "1.6",   "crack-friction", "0.2",        NULL},
+                             *const longer[] = {"crack-length", "1.6", "crack-friction", "0.2",
+                                                NULL};
     int rows, columns;
-    rb_api *a = contact("mm", "1", "1000", "94500"),
-           *b = contact("mm", "1", "1000", "94500");
+    rb_api *a = contact("mm", "1", "1000", "94500"), *b = contact("mm", "1", "1000", "94500");
     pass(a, grown);
     pass(b, longer);
     const double K = last(b, "crack.summary.delta_K_II");
@@ -60,8 +58,7 @@ TEST(straight_growth)
     const double *dK = rb_api_array(a, "crack.growth.delta_K", &rows, &columns);
     assert_int_equal(rows, 3);
     const double *rate = rb_api_array(a, "crack.growth.rate", &rows, &columns);
-    const double opens =
-        last(b, "crack.summary.K_I_max") - last(b, "crack.summary.K_I_min");
+    const double opens = last(b, "crack.summary.K_I_max") - last(b, "crack.summary.K_I_min");
     CHECK_REL(dK[2], pow(gsl_pow_4(opens) + 8.0 * gsl_pow_4(K), 0.25), 1e-9, "Tanaka");
     CHECK_REL(rate[2], 1e-12 * dK[2] * dK[2], 1e-12, "Paris");
     CHECK_REL(last(a, "crack.growth.cycles"),
@@ -94,10 +91,11 @@ TEST(growth_in_other_units)
 {
     char law[60];
     snprintf(law, sizeof law, "%.17g,3", 1e-12 * 1e-3 / gsl_pow_3(1e6 * sqrt(1e-3)));
-    const char *const mm[] = {"paris", "1e-12,3", "grow-steps", "1", NULL},
-                      *const si[] = {"paris", law, "grow-steps", "1", NULL};
-    rb_api *a = contact("mm", "1", "1000", "94500"),
-           *b = contact("si", "0.001", "1", "94500e6");
+    const char *const mm[] = {"paris", "1e-12,3", "grow-steps", "1", NULL}, *const si[] = {
+                                                                                "paris", law,
+                                                                                "grow-steps", "1",
+                                                                                NULL};
+    rb_api *a = contact("mm", "1", "1000", "94500"), *b = contact("si", "0.001", "1", "94500e6");
     pass(a, mm);
     pass(b, si);
     CHECK_REL(last(b, "crack.growth.cycles"), last(a, "crack.growth.cycles"), 1e-9, "SI");
@@ -126,9 +124,8 @@ TEST(turns)
  * of many turns comes to its end. */
 TEST(turns_many_times)
 {
-    static const char *const words[] = {"paris",       "1e-12,3",    "growth",
-                                        "tension",     "grow-steps", "24",
-                                        "crack-angle", "15",         NULL};
+    static const char *const words[] = {"paris", "1e-12,3",     "growth", "tension", "grow-steps",
+                                        "24",    "crack-angle", "15",     NULL};
     int rows, columns;
     rb_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);

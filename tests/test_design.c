@@ -25,8 +25,8 @@ static const char *const hertz[] = {"support", "halfplane", "similar", "yes", "l
                                     "500",     "mu",        "0",       "gap", "parabola",
                                     "mesh",    "uniform",   NULL};
 
-static rb_status design(const rb_case *c, const char *result, const char *over,
-                        const char *subject, rb_design *d, rb_message *why)
+static rb_status design(const rb_case *c, const char *result, const char *over, const char *subject,
+                        rb_design *d, rb_message *why)
 {
     why->text[0] = '\0';
     rb_status s = rb_design_objective(result, d, why);
@@ -54,9 +54,7 @@ static void contacts_of_hertz(void **state)
     rb_design_free(&bound);
 
     rb_design wide = {.n = 0};
-    CHECK_STATUS(
-        design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &why),
-        RB_OK);
+    CHECK_STATUS(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &why), RB_OK);
     CHECK_REL(wide.variable[0].value, 50.0 * (1.2 / a) * (1.2 / a), 1e-5, "a by R");
     CHECK_REL(wide.constraint[0].value, 1.2, 2e-6, "active");
     rb_design_free(&wide);
@@ -77,9 +75,9 @@ static void contacts_of_hertz(void **state)
 static void search_stays_where_solutions_are(void **state)
 {
     rb_message why = {""};
-    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes",
-                                               "load", "500", "mesh", "uniform", "zone",
-                                               "1", "contact-elements", "40", NULL});
+    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
+                                               "500", "mesh", "uniform", "zone", "1",
+                                               "contact-elements", "40", NULL});
     rb_design d = {.n = 0, .largest = 1};
     CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &why), RB_MAXITER);
     assert_true(d.variable[0].value > 600.0 && d.variable[0].value < 800.0);
@@ -101,12 +99,11 @@ static void uniform_pressure(void **state)
         fprintf(f, "%.6f %.8f\n", x, 1e-4 * x * x + 0.1 * fmax(fabs(x) - 5.0, 0.0));
     }
     fclose(f);
-    rb_case *c = case_of((const char *const[]){
-        "support", "halfplane", "similar", "yes", "load", "5000", "mu", "0", "gap", path,
-        "mesh", "uniform", "zone", "6", "contact-elements", "48", NULL});
+    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
+                                               "5000", "mu", "0", "gap", path, "mesh", "uniform",
+                                               "zone", "6", "contact-elements", "48", NULL});
     CHECK_STATUS(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &why), RB_OK);
-    print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start,
-                  d.evaluations);
+    print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start, d.evaluations);
     assert_int_equal(d.n, 65);
     assert_true(d.start > 0.5);
     CHECK_MAX(d.value, 1e-3, "ripple");
@@ -135,8 +132,7 @@ static void what_is_refused(void **state)
     rb_case *c = case_of(hertz);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_design d = {.n = 0};
-        const rb_status s =
-            design(c, bad[k].result, bad[k].over, bad[k].subject, &d, &why);
+        const rb_status s = design(c, bad[k].result, bad[k].over, bad[k].subject, &d, &why);
         if (s == RB_OK || !strstr(why.text, bad[k].says))
             fail_msg("%s, %s: %s", bad[k].result, bad[k].over, why.text);
         rb_design_free(&d);

@@ -87,8 +87,8 @@ static void count_bar(count *c, double value, double truth, double bar)
     if (fabs(value) <= 1e-6 * unit && fabs(truth) <= 1e-6 * unit)
         return;
     if (is_shown && !(error <= bar))
-        printf("    %s: %.6g +- %.3g, truth %.6g: %.2g bars\n", is_shown, value, bar,
-               truth, error / bar);
+        printf("    %s: %.6g +- %.3g, truth %.6g: %.2g bars\n", is_shown, value, bar, truth,
+               error / bar);
     c->held += error <= bar;
     c->width[c->all++] = bar / error;
 }
@@ -117,8 +117,7 @@ typedef struct {
 static class class_of(int k)
 {
     const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
-    return (class){supports[k / 12], k / 6 % 2 == 0,
-                   k / 3 % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM,
+    return (class){supports[k / 12], k / 6 % 2 == 0, k / 3 % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM,
                    (rb_rolling_formulation)(k % 3)};
 }
 
@@ -257,28 +256,25 @@ static double at_distance(const rb_rolling_history *fine, const double *column, 
         k++;
     if (k + 1 == fine->n)
         return column[k];
-    const double part =
-        (x - fine->distance[k]) / (fine->distance[k + 1] - fine->distance[k]);
+    const double part = (x - fine->distance[k]) / (fine->distance[k + 1] - fine->distance[k]);
     return part > 0.0 ? column[k] + part * (column[k + 1] - column[k]) : column[k];
 }
 
 /* Of the finer run's steps, or of their parts, that lie on the way. */
-static double mean_on_the_way(const rb_rolling_history *fine, const double *column,
-                              double from, double to)
+static double mean_on_the_way(const rb_rolling_history *fine, const double *column, double from,
+                              double to)
 {
     double sum = 0.0;
 
     for (int j = 1; j < fine->n; j++) {
-        const double part =
-            fmin(to, fine->distance[j]) - fmax(from, fine->distance[j - 1]);
+        const double part = fmin(to, fine->distance[j]) - fmax(from, fine->distance[j - 1]);
         sum += part > 0.0 ? part * column[j] : 0.0;
     }
     return sum / (to - from);
 }
 
 /* At every third step; creepage and power of a step are its means. */
-static void count_steps(const rb_rolling_history *h, const rb_rolling_history *truth,
-                        counts *t)
+static void count_steps(const rb_rolling_history *h, const rb_rolling_history *truth, counts *t)
 {
     const struct {
         const char *name;
@@ -286,7 +282,7 @@ static void count_steps(const rb_rolling_history *h, const rb_rolling_history *t
         const double *value, *truth, *bar;
         int of_step;
     } column[] = {
-#define COLUMN(among, name, of_step)                                                     \
+#define COLUMN(among, name, of_step)                                                               \
     {#name, &t->among, h->name, truth->name, h->errors->name, of_step}
         COLUMN(main, tangential_load, 0),
         COLUMN(main, approach, 0),
@@ -351,8 +347,7 @@ static void print_line(const char *name, counts *t)
            "|\n",
            name, t->main.held, t->main.all, 100.0 * t->main.held / fmax(1.0, t->main.all),
            median(&t->main), t->others.held, t->others.all,
-           100.0 * t->others.held / fmax(1.0, t->others.all), median(&t->others),
-           t->main.unsolved);
+           100.0 * t->others.held / fmax(1.0, t->others.all), median(&t->others), t->main.unsolved);
     fflush(stdout);
 }
 
@@ -382,8 +377,7 @@ static int study(int cases)
         for (int i = 0; i < cases; i++)
             count_case(k, i, &of_class);
         snprintf(name, sizeof name, "%s, %s, %s, %s", supports[c.support],
-                 c.similar ? "similar" : "dissimilar", meshes[c.mesh],
-                 formulations[c.formulation]);
+                 c.similar ? "similar" : "dissimilar", meshes[c.mesh], formulations[c.formulation]);
         print_line(name, &of_class);
         short_of += of_class.main.held < 0.95 * of_class.main.all;
         add(&of_class.main, &of_all.main);
@@ -409,8 +403,8 @@ static rb_case *case_of(const char *line)
     word[n] = NULL;
     for (int k = 0; k < n && fits; k++) {
         const int is_flag = !word[k + 1] || strncmp(word[k + 1], "--", 2) == 0;
-        fits = rb_case_set(c, word[k] + 2, is_flag ? "yes" : word[k + 1],
-                           RB_GIVEN_ARGUMENT, &why) == RB_OK;
+        fits = rb_case_set(c, word[k] + 2, is_flag ? "yes" : word[k + 1], RB_GIVEN_ARGUMENT,
+                           &why) == RB_OK;
         k += !is_flag;
     }
     if (fits && rb_case_resolve(c, &why) == RB_OK)
@@ -460,8 +454,8 @@ static int count_in_a_process(const rb_case *c, random_regime regime, bars_of_ca
     int ended;
     close(ends[0]);
     waitpid(child, &ended, 0);
-    assert_true(is_whole || (WIFSIGNALED(ended) &&
-                             (WTERMSIG(ended) == SIGKILL || WTERMSIG(ended) == SIGXCPU)));
+    assert_true(is_whole ||
+                (WIFSIGNALED(ended) && (WTERMSIG(ended) == SIGKILL || WTERMSIG(ended) == SIGXCPU)));
     return is_whole;
 }
 
@@ -518,8 +512,8 @@ static void bars_hold(void **state)
         for (int i = 0; i < (all ? 4 : 2); i++)
             if (all || k < 12 || (i == 0 && k % 8 == 0))
                 count_case(k, i, &of_all);
-    CHECK_MAX(0.95, (double)of_all.main.held / of_all.main.all, "held %d of %d",
-              of_all.main.held, of_all.main.all);
+    CHECK_MAX(0.95, (double)of_all.main.held / of_all.main.all, "held %d of %d", of_all.main.held,
+              of_all.main.all);
     CHECK_MAX(0.95, (double)of_all.others.held / of_all.others.all, "held %d of %d",
               of_all.others.held, of_all.others.all);
     CHECK_MAX(median(&of_all.main), 12.0, "median bar/error");
@@ -563,11 +557,8 @@ static void an_element_that_slides_may_stick(void **state)
 static rb_rolling_case thin_rim(void)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a = (rb_rolling_body){.young = 1000.0,
-                             .poisson = 0.5,
-                             .radius = 50.0,
-                             .support = RB_BEM_HUB,
-                             .hub_ratio = 0.9};
+    rc.a = (rb_rolling_body){
+        .young = 1000.0, .poisson = 0.5, .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.9};
     rc.formulation = RB_STEADY;
     rc.mu = 0.3;
     rc.half_width = 2.5;
@@ -649,10 +640,8 @@ static void accuracy_is_that_of_the_boundary_too(void **state)
     rb_rolling_errors e;
     int elements = 0;
     rc.contact_elements = 24;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL),
-                 RB_OK);
-    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements",
-              elements);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1.5e-2, "its bar");
     rb_rolling_solution_free(&s);
 }
@@ -669,9 +658,9 @@ static void a_refusal_sets_every_output(void **state)
         memset(&e, 1, sizeof e);
         rc.contact_elements = k == 0 ? 5 : 20;
         rc.mu = k == 1 ? -1.0 : 0.3;
-        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, k == 2 ? 2.0 : 1e-3, &s, &e,
-                                                  &elements, NULL),
-                     RB_EINVAL);
+        CHECK_STATUS(
+            rb_rolling_solve_to_accuracy(&rc, k == 2 ? 2.0 : 1e-3, &s, &e, &elements, NULL),
+            RB_EINVAL);
         assert_int_equal(elements, 0);
         assert_null(s.p);
         for (int i = 0; i < rb_rolling_solution_scalars.n; i++) {
@@ -693,8 +682,7 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
     rb_message why = {""};
     int elements = 0;
     rc.mesh = RB_MESH_UNIFORM;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &why),
-                 RB_INACCURATE);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &why), RB_INACCURATE);
     assert_int_equal(elements, 40);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     assert_non_null(strstr(why.text, "not reached"));

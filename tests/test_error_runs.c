@@ -95,10 +95,10 @@ static void bars_of_a_solution(rb_bem_support support)
             const double contact[] = {rb_rolling_number(row, &run[0]),
                                       rb_rolling_number(row, &run[1]),
                                       rb_rolling_number(row, &own)};
-            check_bar(row->name, rb_rolling_number(row, &errors.scalar),
-                      wanted_bar(contact, support != RB_BEM_HALFPLANE,
-                                 rb_rolling_number(row, &run[2])),
-                      fabs(contact[2]));
+            check_bar(
+                row->name, rb_rolling_number(row, &errors.scalar),
+                wanted_bar(contact, support != RB_BEM_HALFPLANE, rb_rolling_number(row, &run[2])),
+                fabs(contact[2]));
             seen++;
         }
     }
@@ -154,9 +154,7 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
     const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS};
     rb_rolling_curve own, errors, run[2];
     rb_message why = {""};
-    CHECK_STATUS(
-        rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &why), RB_OK);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
         CHECK_STATUS(rb_rolling_curve_solve(&coarser, &range, &run[k], &why), RB_OK);
@@ -164,23 +162,18 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
     for (int i = 0; i < POINTS; i++) {
         const double Q[] = {run[0].tangential_load[i], run[1].tangential_load[i],
                             own.tangential_load[i]};
-        check_bar("tangential_load", errors.tangential_load[i], wanted_bar(Q, 0, 0.0),
-                  fabs(Q[2]));
-        const double stick[] = {run[0].stick_ratio[i], run[1].stick_ratio[i],
-                                own.stick_ratio[i]};
-        check_bar("stick_ratio", errors.stick_ratio[i],
-                  wanted_bar(stick, 0, 0.0) + own.stick_step, 1.0);
-        const double D[] = {run[0].dissipation[i], run[1].dissipation[i],
-                            own.dissipation[i]};
+        check_bar("tangential_load", errors.tangential_load[i], wanted_bar(Q, 0, 0.0), fabs(Q[2]));
+        const double stick[] = {run[0].stick_ratio[i], run[1].stick_ratio[i], own.stick_ratio[i]};
+        check_bar("stick_ratio", errors.stick_ratio[i], wanted_bar(stick, 0, 0.0) + own.stick_step,
+                  1.0);
+        const double D[] = {run[0].dissipation[i], run[1].dissipation[i], own.dissipation[i]};
         check_bar("dissipation", errors.dissipation[i],
-                  wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load[i],
-                                                     own.creepage[i], own.half_width,
-                                                     own.stick_step),
+                  wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load[i], own.creepage[i],
+                                                     own.half_width, own.stick_step),
                   own.dissipation[i]);
         check_rounding("normal_load", errors.normal_load[i], own.normal_load[i]);
     }
-    const double free_creepage[] = {run[0].free_creepage, run[1].free_creepage,
-                                    own.free_creepage};
+    const double free_creepage[] = {run[0].free_creepage, run[1].free_creepage, own.free_creepage};
     check_bar("free_creepage", errors.free_creepage, wanted_bar(free_creepage, 0, 0.0),
               fabs(own.free_creepage));
     for (int k = 0; k < 2; k++)
@@ -210,8 +203,7 @@ static double mean_at(const rb_rolling_history *h, const double *column, double 
         if (k + 2 >= h->n || middle[1] >= x)
             break;
     }
-    return column[k] +
-           (column[k + 1] - column[k]) * (x - middle[0]) / (middle[1] - middle[0]);
+    return column[k] + (column[k + 1] - column[k]) * (x - middle[0]) / (middle[1] - middle[0]);
 }
 
 /* The largest of bar[1] ... bar[steps] at i and beside it. */
@@ -239,16 +231,13 @@ static void bars_of_a_history(int force_is_given)
     rb_rolling_model model, others[2];
     rb_rolling_history own, run[2];
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &why), RB_OK);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_STATUS(
-            rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &why),
+                     RB_OK);
     }
-    double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0},
-                         power[STEPS + 1] = {0.0};
+    double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0}, power[STEPS + 1] = {0.0};
     assert_int_equal(own.n, STEPS + 1);
     for (int i = 1; i <= STEPS; i++) {
         const double x = own.distance[i], middle = 0.5 * (own.distance[i - 1] + x);
@@ -261,18 +250,18 @@ static void bars_of_a_history(int force_is_given)
         }
         force[i] = wanted_bar(Q, 0, 0.0);
         creepage[i] = wanted_bar(xi, 0, 0.0);
-        power[i] = wanted_bar(D, 0, 0.0) +
-                   edge_power(&rc, own.normal_load[i], own.creepage[i],
-                              0.5 * (own.contact_to[i] - own.contact_from[i]),
-                              1.0 / (own.stick[i] + own.slipping[i]));
+        power[i] =
+            wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load[i], own.creepage[i],
+                                               0.5 * (own.contact_to[i] - own.contact_from[i]),
+                                               1.0 / (own.stick[i] + own.slipping[i]));
     }
     for (int i = 1; i <= STEPS; i++) {
         check_bar("tangential_load", own.errors->tangential_load[i],
                   with_neighbours(force, i, STEPS), fabs(own.tangential_load[STEPS]));
-        check_bar("creepage", own.errors->creepage[i],
-                  with_neighbours(creepage, i, STEPS), fabs(own.creepage[STEPS]));
-        check_bar("dissipation", own.errors->dissipation[i],
-                  with_neighbours(power, i, STEPS), own.dissipation[STEPS]);
+        check_bar("creepage", own.errors->creepage[i], with_neighbours(creepage, i, STEPS),
+                  fabs(own.creepage[STEPS]));
+        check_bar("dissipation", own.errors->dissipation[i], with_neighbours(power, i, STEPS),
+                  own.dissipation[STEPS]);
     }
     for (int k = 0; k < 2; k++) {
         rb_rolling_history_free(&run[k]);

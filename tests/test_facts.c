@@ -30,21 +30,20 @@ static double largest(const json_t *root, int column)
 }
 
 /* Column j of b is factor times that of a, but for tol times the largest entry. */
-static void check_column(const json_t *a, const json_t *b, int j, double factor,
-                         double tol, const char *what)
+static void check_column(const json_t *a, const json_t *b, int j, double factor, double tol,
+                         const char *what)
 {
     const size_t n = json_array_size(json_object_get(table_of(a), columns[j]));
     const double size = fabs(factor) * largest(a, j);
     assert_true(n > 0);
     assert_int_equal(json_array_size(json_object_get(table_of(b), columns[j])), n);
     for (size_t i = 0; i < n; i++)
-        CHECK_ABS(entry(table_of(b), columns[j], i),
-                  factor * entry(table_of(a), columns[j], i), tol * size,
-                  "%s: %s of element %zu", what, columns[j], i + 1);
+        CHECK_ABS(entry(table_of(b), columns[j], i), factor * entry(table_of(a), columns[j], i),
+                  tol * size, "%s: %s of element %zu", what, columns[j], i + 1);
 }
 
-static void check_scalar(const json_t *a, const json_t *b, const char *name,
-                         double factor, double tol, const char *what)
+static void check_scalar(const json_t *a, const json_t *b, const char *name, double factor,
+                         double tol, const char *what)
 {
     const double one = summary_of(a, name), other = summary_of(b, name);
     if (isnan(one) && isnan(other))
@@ -55,10 +54,10 @@ static void check_scalar(const json_t *a, const json_t *b, const char *name,
 /* a and b are the same answer. */
 static void check_same(const json_t *a, const json_t *b, double tol, const char *what)
 {
-    static const char *const scalars[] = {
-        "normal_load", "tangential_load", "approach",     "tangential_shift",
-        "creepage",    "half_width",      "max_pressure", "free_creepage",
-        "dissipation", "stick_from",      "stick_to",     "contact"};
+    static const char *const scalars[] = {"normal_load",      "tangential_load", "approach",
+                                          "tangential_shift", "creepage",        "half_width",
+                                          "max_pressure",     "free_creepage",   "dissipation",
+                                          "stick_from",       "stick_to",        "contact"};
     for (int j = 0; j < COLUMNS; j++)
         check_column(a, b, j, 1.0, tol, what);
     for (size_t k = 0; k < sizeof scalars / sizeof scalars[0]; k++)
@@ -69,8 +68,8 @@ static void check_same(const json_t *a, const json_t *b, double tol, const char 
 
 /* The upper body becomes the lower one: friction on A, creepage and shift change their
  * sign. */
-static void check_mirror(const char *rest, const char *control, double value,
-                         const char *one, const char *other, double tol)
+static void check_mirror(const char *rest, const char *control, double value, const char *one,
+                         const char *other, double tol)
 {
     char line[800];
     snprintf(line, sizeof line, "%s %s --%s %.17g", one, rest, control, value);
@@ -132,8 +131,7 @@ static void check_scaling(const char *format, double L, double E)
     char line[800];
     snprintf(line, sizeof line, format, 50.0, 94500.0, 700.0, 80.0, 2e5);
     json_t *a = run_json(line);
-    snprintf(line, sizeof line, format, L * 50.0, E * 94500.0, L * E * 700.0, L * 80.0,
-             E * 2e5);
+    snprintf(line, sizeof line, format, L * 50.0, E * 94500.0, L * E * 700.0, L * 80.0, E * 2e5);
     json_t *b = run_json(line);
     static const int of_length[] = {X, H, GAP, UN, UT, SHIFT}, of_stress[] = {P, Q};
     for (size_t k = 0; k < sizeof of_length / sizeof of_length[0]; k++)
@@ -188,8 +186,7 @@ TEST(test_no_friction)
     check_column(one, pair, P, 1.0, 1e-10, "one E*");
     check_scalar(one, pair, "half_width", 1.0, 1e-10, "one E*");
     CHECK_REL(summary_of(steps, "approach"), summary_of(one, "approach"), 1e-3, "steps");
-    CHECK_REL(summary_of(steps, "max_pressure"), summary_of(one, "max_pressure"), 5e-3,
-              "steps");
+    CHECK_REL(summary_of(steps, "max_pressure"), summary_of(one, "max_pressure"), 5e-3, "steps");
     json_decref(pair);
     json_decref(one);
     json_decref(steps);
@@ -232,9 +229,8 @@ TEST(test_refinement)
 
 /* ---- The same case by other ways --------------------------------------------------- */
 
-static const char *const supports[] = {
-    "--support halfplane", "--support hub --similar",
-    "--support arc --young-b 2e5 --radius-b 80 --support-b hub"};
+static const char *const supports[] = {"--support halfplane", "--support hub --similar",
+                                       "--support arc --young-b 2e5 --radius-b 80 --support-b hub"};
 
 /* A history of one increment is the increment. */
 TEST(test_static_history_of_one_step)
@@ -242,11 +238,9 @@ TEST(test_static_history_of_one_step)
     char line[500];
     write_file("one.txt", "load shift\n700 1e-3\n");
     for (int k = 0; k < 3; k++) {
-        snprintf(line, sizeof line, "%s --formulation static --history one.txt",
-                 supports[k]);
+        snprintf(line, sizeof line, "%s --formulation static --history one.txt", supports[k]);
         json_t *history = run_json(line);
-        snprintf(line, sizeof line, "%s --formulation static --load 700 --shift 1e-3",
-                 supports[k]);
+        snprintf(line, sizeof line, "%s --formulation static --load 700 --shift 1e-3", supports[k]);
         json_t *single = run_json(line);
         check_same(single, history, 1e-11, line);
         json_decref(history);
@@ -261,8 +255,7 @@ TEST(test_transient_at_rest)
     char line[500];
     write_file("rest.txt", "distance load\n0 700\n");
     for (int k = 0; k < 3; k++) {
-        snprintf(line, sizeof line, "%s --formulation transient --history rest.txt",
-                 supports[k]);
+        snprintf(line, sizeof line, "%s --formulation transient --history rest.txt", supports[k]);
         json_t *rest = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700", supports[k]);
         json_t *single = run_json(line);
@@ -279,9 +272,8 @@ TEST(test_curve)
     char line[500];
     for (int k = 0; k < 3; k++) {
         const char *rest = "--mesh uniform --zone 1.5 --load 700 --contact-elements 31";
-        snprintf(line, sizeof line,
-                 "curve %s %s --from -0.5 --to 1 --points 4 --json --quiet", supports[k],
-                 rest);
+        snprintf(line, sizeof line, "curve %s %s --from -0.5 --to 1 --points 4 --json --quiet",
+                 supports[k], rest);
         assert_int_equal(rollbem(line), 0);
         json_t *root = json_loads(out, 0, NULL);
         const json_t *curve = json_object_get(root, "curve");
@@ -289,16 +281,16 @@ TEST(test_curve)
             snprintf(line, sizeof line, "%s %s --formulation steady --creep-ratio %.17g",
                      supports[k], rest, -0.5 + 0.5 * (double)i);
             json_t *single = run_json(line);
-            CHECK_REL(entry(curve, "tangential_load", i),
-                      summary_of(single, "tangential_load"), 1e-9, "%s", line);
-            CHECK_REL(entry(curve, "normal_load", i), summary_of(single, "normal_load"),
+            CHECK_REL(entry(curve, "tangential_load", i), summary_of(single, "tangential_load"),
                       1e-9, "%s", line);
-            CHECK_REL(entry(curve, "creepage", i), summary_of(single, "creepage"), 1e-12,
+            CHECK_REL(entry(curve, "normal_load", i), summary_of(single, "normal_load"), 1e-9, "%s",
+                      line);
+            CHECK_REL(entry(curve, "creepage", i), summary_of(single, "creepage"), 1e-12, "%s",
+                      line);
+            CHECK_ABS(entry(curve, "dissipation", i), summary_of(single, "dissipation"), 1e-9, "%s",
+                      line);
+            CHECK_REL(number_in(curve, "free_creepage"), summary_of(single, "free_creepage"), 1e-6,
                       "%s", line);
-            CHECK_ABS(entry(curve, "dissipation", i), summary_of(single, "dissipation"),
-                      1e-9, "%s", line);
-            CHECK_REL(number_in(curve, "free_creepage"),
-                      summary_of(single, "free_creepage"), 1e-6, "%s", line);
             json_decref(single);
         }
         json_decref(root);
@@ -339,10 +331,10 @@ TEST(test_sweep)
             json_t *single = run_json(line);
             CHECK_REL(cell(study, row, "tangential_load_N/mm"),
                       summary_of(single, "tangential_load"), 0.0, "%s", line);
-            CHECK_REL(cell(study, row, "approach_mm"), summary_of(single, "approach"),
-                      0.0, "%s", line);
-            CHECK_REL(cell(study, row, "free_creepage"),
-                      summary_of(single, "free_creepage"), 0.0, "%s", line);
+            CHECK_REL(cell(study, row, "approach_mm"), summary_of(single, "approach"), 0.0, "%s",
+                      line);
+            CHECK_REL(cell(study, row, "free_creepage"), summary_of(single, "free_creepage"), 0.0,
+                      "%s", line);
             json_decref(single);
         }
     }
@@ -367,22 +359,19 @@ TEST(test_library)
         assert_non_null(c);
         CHECK_STATUS(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &why), RB_OK);
         for (int j = 0; j < 5; j++)
-            CHECK_STATUS(
-                rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
+            CHECK_STATUS(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
         CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
         CHECK_STATUS(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &why), RB_OK);
-        snprintf(
-            line, sizeof line,
-            "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "
-            "--contact-elements 40",
-            held[k]);
+        snprintf(line, sizeof line,
+                 "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "
+                 "--contact-elements 40",
+                 held[k]);
         json_t *root = run_json(line);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(entry(table_of(root), "q_MPa", (size_t)i), s.q[i], 0.0, "%s", line);
             CHECK_ABS(entry(table_of(root), "p_MPa", (size_t)i), s.p[i], 0.0, "%s", line);
         }
-        CHECK_ABS(summary_of(root, "tangential_load"), s.tangential_load, 0.0, "%s",
-                  line);
+        CHECK_ABS(summary_of(root, "tangential_load"), s.tangential_load, 0.0, "%s", line);
         CHECK_ABS(summary_of(root, "free_creepage"), s.free_creepage, 0.0, "%s", line);
         json_decref(root);
         rb_case_free(c);

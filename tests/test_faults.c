@@ -24,8 +24,7 @@ typedef struct {
 } job;
 
 static const job jobs[] = {
-    {"table",
-     "--support hub --outer-elements 24 --load 100 --contact-elements 12 --output t.tsv",
+    {"table", "--support hub --outer-elements 24 --load 100 --contact-elements 12 --output t.tsv",
      1, 0},
     {"JSON and picture", "case.ini --json --output t.json --plot p.svg", 0, 0},
     {"matrices", "case.ini --fclib f.hdf5 --dump d --trace", 1, 0},
@@ -168,9 +167,8 @@ static const char *const allocating[] = {
     "example bar --json",
     NULL};
 
-static const char *const inputs[] = {"case.ini",  "study.ini", "input.hdf5",
-                                     "reference", "out",       "err",
-                                     "calls",     "in",        NULL};
+static const char *const inputs[] = {"case.ini", "study.ini", "input.hdf5", "reference", "out",
+                                     "err",      "calls",     "in",         NULL};
 
 /* ---- Files ------------------------------------------------------------------------- */
 
@@ -299,8 +297,8 @@ static void inspect(const char *path, void *context)
     if (!good && wanted && in->code && in->j->rows)
         good = is_part_of_study(text, wanted);
     if (!good)
-        print_error("%s: %s, exit code %d: %zu bytes that are not the whole file\n",
-                    in->j->name, path, in->code, size);
+        print_error("%s: %s, exit code %d: %zu bytes that are not the whole file\n", in->j->name,
+                    path, in->code, size);
     in->bad += !good;
     in->files++;
 }
@@ -357,10 +355,9 @@ static void make_reference(const job *j)
     reference_out = read_all("out", &size);
     reference_files = 0;
     for_files(".", count_file, &reference_files);
-    assert_int_equal(
-        shell("for f in *.* d s; do case $f in case.ini|study.ini|input.*) "
-              ";; *) [ ! -e \"$f\" ] || cp -r \"$f\" reference;; esac; done"),
-        0);
+    assert_int_equal(shell("for f in *.* d s; do case $f in case.ini|study.ini|input.*) "
+                           ";; *) [ ! -e \"$f\" ] || cp -r \"$f\" reference;; esac; done"),
+                     0);
     split(j);
 }
 
@@ -375,8 +372,7 @@ static void none_wrong(int tried, const char *what)
 }
 
 /* What came of it.  said: part of the line that goes with the code. */
-static void assess(const job *j, const char *fault, int k, int status, int code,
-                   const char *said)
+static void assess(const job *j, const char *fault, int k, int status, int code, const char *said)
 {
     inspection in = {.j = j, .code = WIFEXITED(status) ? WEXITSTATUS(status) : -1};
     size_t size;
@@ -389,8 +385,8 @@ static void assess(const job *j, const char *fault, int k, int status, int code,
     else
         good = good && strstr(text, said);
     if (!good)
-        print_error("%s: %s %d: status %x, %d of %d files, stderr: %s\n", j->name, fault,
-                    k, (unsigned)status, in.files, reference_files, text);
+        print_error("%s: %s %d: status %x, %d of %d files, stderr: %s\n", j->name, fault, k,
+                    (unsigned)status, in.files, reference_files, text);
     wrong += !good;
 }
 
@@ -424,8 +420,8 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
         const int step = stride(n - before, samples);
         for (int k = before + 1 + i % step, seen; k <= n; k += step, tried++) {
             prepare(&jobs[i]);
-            assess(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &seen),
-                   73, "rollbem: ");
+            assess(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &seen), 73,
+                   "rollbem: ");
         }
     }
     unsetenv("ASAN_OPTIONS");
@@ -469,8 +465,7 @@ static fault_server start_server(void)
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, request[0], FAULT_REQUESTS);
     posix_spawn_file_actions_adddup2(&files, reply[1], FAULT_REPLIES);
-    assert_int_equal(posix_spawn(&server.pid, program, &files, NULL, arguments, environ),
-                     0);
+    assert_int_equal(posix_spawn(&server.pid, program, &files, NULL, arguments, environ), 0);
     posix_spawn_file_actions_destroy(&files);
     unsetenv("FAULT_CODE_END");
     unsetenv("FAULT_CALLS");
@@ -517,8 +512,7 @@ static int fail_every_call(const job *j)
     assess(j, "no fault", 0, whole.status, 0, "");
     assert_true(whole.allocations > 0);
     for (int k = 1;; k++) {
-        const fault_reply reply =
-            run_failing(&server, j, &(fault_request){.by_calls = 1});
+        const fault_reply reply = run_failing(&server, j, &(fault_request){.by_calls = 1});
         assess(j, "call that allocates", k, reply.status, 70, "out of memory");
         if (!reply.refused) {
             stop_server(&server);
@@ -625,9 +619,8 @@ static int prepare_inputs(void **state)
              (int)(strlen(program) - strlen("/rollbem")), program);
     write_file("case.ini", "support = halfplane\n[normal]\nload = 100\n[friction]\n"
                            "mu = 0.3\n[mesh]\ncontact-elements = 6\nzone = 0.5\n");
-    write_file("study.ini",
-               "support = halfplane\nload = 100\ncontact-elements = 6\n"
-               "formulation = steady\n[sweep]\nvary-1 = creep-ratio 0:1:3\n");
+    write_file("study.ini", "support = halfplane\nload = 100\ncontact-elements = 6\n"
+                            "formulation = steady\n[sweep]\nvary-1 = creep-ratio 0:1:3\n");
     for (size_t k = 0; k < sizeof making_inputs / sizeof *making_inputs; k++)
         if (shell(making_inputs[k]) != 0)
             return -1;

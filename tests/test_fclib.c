@@ -33,8 +33,7 @@ static void small_local(rb_io_fclib *p)
                        .r = rb_alloc(6, 1)};
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 6, .cols = 6, .nz = 8, .row = row, .col = col, .x = x},
-            &p->W),
+            &(rb_triplets){.rows = 6, .cols = 6, .nz = 8, .row = row, .col = col, .x = x}, &p->W),
         RB_OK);
     for (int k = 0; k < 6; k++)
         p->q[k] = k - 2.5, p->r[k] = 0.1 * k;
@@ -55,13 +54,11 @@ static void small_global(rb_io_fclib *p)
                        .v = rb_alloc(3, 1)};
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = row, .col = col, .x = x},
-            &p->M),
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = row, .col = col, .x = x}, &p->M),
         RB_OK);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){
-                .rows = 3, .cols = 2, .nz = 2, .row = hrow, .col = hcol, .x = one},
+            &(rb_triplets){.rows = 3, .cols = 2, .nz = 2, .row = hrow, .col = hcol, .x = one},
             &p->H),
         RB_OK);
     p->f[0] = -1.0, p->f[2] = 0.1, p->w[1] = 0.5, p->mu[0] = 0.3, p->v[2] = 7.0;
@@ -82,9 +79,8 @@ TEST(what_is_written_is_read_in_every_layout)
         rb_io_fclib p, back;
         rb_message why = {""};
         small_local(&p);
-        CHECK_STATUS(
-            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &why),
-            RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &why),
+                     RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         assert_int_equal(back.global, 0);
         assert_int_equal(back.spacedim, 3);
@@ -98,9 +94,8 @@ TEST(what_is_written_is_read_in_every_layout)
         rb_io_fclib_free(&p);
 
         small_global(&p);
-        CHECK_STATUS(
-            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &why),
-            RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &why),
+                     RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         assert_int_equal(back.global, 1);
         same_sparse(&p.M, &back.M);
@@ -124,12 +119,10 @@ TEST(one_triangle_of_m_is_completed)
         double x[] = {2.0, 2.0, 5.0, -1.0};
         CHECK_STATUS(
             rb_sparse_from_triplets(
-                &(rb_triplets){
-                    .rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x},
+                &(rb_triplets){.rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x},
                 &p.M),
             RB_OK);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &why),
-                     RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &why), RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         same_sparse(&full, &back.M);
         rb_io_fclib_free(&back);
@@ -145,8 +138,7 @@ static void overwrite(const char *name, hid_t type, int n, const void *values)
     if (H5Lexists(file, name, H5P_DEFAULT) > 0)
         H5Ldelete(file, name, H5P_DEFAULT);
     const hid_t space = H5Screate_simple(1, &size, NULL);
-    const hid_t set =
-        H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(set >= 0);
     assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
     H5Dclose(set);
@@ -224,8 +216,7 @@ TEST(sizes_and_indices_are_checked)
     const int p_below[] = {0, 1, 2, 3, 4, 5, -8}, p_first[] = {-1, 1, 2, 3, 4, 5, 8},
               p_beyond[] = {0, 9, 2, 3, 4, 5, 8}, p_equal[] = {0, 0, 0, 0, 0, 8, 8};
     refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_first, "W/p does not increase");
-    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_beyond,
-                 "W/p does not increase");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_beyond, "W/p does not increase");
     fresh_local();
     overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_equal); /* empty columns */
     OWNED(rb_io_fclib) gathered;
@@ -294,13 +285,11 @@ static void small_constrained(rb_io_fclib *p, int entries)
     p->s[0] = 0.5;
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x},
-            &p->V),
+            &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x}, &p->V),
         RB_OK);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){
-                .rows = 1, .cols = 1, .nz = entries, .row = zero, .col = zero, .x = x},
+            &(rb_triplets){.rows = 1, .cols = 1, .nz = entries, .row = zero, .col = zero, .x = x},
             &p->R),
         RB_OK);
 }
@@ -379,8 +368,7 @@ TEST(constraints_are_read_as_written_in_every_layout)
         small_constrained(&p, 0);
         p.u = p.r; /* u alone */
         p.r = NULL;
-        CHECK_STATUS(
-            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         assert_int_equal(back.constraints, 1);
         same_sparse(&p.V, &back.V);
@@ -404,12 +392,10 @@ TEST(constraints_are_read_as_written_in_every_layout)
         p.v = NULL;
         CHECK_STATUS(
             rb_sparse_from_triplets(
-                &(rb_triplets){
-                    .rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x},
+                &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x},
                 &p.G),
             RB_OK);
-        CHECK_STATUS(
-            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
         same_sparse(&p.G, &back.G);
         CHECK_ABS(back.b[0], 0.75, 0.0, "b");
@@ -451,8 +437,7 @@ TEST(files_are_as_the_format_says)
         int x[8];
         small_global(&problem);
         CHECK_STATUS(rb_io_fclib_write(path, &problem, (rb_io_fclib_layout)layout,
-                                       layout ? "a title" : NULL, layout ? NULL : "words",
-                                       NULL),
+                                       layout ? "a title" : NULL, layout ? NULL : "words", NULL),
                      RB_OK);
         const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         texts_of(file, "/fclib_global/info/title", text, sizeof text);
@@ -498,8 +483,8 @@ static hid_t without(const char *name)
 static void put_set(hid_t file, const char *name, hsize_t size, hid_t properties)
 {
     const hid_t space = H5Screate_simple(1, &size, NULL);
-    const hid_t set = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                                 properties, H5P_DEFAULT);
+    const hid_t set =
+        H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     assert_true(set >= 0);
     H5Dclose(set);
     H5Sclose(space);
@@ -512,8 +497,7 @@ TEST(nothing_is_read_of_another_file)
 {
     static const char q[] = "/fclib_local/vectors/q";
     hid_t file = without(q);
-    assert_true(
-        H5Lcreate_external("/etc/passwd", "/x", file, q, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_external("/etc/passwd", "/x", file, q, H5P_DEFAULT, H5P_DEFAULT) >= 0);
     H5Fclose(file);
     refused("has links");
     file = without("/fclib_local/W/i");
@@ -522,8 +506,8 @@ TEST(nothing_is_read_of_another_file)
     H5Fclose(file);
     refused("has links");
     file = without("/fclib_local");
-    assert_true(H5Lcreate_external(path, "/fclib_local", file, "/fclib_local",
-                                   H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_external(path, "/fclib_local", file, "/fclib_local", H5P_DEFAULT,
+                                   H5P_DEFAULT) >= 0);
     H5Fclose(file);
     refused("has links");
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
@@ -549,8 +533,7 @@ TEST(memory_is_bounded_by_the_size_of_the_file)
     struct stat file;
     put_set(without(q), q, 1 << 29, H5Pcreate(H5P_DATASET_CREATE));
     assert_int_equal(stat(path, &file), 0);
-    snprintf(wanted, sizeof wanted,
-             "has 4.29497e+09 bytes: a file of this size holds at most %g",
+    snprintf(wanted, sizeof wanted, "has 4.29497e+09 bytes: a file of this size holds at most %g",
              1032.0 * (double)file.st_size);
     refused(wanted);
     hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
@@ -590,9 +573,9 @@ TEST(other_files_are_refused)
     assert_int_equal(rb_io_is_hdf5("/tmp"), 0);
     fresh_local();
     assert_int_equal(rb_io_is_hdf5(path), 1);
-    CHECK_STATUS(rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC,
-                                   "", "", &why),
-                 RB_EWRITE);
+    CHECK_STATUS(
+        rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC, "", "", &why),
+        RB_EWRITE);
     rb_io_fclib_free(NULL);
 }
 
@@ -605,9 +588,8 @@ TEST(problems_go_through_files)
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     assert_int_equal(p.form, RB_FRICTION_LOCAL_SPARSE);
     assert_int_equal(p.contacts, 2);
-    CHECK_STATUS(rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL},
-                                   "again", &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL}, "again", &why), RB_OK);
     rb_friction_problem_free(&p);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     CHECK_ABS(p.q[5], 2.5, 0.0, "q");
@@ -623,9 +605,8 @@ TEST(problems_go_through_files)
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 3);
-    CHECK_STATUS(
-        rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &why),
-        RB_OK);
+    CHECK_STATUS(rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &why),
+                 RB_OK);
     rb_friction_problem_free(&p);
 }
 
@@ -676,8 +657,7 @@ TEST(outside_files_are_read)
     assert_int_equal(p.K.p[162], 2 * 3168 - 162);
     rb_friction_problem_free(&p);
     CHECK_STATUS(
-        rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"),
-                         &p, &why),
+        rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"), &p, &why),
         RB_OK);
     CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(p.contacts, 60);

@@ -259,13 +259,12 @@ TEST(bad_input_is_refused)
     const struct {
         rb_fem_material m;
         const char *part;
-    } wrong[] = {
-        {{.young = -1.0, .poisson = 0.3, .section = 1.0}, "young = -1: expected > 0"},
-        {{.young = 0.0, .poisson = 0.3, .section = 1.0}, "young = 0: expected > 0"},
-        {{.young = INFINITY, .poisson = 0.3, .section = 1.0}, "young = inf"},
-        {{.young = 1.0, .poisson = 0.5, .section = 1.0}, "poisson = 0.5: expected in"},
-        {{.young = 1.0, .poisson = -1.0, .section = 1.0}, "poisson = -1: expected in"},
-        {{.young = 1.0, .poisson = 0.3, .section = 0.0}, "section = 0: expected > 0"}};
+    } wrong[] = {{{.young = -1.0, .poisson = 0.3, .section = 1.0}, "young = -1: expected > 0"},
+                 {{.young = 0.0, .poisson = 0.3, .section = 1.0}, "young = 0: expected > 0"},
+                 {{.young = INFINITY, .poisson = 0.3, .section = 1.0}, "young = inf"},
+                 {{.young = 1.0, .poisson = 0.5, .section = 1.0}, "poisson = 0.5: expected in"},
+                 {{.young = 1.0, .poisson = -1.0, .section = 1.0}, "poisson = -1: expected in"},
+                 {{.young = 1.0, .poisson = 0.3, .section = 0.0}, "section = 0: expected > 0"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         CHECK_STATUS(rb_fem_stiffness(&mesh, &wrong[k].m, &A, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, wrong[k].part));
@@ -295,10 +294,9 @@ TEST(models_have_their_range)
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         OWNED(rb_fem_model) model;
         rb_message why = {""};
-        const rb_status s =
-            sizes[k].truss
-                ? rb_fem_model_truss(RB_FEM_UPPER_INSIDE, sizes[k].nx, &model, &why)
-                : rb_fem_model_bar(sizes[k].nx, sizes[k].ny, &model, &why);
+        const rb_status s = sizes[k].truss
+                                ? rb_fem_model_truss(RB_FEM_UPPER_INSIDE, sizes[k].nx, &model, &why)
+                                : rb_fem_model_bar(sizes[k].nx, sizes[k].ny, &model, &why);
         CHECK_STATUS(s, sizes[k].is_there ? RB_OK : RB_EINVAL);
         assert_int_equal(why.text[0] == '\0', sizes[k].is_there);
     }
@@ -314,8 +312,7 @@ TEST(condensation_of_every_kind)
         const int n = kind == 0 ? 2 : 3;
         double mu = 0.3, gap = 0.1, load_c[2], u[3], unit[6] = {0};
         double stiffness[9];
-        rb_fem_structure s = {
-            .dofs = n, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
+        rb_fem_structure s = {.dofs = n, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
         rb_fem_condensation *c;
         rb_message why = {""};
         for (int i = 0; i < n * n; i++)
@@ -345,8 +342,8 @@ TEST(condensation_of_every_kind)
                 double force = -load[i];
                 for (int j = 0; j < n; j++)
                     force += stiffness[i + n * j] * u[j];
-                CHECK_ABS(force, i < 2 ? reaction[i] - load_c[i] : 0.0, 1e-14,
-                          "kind %d, row %d", kind, i);
+                CHECK_ABS(force, i < 2 ? reaction[i] - load_c[i] : 0.0, 1e-14, "kind %d, row %d",
+                          kind, i);
             }
         } else
             assert_null(c);
@@ -364,8 +361,7 @@ TEST(units_without_a_load)
         for (int loaded = 0; loaded < 2; loaded++) {
             double mu = 0.3, gap = 0.1, load[2] = {0.0, loaded ? -4.0 : 0.0};
             const double unit[4] = {1.0, 0.0, 0.0, 1.0};
-            rb_fem_structure s = {
-                .dofs = 2, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
+            rb_fem_structure s = {.dofs = 2, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
             OWNED(rb_fem_state) at;
             rb_fem_units units;
             OWNED(rb_friction_problem) p;

@@ -24,8 +24,7 @@ static int run(const char *format, ...)
     va_start(args, format);
     vsnprintf(arguments, sizeof arguments, format, args);
     va_end(args);
-    snprintf(command, sizeof command, "%s/rollbem example %s", build ? build : "build",
-             arguments);
+    snprintf(command, sizeof command, "%s/rollbem example %s", build ? build : "build", arguments);
     const int status = system(command);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -64,8 +63,7 @@ static void matches(const char *recorded)
         const double scale = rb_norm_inf((size_t)want.rows, x);
         assert_string_equal(got.name[j], want.name[j]);
         for (int i = 0; i < want.rows && is_result(want.name[j]); i++)
-            CHECK_ABS(y[i], x[i], 1e-8 * scale, "%s: row %d, %s", recorded, i,
-                      want.name[j]);
+            CHECK_ABS(y[i], x[i], 1e-8 * scale, "%s: row %d, %s", recorded, i, want.name[j]);
     }
 }
 
@@ -75,8 +73,7 @@ TEST(recorded_outputs_are_todays)
     matches("examples/bar/output.tsv");
     assert_int_equal(run("truss --output %s", inside("out.tsv")), 0);
     matches("examples/truss/upper-inside.tsv");
-    assert_int_equal(
-        run("truss --layout upper-overhanging --output %s", inside("out.tsv")), 0);
+    assert_int_equal(run("truss --layout upper-overhanging --output %s", inside("out.tsv")), 0);
     matches("examples/truss/upper-overhanging.tsv");
 }
 
@@ -87,8 +84,7 @@ static void json_matches_the_table(const char *arguments, int code)
     rb_message why = {""};
     char table_of[400], json_of[400];
     snprintf(table_of, sizeof table_of, "%s >%s/out.tsv 2>/dev/null", arguments, folder);
-    snprintf(json_of, sizeof json_of, "%s --json >%s/out.json 2>/dev/null", arguments,
-             folder);
+    snprintf(json_of, sizeof json_of, "%s --json >%s/out.json 2>/dev/null", arguments, folder);
     assert_int_equal(run("%s", table_of), code);
     assert_int_equal(run("%s", json_of), code);
     CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &table, &why), RB_OK);
@@ -97,12 +93,11 @@ static void json_matches_the_table(const char *arguments, int code)
     assert_int_equal(json_array_size(steps), table.rows);
     for (int j = 0; j < table.columns; j++)
         for (int i = 0; i < table.rows && strcmp(table.name[j], "step") != 0; i++) {
-            const json_t *x =
-                json_object_get(json_array_get(steps, (size_t)i), table.name[j]);
+            const json_t *x = json_object_get(json_array_get(steps, (size_t)i), table.name[j]);
             assert_true(json_is_number(x));
             if (strcmp(table.name[j], "seconds") != 0)
-                CHECK_ABS(json_number_value(x), table.x[i + j * table.rows], 0.0,
-                          "%s: step %d, %s", arguments, i, table.name[j]);
+                CHECK_ABS(json_number_value(x), table.x[i + j * table.rows], 0.0, "%s: step %d, %s",
+                          arguments, i, table.name[j]);
         }
     json_decref(root);
     rb_io_table_free(&table);
@@ -117,18 +112,16 @@ TEST(json_has_the_columns_of_the_table)
 
 TEST(json_and_picture_are_written)
 {
-    assert_int_equal(run("truss --nodes 4 --json --output %s --plot %s.png",
-                         inside("out.json"), folder),
-                     0);
+    assert_int_equal(
+        run("truss --nodes 4 --json --output %s --plot %s.png", inside("out.json"), folder), 0);
     json_t *root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     static const int stick[] = {0, 16, 4, 0, 0, 0};
     assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
     assert_int_equal(json_array_size(steps), 6);
     for (size_t k = 0; k < 6; k++)
-        assert_int_equal(
-            json_integer_value(json_object_get(json_array_get(steps, k), "stick")),
-            stick[k]);
+        assert_int_equal(json_integer_value(json_object_get(json_array_get(steps, k), "stick")),
+                         stick[k]);
     json_decref(root);
     char picture[300];
     snprintf(picture, sizeof picture, "%s.png", folder);
@@ -143,16 +136,14 @@ TEST(json_and_picture_are_written)
 
 TEST(the_wall_writes_its_problems)
 {
-    assert_int_equal(
-        run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
-            inside("wall"), folder),
-        0);
+    assert_int_equal(run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
+                         inside("wall"), folder),
+                     0);
     rb_io_table table; /* as many numbers in a row as it has names */
     CHECK_STATUS(rb_io_table_read(inside("wall.tsv"), &table, NULL), RB_OK);
     assert_int_equal(table.rows, 76);
     for (int k = 0; k < table.rows; k++)
-        CHECK_ABS(rb_io_table_column(&table, "stick")[k] +
-                      rb_io_table_column(&table, "slip")[k] +
+        CHECK_ABS(rb_io_table_column(&table, "stick")[k] + rb_io_table_column(&table, "slip")[k] +
                       rb_io_table_column(&table, "separated")[k],
                   161.0, 0.0, "contacts of step %d", k + 1);
     rb_io_table_free(&table);
@@ -178,9 +169,9 @@ TEST(refusals_have_their_exit_codes)
     assert_int_equal(run("truss --nodes 1 2>/dev/null"), 64);
     assert_int_equal(run("truss --layout other 2>/dev/null"), 64);
     assert_int_equal(run("wall --step 0 2>/dev/null"), 64);
-    assert_int_equal(run("truss --nodes 2 --solver extragradient --output %s 2>/dev/null",
-                         inside("none.tsv")),
-                     1);
+    assert_int_equal(
+        run("truss --nodes 2 --solver extragradient --output %s 2>/dev/null", inside("none.tsv")),
+        1);
     assert_int_equal(access(inside("none.tsv"), F_OK), -1); /* no increment, no table */
     assert_int_equal(run("truss --nodes 4 --output /no/such/folder/x 2>/dev/null"), 73);
 }

@@ -60,8 +60,7 @@ static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double
             CHECK_MAX(-r[0], tol * most, "step %d, contact %d pulls", k, i);
             CHECK_MAX(-s->gap[i], tol, "step %d, contact %d penetrates", k, i);
             CHECK_MAX(fmin(r[0] / most, s->gap[i]), tol, "step %d, contact %d", k, i);
-            CHECK_MAX(t - limit, tol * most, "step %d, contact %d outside its cone", k,
-                      i);
+            CHECK_MAX(t - limit, tol * most, "step %d, contact %d outside its cone", k, i);
             CHECK_ABS(work, -limit * tangential(d, du), tol * most * far,
                       "step %d, contact %d: dissipation", k, i);
         }
@@ -77,8 +76,7 @@ static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double
 
 /* ---- Bar --------------------------------------------------------------------------- */
 
-static void check_bar_state(const json_t *want, const rb_fem_model *model,
-                            const rb_fem_step *got)
+static void check_bar_state(const json_t *want, const rb_fem_model *model, const rb_fem_step *got)
 {
     const double *top = got->u + 2 * (model->mesh.nodes - 1), *bottom = got->u + 2 * 160;
     double rn = 0.0, rt = 0.0, rn_max = 0.0;
@@ -114,8 +112,8 @@ static void check_bar_nodes(const json_t *final, const rb_fem_step *s)
         for (size_t k = 0; k < json_array_size(nodes); k++) {
             const int i = (int)json_integer_value(json_array_get(nodes, k));
             const double got[4] = {s->r[2 * i], s->r[2 * i + 1], s->u[2 * i], s->gap[i]};
-            CHECK_ABS(got[c], entry(final, keys[c], k), 1e-9 * largest, "%s of node %d",
-                      keys[c], i);
+            CHECK_ABS(got[c], entry(final, keys[c], k), 1e-9 * largest, "%s of node %d", keys[c],
+                      i);
         }
     }
 }
@@ -149,8 +147,7 @@ TEST(bar_by_newton)
 
 /* ---- Truss ------------------------------------------------------------------------- */
 
-static void check_truss_state(const json_t *want, const rb_fem_model *model,
-                              const rb_fem_step *got)
+static void check_truss_state(const json_t *want, const rb_fem_model *model, const rb_fem_step *got)
 {
     double du = 0.0, total = 0.0, least = 1e300, most = 0.0, rt = 0.0;
     for (int i = 0; i < model->structure.contacts; i++) {
@@ -179,16 +176,14 @@ static int node_near(const rb_fem_model *model, double x, double y)
     return -1;
 }
 
-static void check_truss_node(const json_t *want, const rb_fem_model *model,
-                             const rb_fem_history *h)
+static void check_truss_node(const json_t *want, const rb_fem_model *model, const rb_fem_history *h)
 {
     const rb_fem_step *s = &h->step[(int)number(want, "m") - 1];
     const int i = node_near(model, number(want, "x_mm"), number(want, "y_mm"));
     const double size = fmax(hypot(s->u[3 * i], s->u[3 * i + 1]), 1e-2);
     CHECK_REL(s->r[3 * i], number(want, "rn_N"), 1e-8, "node %d, rn", i);
     for (size_t k = 0; k < 2; k++) {
-        CHECK_ABS(s->u[3 * i + (int)k], entry(want, "ut_mm", k), 1e-8 * size, "node %d",
-                  i);
+        CHECK_ABS(s->u[3 * i + (int)k], entry(want, "ut_mm", k), 1e-8 * size, "node %d", i);
         CHECK_ABS(s->r[3 * i + 1 + (int)k], entry(want, "rt_N", k), 1e-8 * s->r[3 * i],
                   "node %d, rt", i);
     }
@@ -219,8 +214,7 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
     static const char *const names[] = {"upper_inside", "upper_overhanging"};
     const json_t *truss = json_object_get(reference, "truss");
     const json_t *set = json_object_get(json_object_get(truss, "layouts"), names[layout]);
-    const json_t *increments =
-        json_object_get(set, n == 12 ? "n12_increments" : "n4_increments");
+    const json_t *increments = json_object_get(set, n == 12 ? "n12_increments" : "n4_increments");
     const json_t *nodes = json_object_get(set, n == 12 ? "n12_nodes" : "n4_nodes");
     OWNED(rb_fem_model) model;
     OWNED(rb_fem_history) h;
@@ -268,15 +262,14 @@ TEST(condensation_changes_nothing)
     CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 4, &model, &why), RB_OK);
     CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-12, &h, &why), RB_OK);
     CHECK_STATUS(rb_fem_state_alloc(&model.structure, &start), RB_OK);
-    CHECK_STATUS(rb_fem_problem(&model.structure, model.load, &start, &problem, &units),
-                 RB_OK);
+    CHECK_STATUS(rb_fem_problem(&model.structure, model.load, &start, &problem, &units), RB_OK);
     const int m = 3 * model.structure.contacts;
     SCRATCH double *r = rb_alloc((size_t)m, 1), *u = rb_alloc((size_t)m, 1);
     rb_friction_options options = rb_friction_defaults();
     options.tol = 1e-12;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &problem, &options,
-                                   &(rb_friction_solution){r, u, NULL}, &info),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &problem, &options, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_OK);
     for (int k = 0; k < m; k++)
         CHECK_ABS(units.force * r[k], h.step[0].r[k], 1e-4, "reaction %d of 3e5 N", k);
 }

@@ -108,8 +108,7 @@ static const char *draw_wall(const solved_wall *w, rb_report_canvas canvas, int 
 {
     rb_message why = {""};
     FILE *out = tmpfile();
-    CHECK_STATUS(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &why), RB_OK);
     return written(out);
 }
 
@@ -169,8 +168,7 @@ TEST(front_of_the_wall_is_drawn)
         if (!is_drawn(face, 5, mesh, points))
             fail_msg("the face of brick %d is not drawn", e);
         for (int c = 0; c < 4; c++) {
-            const int outer =
-                bricks_with(bricks, node[corner[c]], node[corner[c + 1]]) == 1;
+            const int outer = bricks_with(bricks, node[corner[c]], node[corner[c + 1]]) == 1;
             edges += outer;
             assert_int_equal(is_drawn(face + 2 * c, 2, edge, ends), outer);
         }
@@ -216,9 +214,8 @@ TEST(steps_of_the_wall_are_drawn)
         assert_int_equal(block(script, "step", 7, STEPS, x), steps);
         for (int k = 0; k < steps; k++) {
             const rb_fem_wall_step *s = &w->step[k];
-            const double want[7] = {
-                s->time, 1e-3 * s->compression, 1e-3 * s->shear, s->stick,
-                s->slip, s->separated,          s->iterations};
+            const double want[7] = {s->time, 1e-3 * s->compression, 1e-3 * s->shear, s->stick,
+                                    s->slip, s->separated,          s->iterations};
             for (int c = 0; c < 7; c++)
                 CHECK_REL(x[7 * k + c], want[c], 1e-5, "step %d, column %d", k, c);
         }
@@ -290,8 +287,7 @@ TEST(bar_and_truss_need_steps)
     rb_message why[2] = {{""}, {""}};
     FILE *out = tmpfile();
     CHECK_STATUS(rb_report_picture_bar(out, page, &model, &history, &why[0]), RB_EINVAL);
-    CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why[1]),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why[1]), RB_EINVAL);
     for (int k = 0; k < 2; k++)
         assert_string_equal(why[k].text, "nothing to draw");
     assert_int_equal(ftell(out), 0);
@@ -307,8 +303,7 @@ TEST(truss_is_drawn_by_its_slips)
     for (int layout = 0; layout < 2; layout++) {
         OWNED(rb_fem_model) model;
         OWNED(rb_fem_history) history;
-        CHECK_STATUS(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL), RB_OK);
         CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-9, &history, NULL), RB_OK);
         rb_fem_step *last = &history.step[history.steps - 1];
         for (int i = 0, k = 0; i < model.structure.contacts; i++)
@@ -334,8 +329,7 @@ TEST(truss_is_drawn_by_its_slips)
             const int rests = block(script, name, 4, QUARTER + 1, rest);
             assert_int_equal(moves + rests, QUARTER + 2); /* and one beyond the picture */
             for (int i = 0; i < model.structure.contacts && step <= last; i++)
-                slipping += model.mesh.x[3 * i] >= 0.0 &&
-                            model.mesh.x[3 * i + 1] >= 0.0 &&
+                slipping += model.mesh.x[3 * i] >= 0.0 && model.mesh.x[3 * i + 1] >= 0.0 &&
                             step->contact[i] == RB_FEM_SLIP;
             assert_int_equal(moves - 1, panel < history.steps ? slipping : 2);
             if (panel == history.steps) { /* the longest is at most 1.1 cells of 2 m */

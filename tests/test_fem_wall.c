@@ -19,8 +19,7 @@ TEST(selection_is_by_difficulty)
     CHECK_STATUS(rb_fem_wall_select(wall, 5, chosen), RB_OK);
     for (int k = 0; k < 5; k++) {
         assert_true(chosen[k] > 0 && !seen[chosen[k]]++);
-        assert_true(k == 0 ||
-                    step[chosen[k]].iterations >= step[chosen[k - 1]].iterations);
+        assert_true(k == 0 || step[chosen[k]].iterations >= step[chosen[k - 1]].iterations);
     }
     rb_fem_wall_free(wall);
 }
@@ -44,8 +43,7 @@ TEST(rigid_wall_carries_its_load)
     const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
     SCRATCH double *u = rb_alloc(3, (size_t)mesh->nodes);
     CHECK_STATUS(rb_fem_wall_displacements(wall, u), RB_OK);
-    CHECK_MAX(rb_norm_inf(3 * (size_t)mesh->nodes, u), 1e-8,
-              "rigid blocks do not sink [m]");
+    CHECK_MAX(rb_norm_inf(3 * (size_t)mesh->nodes, u), 1e-8, "rigid blocks do not sink [m]");
     rb_fem_wall_free(wall);
 }
 
@@ -75,8 +73,7 @@ TEST(bad_input_is_refused)
             .dt = walls[k].dt, .press = walls[k].press, .shear = walls[k].shear};
         memcpy(o.fine, walls[k].fine, sizeof o.fine);
         memcpy(o.coarse, walls[k].coarse, sizeof o.coarse);
-        CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why),
-                     walls[k].part ? RB_EINVAL : RB_OK);
+        CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), walls[k].part ? RB_EINVAL : RB_OK);
         if (walls[k].part)
             assert_non_null(strstr(why.text, walls[k].part));
         assert_int_equal(wall == NULL, walls[k].part != NULL);
@@ -106,11 +103,9 @@ TEST(a_step_can_be_stopped)
         o.stopped = stop_at_the_third;
         o.context = &asked;
         CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
-        CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &why),
-                     RB_INTERRUPTED);
+        CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &why), RB_INTERRUPTED);
         assert_string_equal(why.text, "interrupted after step 0");
-        assert_true(asked >= 3 &&
-                    asked <= 4); /* the last iterate is measured once more */
+        assert_true(asked >= 3 && asked <= 4); /* the last iterate is measured once more */
         CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);
         rb_fem_wall_free(wall);
     }
@@ -138,8 +133,7 @@ TEST(failures_name_the_step)
         assert_string_equal(why.text, "wall, step 1: out of memory");
     }
     CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-300, &step, &why), RB_MAXITER);
-    assert_int_equal(strncmp(why.text, "wall, step 1: iteration limit, residual ", 40),
-                     0);
+    assert_int_equal(strncmp(why.text, "wall, step 1: iteration limit, residual ", 40), 0);
     CHECK_STATUS(rb_fem_wall_problem(wall, -1, &problem), RB_EINVAL);
     CHECK_STATUS(rb_fem_wall_problem(wall, 1, &problem), RB_EINVAL);
     CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &why), RB_OK);
@@ -282,16 +276,14 @@ TEST(auto_turns_to_smoothing_where_newton_cycles)
         p.mu[c] *= 0.3;
     opt.tol = 1e-10;
     opt.max_iters = 60;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt,
-                                   &(rb_friction_solution){r, r + m, v}, &info),
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, r + m, v}, &info),
                  RB_MAXITER);
     CHECK_STATUS(rb_friction_solve("soclcp-smoothing", &p, &opt,
                                    &(rb_friction_solution){r, r + m, v}, &smooth),
                  RB_OK);
     opt.max_iters = 0;
-    CHECK_STATUS(
-        rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, r + m, v}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, r + m, v}, &info),
+                 RB_OK);
     CHECK_MAX(violation(&p, r, v), 1e-6, "%s", info.solver);
     CHECK_MAX(info.flops, 3.0 * smooth.flops, "%s beside smoothing", info.solver);
     rb_fem_wall_free(wall);

@@ -39,10 +39,8 @@ static const struct {
     {"m.ini --output m.ini", "--output: 'm.ini' is an input"},
     {"m.ini --output ./m.ini", "--output: './m.ini' is an input"},
     {"m.ini --output link", "--output: 'link' is an input"},
-    {"m.ini --history-table m.ini --history h.tsv",
-     "--history-table: 'm.ini' is an input"},
-    {"m.ini --history h.tsv --history-table h.tsv",
-     "'h.tsv' is an input file (--history)"},
+    {"m.ini --history-table m.ini --history h.tsv", "--history-table: 'm.ini' is an input"},
+    {"m.ini --history h.tsv --history-table h.tsv", "'h.tsv' is an input file (--history)"},
     {"m.ini --fclib m.ini", "--fclib: 'm.ini' is an input"},
     {CASE "--gap gap.tsv --output gap.tsv", "'gap.tsv' is an input file (--gap)"},
     {"m.ini --output same.svg --plot same.svg", "both would write 'same.svg'"},
@@ -91,10 +89,9 @@ TEST(what_cannot_be_written_is_not_solved)
 /* A limit of file sizes is what a full disk looks like. */
 TEST(full_disks_leave_nothing)
 {
-    static const char *const lines[] = {CASE "--contact-elements 300 --output a.tsv",
-                                        CASE "--fclib a.hdf5", CASE "--plot a.png",
-                                        "stress " CASE "--grid 40x40 --fringes a.png",
-                                        "stress " CASE "--grid 40x40 --vtk a.vtu"};
+    static const char *const lines[] = {
+        CASE "--contact-elements 300 --output a.tsv", CASE "--fclib a.hdf5", CASE "--plot a.png",
+        "stress " CASE "--grid 40x40 --fringes a.png", "stress " CASE "--grid 40x40 --vtk a.vtu"};
     clear();
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
         char line[400];
@@ -143,10 +140,9 @@ TEST(fclib_files_are_written_as_all_others)
 TEST(a_dump_replaces_the_one_before)
 {
     clear();
-    assert_int_equal(
-        rollbem("--support hub --load 100 --contact-elements 12 --quiet --dump d "
-                "--trace --solver lemke"),
-        0);
+    assert_int_equal(rollbem("--support hub --load 100 --contact-elements 12 --quiet --dump d "
+                             "--trace --solver lemke"),
+                     0);
     assert_true(is_there("d/H.mtx") && is_there("d/tableau_3.mtx"));
     write_file("d/mine.mtx", "mine");
     assert_int_equal(rollbem(CASE "--dump d"), 0);
@@ -229,10 +225,9 @@ TEST(the_longest_names_are_taken)
 TEST(names_of_any_bytes_are_printed)
 {
     clear();
-    assert_int_equal(
-        shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
-              "\"$R\" \"$n\" " CASE "--json --output a.json"),
-        0);
+    assert_int_equal(shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
+                           "\"$R\" \"$n\" " CASE "--json --output a.json"),
+                     0);
     json_t *root = json_load_file("a.json", 0, NULL);
     assert_non_null(root);
     assert_non_null(

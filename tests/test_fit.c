@@ -15,10 +15,9 @@ static char project[600]; /* its root, where the test was started */
 static const double MU = 0.24, FALL = 0.16, SCALE = 1.5, LAYER = 5e-4, OFFSET = 1e-4;
 
 static const char *const bodies[][2] = {
-    {"support", "halfplane"}, {"similar", "yes"}, {"young", "364"},
-    {"poisson", "0.3"},       {"radius", "100"},  {"half-width", "1"},
-    {"mesh", "uniform"},      {"zone", "1.2"},    {"contact-elements", "36"},
-    {"formulation", "steady"}};
+    {"support", "halfplane"},   {"similar", "yes"},       {"young", "364"},    {"poisson", "0.3"},
+    {"radius", "100"},          {"half-width", "1"},      {"mesh", "uniform"}, {"zone", "1.2"},
+    {"contact-elements", "36"}, {"formulation", "steady"}};
 
 static rb_case *case_of(rb_case_purpose purpose)
 {
@@ -44,8 +43,7 @@ static double force_at(double creep)
     rb_message why = {""};
     rb_case *c = case_of(RB_CASE_SINGLE);
     rb_case_result r;
-    CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why), RB_OK);
     set_number(c, "mu", MU);
     set_number(c, "mu-fall", FALL);
     set_number(c, "slip-scale", SCALE);
@@ -88,8 +86,7 @@ static rb_case_fit fit_of(int n, const char *const *names)
     return fit;
 }
 
-static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit,
-                       rb_message *why)
+static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit, rb_message *why)
 {
     rb_case *c = case_of(RB_CASE_CURVE);
     if (speed > 0.0)
@@ -109,8 +106,8 @@ static const double *const truth[] = {&MU, &FALL, &SCALE, &LAYER, &OFFSET};
 
 static void exact_data_give_the_truth(void **state)
 {
-    const rb_case_data data = {
-        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL, NULL, NULL};
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
+                               NULL,   NULL};
     rb_case_fit fit = fit_of(5, all);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
@@ -122,8 +119,8 @@ static void exact_data_give_the_truth(void **state)
 
 static void noise_leaves_it_in_the_intervals(void **state)
 {
-    const rb_case_data data = {
-        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
+                               NULL,   NULL};
     rb_case_fit fit = fit_of(5, all);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
@@ -136,8 +133,8 @@ static void noise_leaves_it_in_the_intervals(void **state)
             fail_msg("%s: %g is not in %g ... %g", p->name, *truth[j], p->interval[0],
                      p->interval[1]);
         CHECK_REL(p->correlation[j], 1.0, 1e-12, "with itself");
-        CHECK_REL(p->correlation[(j + 1) % 5], fit.parameter[(j + 1) % 5].correlation[j],
-                  1e-10, "both ways");
+        CHECK_REL(p->correlation[(j + 1) % 5], fit.parameter[(j + 1) % 5].correlation[j], 1e-10,
+                  "both ways");
     }
     rb_case_fit_free(&fit);
 }
@@ -175,8 +172,7 @@ static void forces_and_ratios_agree(void **state)
             fail_msg("%s", why.text);
     }
     CHECK_REL(fits[1].parameter[0].value, fits[0].parameter[0].value, 1e-6, "mu");
-    CHECK_REL(fits[1].parameter[0].deviation, fits[0].parameter[0].deviation, 1e-5,
-              "deviation");
+    CHECK_REL(fits[1].parameter[0].deviation, fits[0].parameter[0].deviation, 1e-5, "deviation");
     CHECK_REL(fits[1].noise, fits[0].noise * P, 1e-6, "noise");
     rb_case_fit_free(&fits[0]);
     rb_case_fit_free(&fits[1]);
@@ -184,23 +180,22 @@ static void forces_and_ratios_agree(void **state)
 
 static void no_falling_part_is_said(void **state)
 {
-    const rb_case_data data = {
-        7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    const rb_case_data data = {7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
     rb_case_fit fit = fit_of(3, names);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
-    assert_non_null(strstr(fit.sentences,
-                           "no point in the falling part: slip-scale is not identified"));
+    assert_non_null(
+        strstr(fit.sentences, "no point in the falling part: slip-scale is not identified"));
     assert_false(fit.parameter[2].identified);
     rb_case_fit_free(&fit);
 }
 
 static void refusals(void **state)
 {
-    const rb_case_data data = {
-        POINTS, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
+                               NULL,   NULL};
     static const char *const nonsense[] = {"zone"};
     rb_case_fit fit = fit_of(1, nonsense);
     rb_message why = {""};
@@ -228,9 +223,9 @@ static void write_data(const char *path, const char *names)
     fclose(data);
 }
 
-#define BODIES                                                                           \
-    " --support halfplane --similar --young 364 --poisson 0.3 --radius 100 "             \
-    "--half-width 1"                                                                     \
+#define BODIES                                                                                     \
+    " --support halfplane --similar --young 364 --poisson 0.3 --radius 100 "                       \
+    "--half-width 1"                                                                               \
     " --mesh uniform --zone 1.2 --contact-elements 36"
 
 static void command_prints_parameters(void **state)
@@ -271,9 +266,9 @@ static void command_prints_derivatives(void **state)
     assert_true(json_is_null(json_array_get(layer, 0)));
     const double by_mu = json_number_value(json_object_get(load, "mu")),
                  by_radius = json_number_value(json_object_get(load, "radius"));
-    CHECK_REL(json_number_value(json_object_get(json_object_get(root, "tolerances"),
-                                                "tangential_load")),
-              hypot(0.02 * by_mu, 1.0 * by_radius), 1e-9, "tolerance");
+    CHECK_REL(
+        json_number_value(json_object_get(json_object_get(root, "tolerances"), "tangential_load")),
+        hypot(0.02 * by_mu, 1.0 * by_radius), 1e-9, "tolerance");
     assert_int_equal(rollbem(BODIES " --formulation steady --creep -2e-3 "
                                     "--tolerance mu=0.02,radius=1%"),
                      0);
@@ -287,18 +282,16 @@ static void command_prints_derivatives(void **state)
     assert_null(json_object_get(all_of, "stick_length"));
     json_decref(root);
     root = run_json("--derivatives p" BODIES " --formulation steady --creep -2e-3");
-    assert_int_equal(
-        json_array_size(json_object_get(
-            json_object_get(json_object_get(root, "derivatives"), "p"), "radius")),
-        36);
+    assert_int_equal(json_array_size(json_object_get(
+                         json_object_get(json_object_get(root, "derivatives"), "p"), "radius")),
+                     36);
     json_decref(root);
     assert_int_equal(rollbem("--derivatives nonsense" BODIES), 64);
     static const char *const forms[] = {"--json", "--tolerance radius=1%", ""};
     for (int k = 0; k < 3; k++) { /* a zone that the contact fills is no solution */
         char words[300];
         snprintf(words, sizeof words,
-                 "--derivatives approach %s" BODIES " --zone 1e-3 --mesh uniform",
-                 forms[k]);
+                 "--derivatives approach %s" BODIES " --zone 1e-3 --mesh uniform", forms[k]);
         assert_int_equal(rollbem(words), 1);
     }
     assert_int_equal(rollbem("--tolerance mu=-1" BODIES), 64);
@@ -335,8 +328,7 @@ static void the_example_is_found_again(void **state)
     json_t *root = run_json(line);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
         json_t *interval = json_object_get(
-            json_object_get(json_object_get(root, "parameters"), numbers[k].name),
-            "interval");
+            json_object_get(json_object_get(root, "parameters"), numbers[k].name), "interval");
         CHECK_MAX(json_number_value(json_array_get(interval, 0)), numbers[k].truth, "%s",
                   numbers[k].name);
         CHECK_MAX(numbers[k].truth, json_number_value(json_array_get(interval, 1)), "%s",
@@ -377,8 +369,7 @@ static void derivatives_stand_in_columns(void **state)
                     "--derivatives tangential_load:mu,max_pressure:radius" BODIES);
     json_t *table = json_object_get(root, "table");
     CHECK_REL(entry(table, "d_tangential_load_N/mm_by_mu", 1), by_mu, 1e-9, "sweep");
-    CHECK_REL(entry(table, "d_max_pressure_MPa_by_radius_mm", 1), by_radius, 1e-9,
-              "sweep");
+    CHECK_REL(entry(table, "d_max_pressure_MPa_by_radius_mm", 1), by_radius, 1e-9, "sweep");
     json_decref(root);
     json_decref(one);
     root = run_json("--formulation transient --distance 0.5 --creep -1e-3 "
@@ -417,10 +408,9 @@ static void derivatives_stand_in_columns(void **state)
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */
 static void samples_scatter_as_tolerances(void **state)
 {
-    const char *const line =
-        "sweep --sample 60 --tolerance mu=0.01,load=1% --jobs 1 --seed 3 "
-        "--similar --support halfplane --load 500 --formulation steady "
-        "--mesh uniform --zone 1.2 --contact-elements 36 --creep -2e-3";
+    const char *const line = "sweep --sample 60 --tolerance mu=0.01,load=1% --jobs 1 --seed 3 "
+                             "--similar --support halfplane --load 500 --formulation steady "
+                             "--mesh uniform --zone 1.2 --contact-elements 36 --creep -2e-3";
     assert_int_equal(rollbem(line), 0);
     static char first[sizeof out];
     memcpy(first, out, sizeof out);
@@ -433,10 +423,10 @@ static void samples_scatter_as_tolerances(void **state)
     json_t *root = run_json("--tolerance mu=0.01,load=1% --similar --support halfplane "
                             "--load 500 --formulation steady --mesh uniform --zone 1.2 "
                             "--contact-elements 36 --creep -2e-3");
-    CHECK_REL(deviation,
-              json_number_value(json_object_get(json_object_get(root, "tolerances"),
-                                                "tangential_load")),
-              0.1, "standard deviation");
+    CHECK_REL(
+        deviation,
+        json_number_value(json_object_get(json_object_get(root, "tolerances"), "tangential_load")),
+        0.1, "standard deviation");
     json_decref(root);
     /* samples that are no case fail by themselves */
     assert_int_equal(rollbem("sweep --sample 8 --tolerance mu=0.3 --jobs 1" BODIES

@@ -7,8 +7,8 @@
 
 /* Equation (13), written down a second time: by the disjunction of *Acary* (2) for the
  * projection instead of the library's formula. */
-static double measure_again(int d, int nc, const double *mu, const double *r,
-                            const double *u, const double *q)
+static double measure_again(int d, int nc, const double *mu, const double *r, const double *u,
+                            const double *q)
 {
     double sum = 0.0, norm = 0.0;
     for (int c = 0; c < nc; c++) {
@@ -130,8 +130,8 @@ TEST(the_measure_is_equation_13)
                     want += p.W[i + j * d * NC] * r[j];
                 CHECK_ABS(u[i], want, 1e-12, "u = W r + q, row %d", i);
             }
-            CHECK_REL(error.residual, measure_again(d, NC, p.mu, r, u, p.q), 1e-12,
-                      "trial %d", trial);
+            CHECK_REL(error.residual, measure_again(d, NC, p.mu, r, u, p.q), 1e-12, "trial %d",
+                      trial);
         }
         make_sparse(&p);
         CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same), RB_OK);
@@ -189,12 +189,11 @@ TEST(condensation_gives_the_same_problem)
     }
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = 1e-14;
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, v}, &info),
-        RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &local, &opt,
-                                   &(rb_friction_solution){r2, u2, NULL}, &info),
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, v}, &info),
                  RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &local, &opt, &(rb_friction_solution){r2, u2, NULL}, &info),
+        RB_OK);
     for (int k = 0; k < M; k++) {
         CHECK_ABS(r[k], r2[k], 1e-12, "r[%d]", k);
         CHECK_ABS(u[k], u2[k], 1e-12, "u[%d]", k);
@@ -276,15 +275,13 @@ TEST(a_handle_solves_one_load_after_another)
         const int m = 2 * p.contacts;
         CHECK_STATUS(rb_friction_setup(&p, &handle, &why), RB_OK);
         for (int load = 0; load < 4; load++) {
-            static const char *const solvers[] = {"nsgs-ac", "auto", "nsgs-ac",
-                                                  "nsgs-aa"};
+            static const char *const solvers[] = {"nsgs-ac", "auto", "nsgs-ac", "nsgs-aa"};
             for (int k = 0; load && k < m; k++)
                 *(global ? &p.w[k] : &p.q[k]) += 1e-3 * (k % 7);
             p.mu[load] *= 0.9;
             CHECK_STATUS(rb_friction_update(handle, &why), RB_OK);
             CHECK_STATUS(rb_friction_handle_solve(handle, solvers[load], NULL,
-                                                  &(rb_friction_solution){r, u, NULL},
-                                                  &warm),
+                                                  &(rb_friction_solution){r, u, NULL}, &warm),
                          RB_OK);
             CHECK_STATUS(rb_friction_solve(solvers[load], &p, NULL,
                                            &(rb_friction_solution){r2, u2, NULL}, &cold),
@@ -324,9 +321,8 @@ TEST(a_structure_held_by_friction_alone_is_solved)
     assert_int_equal(facts.nullity, 6);
     assert_int_equal(facts.rank, 6);
     assert_int_equal(facts.hyperstaticity, 0);
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
+                 RB_OK);
     /* every force goes through to the ground: r = -f */
     for (int c = 0; c < NC; c++)
         for (int a = 0; a < 3; a++)
@@ -339,11 +335,9 @@ TEST(a_structure_held_by_friction_alone_is_solved)
 
     /* a motion that no contact sees: the message says so */
     rb_sparse_free(&p.H);
-    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = N, .cols = M}, &p.H),
-                 RB_OK);
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
-        RB_SINGULAR);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = N, .cols = M}, &p.H), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
+                 RB_SINGULAR);
     assert_non_null(strstr(info.msg.text, "without any velocity at the contacts"));
     rb_friction_problem_free(&p);
 }
@@ -363,13 +357,12 @@ TEST(newton_solves_planted_problems)
                 if (nc > 40)
                     make_sparse(&p);
                 CHECK_STATUS(rb_friction_solve(names[s], &p, NULL,
-                                               &(rb_friction_solution){r, u, NULL},
-                                               &info),
+                                               &(rb_friction_solution){r, u, NULL}, &info),
                              RB_OK);
-                CHECK_MAX(measure_again(d, nc, p.mu, r, u, p.q), 1.0001e-8,
-                          "%s d %d nc %d", names[s], d, nc);
-                CHECK_ABS(info.residual, measure_again(d, nc, p.mu, r, u, p.q), 1e-13,
-                          "%s", names[s]);
+                CHECK_MAX(measure_again(d, nc, p.mu, r, u, p.q), 1.0001e-8, "%s d %d nc %d",
+                          names[s], d, nc);
+                CHECK_ABS(info.residual, measure_again(d, nc, p.mu, r, u, p.q), 1e-13, "%s",
+                          names[s]);
                 assert_true(info.flops > 0.0 && (info.iters > 0 || nc == 1));
             }
 }
@@ -403,9 +396,8 @@ TEST(zero_q_has_the_trivial_solution)
     double r[6], u[6];
     plant(2, 3, 4, &p, r);
     memset(p.q, 0, 6 * sizeof *p.q);
-    CHECK_STATUS(
-        rb_friction_solve("auto", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve("auto", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_OK);
     for (int k = 0; k < 6; k++)
         CHECK_ABS(r[k], 0.0, 0.0, "r[%d]", k);
     CHECK_ABS(info.residual, 0.0, 0.0, "residual");
@@ -415,9 +407,8 @@ static void refuse(rb_friction_problem *p, const char *words)
 {
     rb_friction_info info;
     double r[9], u[9];
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_EINVAL);
     if (!strstr(info.msg.text, words))
         print_error("'%s' lacks '%s'\n", info.msg.text, words);
     assert_non_null(strstr(info.msg.text, words));
@@ -447,14 +438,12 @@ TEST(bad_problems_are_refused)
     p.Ws.cols = 8;
     refuse(&p, "9 x 8");
     p.Ws.cols = 9;
-    CHECK_STATUS(
-        rb_friction_solve("newton", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve("newton", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "'newton'"));
     opt.tol = 0.0;
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_EINVAL);
     rb_friction_problem_free(&p);
 
     series_of_springs(2, 1, 1.0, &p);
@@ -501,9 +490,9 @@ TEST(a_frictionless_contact_does_not_pull)
         for (int k = 0; k < count; k++) {
             if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
                 continue;
-            CHECK_STATUS(rb_friction_solve(all[k].name, &p, &opt,
-                                           &(rb_friction_solution){r, u, NULL}, NULL),
-                         RB_OK);
+            CHECK_STATUS(
+                rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL}, NULL),
+                RB_OK);
             CHECK_ABS(r[0], 0.0, 1e-7, "%s", all[k].name);
         }
     }
@@ -517,24 +506,19 @@ TEST(success_is_never_claimed_above_the_tolerance)
     double r[30], u[30], planted[30];
     plant(3, 10, 4, &p, planted);
     opt.max_iters = 1;
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_MAXITER);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_MAXITER);
     assert_true(info.residual > opt.tol);
-    assert_string_equal(rb_friction_status_text(RB_MAXITER, opt.tol, &info),
-                        "iteration limit");
+    assert_string_equal(rb_friction_status_text(RB_MAXITER, opt.tol, &info), "iteration limit");
     /* from the solution: nothing to do; a tolerance below rounding: solved to rounding */
     opt.r0 = planted, opt.tol = 1e-300;
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_OK);
     assert_int_equal(info.iters, 0);
-    assert_string_equal(rb_friction_status_text(RB_OK, opt.tol, &info),
-                        "solved-to-rounding");
+    assert_string_equal(rb_friction_status_text(RB_OK, opt.tol, &info), "solved-to-rounding");
     opt.r0 = NULL, opt.tol = 1e-8, opt.max_iters = 0, opt.seconds = 1e-9;
-    CHECK_STATUS(
-        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_INTERRUPTED);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_INTERRUPTED);
 }
 
 /* The number of allocations of a solve, each of which has failed once. */
@@ -545,8 +529,7 @@ static int fail_each(const char *solver, const rb_friction_problem *p)
     int count = 0;
     for (rb_status s = RB_ENOMEM; s != RB_OK && count < 400; count++) {
         alloc_fail_after(count);
-        s = rb_friction_solve(solver, p, NULL, &(rb_friction_solution){r, u, NULL},
-                              &info);
+        s = rb_friction_solve(solver, p, NULL, &(rb_friction_solution){r, u, NULL}, &info);
         const int refused = alloc_failed();
         alloc_succeed();
         assert_true(s == RB_OK || refused);
@@ -563,17 +546,15 @@ static rb_status solve_anew(void *context)
 {
     const job *own = context;
     double r[9], u[9];
-    return rb_friction_solve(own->solver, own->p, NULL,
-                             &(rb_friction_solution){r, u, NULL}, NULL);
+    return rb_friction_solve(own->solver, own->p, NULL, &(rb_friction_solution){r, u, NULL}, NULL);
 }
 
 /* Each alone, where the ones after it succeed. */
 TEST(each_failing_allocation_is_reported)
 {
     static const char *const names[] = {
-        "auto",          "nsn-ac",           "nsn-fb",  "nsn-ac-hybrid",
-        "nsgs-ac",       "nsgs-aa",          "nsgs-fp", "fixed-point",
-        "extragradient", "soclcp-smoothing", "admm"};
+        "auto",    "nsn-ac",      "nsn-fb",        "nsn-ac-hybrid",    "nsgs-ac", "nsgs-aa",
+        "nsgs-fp", "fixed-point", "extragradient", "soclcp-smoothing", "admm"};
     rb_friction_problem p[3];
     double r[9];
     int calls = 0;

@@ -139,9 +139,8 @@ static void solve_and_assess(const structure *s, const rb_friction_problem *p, d
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
     opt.tol = 1e-11;
-    CHECK_STATUS(
-        rb_friction_solve("auto", p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve("auto", p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_OK);
     velocities(s, r, want);
     for (int k = 0; k < ROWS; k++)
         CHECK_ABS(u[k], want[k], 1e-9, "u[%d]", k);
@@ -220,16 +219,16 @@ TEST(both_forms_come_from_files)
         double r[2][ROWS];
         make_structure(seed, 0, &s);
         make_local(&s, &file[0]);
-        file[1] = (rb_io_fclib){
-            .global = 1, .spacedim = 3, .contacts = CONTACTS, .constraints = JOINTS};
+        file[1] =
+            (rb_io_fclib){.global = 1, .spacedim = 3, .contacts = CONTACTS, .constraints = JOINTS};
         as_problem(&s, &p, &file[1].G);
         file[1].M = p.K, file[1].H = p.H, file[1].mu = p.mu;
         file[1].f = p.f, file[1].w = p.w;
         copy(JOINTS, s.b, &file[1].b);
         for (int k = 0; k < 2; k++) {
-            CHECK_STATUS(rb_io_fclib_write(path, &file[k], (rb_io_fclib_layout)(seed % 3),
-                                           "", "", &why),
-                         RB_OK);
+            CHECK_STATUS(
+                rb_io_fclib_write(path, &file[k], (rb_io_fclib_layout)(seed % 3), "", "", &why),
+                RB_OK);
             if (rb_friction_read(path, &p, &why) != RB_OK)
                 fail_msg("%s", why.text);
             solve_and_assess(&s, &p, r[k]);
@@ -295,29 +294,25 @@ TEST(a_rod_slides_or_sticks_as_a_whole)
              .w = rb_alloc(4, 1)};
         CHECK_STATUS(
             rb_sparse_from_triplets(
-                &(rb_triplets){
-                    .rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
+                &(rb_triplets){.rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
                 &p.K),
             RB_OK);
         CHECK_STATUS(
             rb_sparse_from_triplets(
-                &(rb_triplets){
-                    .rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
+                &(rb_triplets){.rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
                 &p.H),
             RB_OK);
         CHECK_STATUS(
             rb_sparse_from_triplets(
-                &(rb_triplets){
-                    .rows = 4, .cols = 1, .nz = 2, .row = rod, .col = first, .x = apart},
+                &(rb_triplets){.rows = 4, .cols = 1, .nz = 2, .row = rod, .col = first, .x = apart},
                 &G),
             RB_OK);
         p.mu[0] = p.mu[1] = 0.5;
         p.f[0] = p.f[2] = -1.0, p.f[1] = push;
         CHECK_STATUS(rb_friction_eliminate(&p, &G, none, &why), RB_OK);
         assert_int_equal(p.dofs, 3);
-        CHECK_STATUS(
-            rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-            RB_OK);
+        CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+                     RB_OK);
         CHECK_ABS(r[0], 1.0, 1e-7, "r_N");
         CHECK_ABS(r[2], 1.0, 1e-7, "r_N");
         CHECK_ABS(r[1] + r[3], slides ? -1.0 : -0.8, 1e-7, "friction");
@@ -348,9 +343,7 @@ TEST(what_cannot_be_is_refused)
     as_problem(&s, &p, &G);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){
-                .rows = DOFS, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
-            &bad),
+            &(rb_triplets){.rows = DOFS, .cols = 2, .nz = 4, .row = row, .col = col, .x = x}, &bad),
         RB_OK);
     refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "contradict");
     refused(rb_friction_eliminate(&p, &bad, b + 1, &why), &why, "b: entry 2 is");
@@ -360,21 +353,17 @@ TEST(what_cannot_be_is_refused)
     rb_sparse_free(&bad);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){
-                .rows = DOFS + 1, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
+            &(rb_triplets){.rows = DOFS + 1, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
             &bad),
         RB_OK);
     refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "G is 15 x 2");
     rb_sparse_free(&bad);
     for (int i = 0; i < DOFS; i++)
         all[i] = i, ones[i] = 1.0;
-    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = DOFS,
-                                                        .cols = DOFS,
-                                                        .nz = DOFS,
-                                                        .row = all,
-                                                        .col = all,
-                                                        .x = ones},
-                                         &bad),
+    CHECK_STATUS(rb_sparse_from_triplets(
+                     &(rb_triplets){
+                         .rows = DOFS, .cols = DOFS, .nz = DOFS, .row = all, .col = all, .x = ones},
+                     &bad),
                  RB_OK);
     refused(rb_friction_eliminate(&p, &bad, s.f, &why), &why, "no motion");
     rb_sparse_free(&bad);
@@ -397,10 +386,8 @@ TEST(what_cannot_be_is_refused)
         file.R.x[k] = 0.0;
     refused(rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &why), &why,
             "R has rank 0 of 4");
-    refused(rb_friction_eliminate_local(&p, &file.R, &file.R, file.s, &why), &why,
-            "V is 4 x 4");
-    refused(rb_friction_eliminate_local(&p, &file.V, &file.V, file.s, &why), &why,
-            "R is 9 x 4");
+    refused(rb_friction_eliminate_local(&p, &file.R, &file.R, file.s, &why), &why, "V is 4 x 4");
+    refused(rb_friction_eliminate_local(&p, &file.V, &file.V, file.s, &why), &why, "R is 9 x 4");
     refused(rb_friction_eliminate(&p, &file.V, file.s, &why), &why, "global form");
 }
 
@@ -438,8 +425,7 @@ TEST(dense_problems_lose_their_constraints_alike)
             p[k].Ws = (rb_sparse){0};
         }
         file.mu = file.q = NULL, file.W = (rb_sparse){0};
-        CHECK_STATUS(rb_friction_eliminate_local(&p[k], &file.V, &file.R, file.s, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_friction_eliminate_local(&p[k], &file.V, &file.R, file.s, &why), RB_OK);
         assert_int_equal(p[k].form, RB_FRICTION_LOCAL_SPARSE);
         put_dense(&p[k].Ws, W[k]);
     }

@@ -135,8 +135,7 @@ static long double sqr(long double x)
 }
 
 /* || r - P(r - uhat / w) || w of one contact, P on {||z_T|| <= mu z_N}, by its cases */
-static long double miss(int d, long double mu, long double w, const double *r,
-                        const long double *u)
+static long double miss(int d, long double mu, long double w, const double *r, const long double *u)
 {
     long double ut = 0.0L, zt = 0.0L, z[3], sum = 0.0L;
     for (int a = 1; a < d; a++)
@@ -188,8 +187,7 @@ typedef struct {
     int runs, claims, wrong, hopeless;
 } count;
 
-static void ask(const challenge *c, const rb_friction_solver *solver, double tol,
-                count *n)
+static void ask(const challenge *c, const rb_friction_solver *solver, double tol, count *n)
 {
     const size_t m = (size_t)(c->d * c->contacts);
     double r[MOST], u[MOST], W[MOST * MOST], q[MOST], mu[MOST], error, floor;
@@ -208,8 +206,8 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
     opt.max_iters = 3000;
     n->runs++;
     n->hopeless += c->hopeless;
-    if (rb_friction_solve(solver->name, &p, &opt, &(rb_friction_solution){r, u, NULL},
-                          &info) != RB_OK)
+    if (rb_friction_solve(solver->name, &p, &opt, &(rb_friction_solution){r, u, NULL}, &info) !=
+        RB_OK)
         return;
     n->claims++;
     assess(c, r, &error, &floor);
@@ -217,8 +215,8 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
     if (!c->hopeless && error <= 1.01 * allowed + 0.1 * floor)
         return;
     n->wrong++;
-    print_error("%s, %s in %dD, %d contacts, tol %g: claims %g, is %g%s\n", solver->name,
-                c->family, c->d, c->contacts, tol, info.scaled, error,
+    print_error("%s, %s in %dD, %d contacts, tol %g: claims %g, is %g%s\n", solver->name, c->family,
+                c->d, c->contacts, tol, info.scaled, error,
                 c->hopeless ? ", and there is no solution" : "");
 }
 
@@ -236,8 +234,8 @@ TEST(no_solver_claims_what_is_not_so)
             if (c.d == 2 || !(all[k].needs & RB_FRICTION_ONLY_2D))
                 ask(&c, &all[k], tolerances[number % 3], &n);
     }
-    print_message("%d runs, %d claims, %d wrong; %d runs on problems without solution\n",
-                  n.runs, n.claims, n.wrong, n.hopeless);
+    print_message("%d runs, %d claims, %d wrong; %d runs on problems without solution\n", n.runs,
+                  n.claims, n.wrong, n.hopeless);
     assert_int_equal(n.wrong, 0);
     assert_true(n.claims > n.runs / 2 && n.hopeless > n.runs / 20);
 }
@@ -254,9 +252,8 @@ TEST(the_judge_sees_small_errors)
                                    .mu = c.mu,
                                    .W = c.W,
                                    .q = c.q};
-    CHECK_STATUS(
-        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+                 RB_OK);
     assess(&c, r, &error, &floor);
     CHECK_MAX(error, 1e-8, "a solution");
     int at = 0;

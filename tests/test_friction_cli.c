@@ -60,13 +60,11 @@ TEST(compare_writes_its_file)
     assert_string_equal(out, "");
     snprintf(line, sizeof line, "\"$R\" %s >printed", command);
     assert_int_equal(shell(line), 0);
-    assert_int_equal(
-        shell("for f in printed runs.tsv; do grep -v '^#' $f | cut -f 1-3 >$f.part; "
-              "done; cmp printed.part runs.tsv.part && grep -c . printed.part"),
-        0);
-    assert_string_equal(out, "5\n");
-    assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"),
+    assert_int_equal(shell("for f in printed runs.tsv; do grep -v '^#' $f | cut -f 1-3 >$f.part; "
+                           "done; cmp printed.part runs.tsv.part && grep -c . printed.part"),
                      0);
+    assert_string_equal(out, "5\n");
+    assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"), 0);
     json_t *root = json_load_file("runs.json", 0, NULL);
     assert_non_null(root);
     json_decref(root);
@@ -105,13 +103,11 @@ TEST(every_solver_is_there_by_name)
 
 TEST(bad_files_get_a_line_each_and_the_others_run)
 {
-    const int code =
-        rollbem("friction nan mu short dimension empty foreign.hdf5 nowhere slides");
+    const int code = rollbem("friction nan mu short dimension empty foreign.hdf5 nowhere slides");
     assert_int_equal(code, 66);
-    static const char *const wanted[] = {"rollbem: nan",    "rollbem: mu",
-                                         "rollbem: short",  "rollbem: dimension",
-                                         "rollbem: empty",  "rollbem: foreign.hdf5",
-                                         "rollbem: nowhere"};
+    static const char *const wanted[] = {
+        "rollbem: nan",   "rollbem: mu",           "rollbem: short",  "rollbem: dimension",
+        "rollbem: empty", "rollbem: foreign.hdf5", "rollbem: nowhere"};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
         if (!strstr(err, wanted[k]))
             print_error("no line '%s' in:\n%s", wanted[k], err);
@@ -150,11 +146,8 @@ TEST(large_problems_are_looked_at_when_asked)
 {
     enum { ROWS = 3002 };
     static double q[ROWS], mu[ROWS / 2];
-    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_SPARSE,
-                             .dimension = 2,
-                             .contacts = ROWS / 2,
-                             .mu = mu,
-                             .q = q};
+    rb_friction_problem p = {
+        .form = RB_FRICTION_LOCAL_SPARSE, .dimension = 2, .contacts = ROWS / 2, .mu = mu, .q = q};
     OWNED(rb_triplets) W = {.rows = ROWS, .cols = ROWS};
     for (int i = 0; i < ROWS; i++) {
         rb_triplets_add(&W, i, i, 1.0);
@@ -167,8 +160,7 @@ TEST(large_problems_are_looked_at_when_asked)
     assert_int_equal(rollbem("friction large.hdf5"), 0);
     assert_string_equal(err, "");
     assert_int_equal(rollbem("friction --facts large.hdf5"), 0);
-    assert_non_null(
-        strstr(err, "large.hdf5: note: W is not symmetric (|W - W'| is 0.25"));
+    assert_non_null(strstr(err, "large.hdf5: note: W is not symmetric (|W - W'| is 0.25"));
     rb_sparse_free(&p.Ws);
 }
 
@@ -176,8 +168,7 @@ TEST(cones_and_forced_formats)
 {
     assert_int_equal(rollbem("friction --format siconos-soclcp --solution cone"), 0);
     assert_non_null(strstr(out, "soclcp-smoothing"));
-    assert_int_equal(
-        rollbem("friction --format siconos-soclcp --solver soclcp-smoothing cone"), 0);
+    assert_int_equal(rollbem("friction --format siconos-soclcp --solver soclcp-smoothing cone"), 0);
     check_refused("friction --output x --format siconos-soclcp --solver lemke cone", 65,
                   "only soclcp-smoothing");
     check_refused("friction --output x --kind fclib slides", 65, "not an HDF5 file");
@@ -192,9 +183,8 @@ TEST(global_problems_are_read_as_text)
     write_file("plane", "2 1 0 2 2 2 2 2 0 0 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
     write_file("loose", "2 1 0 2 2 2 2 2 0 0 0\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
     assert_int_equal(rollbem("friction --solver extragradient loose"), 1);
-    assert_string_equal(err,
-                        "rollbem: loose: K is singular to rounding (nullity 1): there "
-                        "is no W to condense to\n");
+    assert_string_equal(err, "rollbem: loose: K is singular to rounding (nullity 1): there "
+                             "is no W to condense to\n");
     assert_int_equal(rollbem("friction --solution plane"), 0);
     double r[3], u[3];
     const char *at = strstr(out, "\nplane\t");
@@ -206,9 +196,8 @@ TEST(global_problems_are_read_as_text)
     CHECK_ABS(r[1], -1.0, 1e-7, "r_T");
     CHECK_ABS(u[0], 0.0, 1e-7, "u_N");
     CHECK_ABS(u[1], 0.0, 1e-7, "u_T");
-    write_file("space",
-               "3 1 0 4 4 4 4\n2 0 0 0 0 3 0 0 0 0 4 0 0 0 0 5\n"
-               "0 4 3 4 3\n1 0 0 0 0 0 1 0 0 0 0 1\n-9.81 0 3 0\n0 0.5 0\n0.4\n");
+    write_file("space", "3 1 0 4 4 4 4\n2 0 0 0 0 3 0 0 0 0 4 0 0 0 0 5\n"
+                        "0 4 3 4 3\n1 0 0 0 0 0 1 0 0 0 0 1\n-9.81 0 3 0\n0 0.5 0\n0.4\n");
     assert_int_equal(rollbem("friction --kind siconos-global --solution space"), 0);
     at = strstr(out, "\nspace\t");
     for (int k = 0; k < 3; k++, at = strstr(at + 1, "\nspace\t")) {
@@ -219,8 +208,7 @@ TEST(global_problems_are_read_as_text)
     CHECK_ABS(r[1], -0.4 * 9.81, 1e-7, "r_T1");
     CHECK_ABS(u[1], 0.5 + (3.0 - 0.4 * 9.81) / 4.0, 1e-7, "u_T1");
     write_file("space", "3 1 0 4 4 4 4\n2 0 0 0 0 3 0 0 0 0 4 0 0 0 0 5\n0 3 3 4 3\n");
-    check_refused("friction --output x space", 65,
-                  "rows of the matrix: expected 4, got '3'");
+    check_refused("friction --output x space", 65, "rows of the matrix: expected 4, got '3'");
 }
 
 TEST(the_command_line_is_checked)
@@ -237,8 +225,7 @@ TEST(the_command_line_is_checked)
 
 TEST(profiles_are_printed)
 {
-    assert_int_equal(
-        rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
+    assert_int_equal(rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
     json_t *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     assert_int_equal(json_array_size(json_object_get(root, "runs")), 9);
@@ -250,10 +237,9 @@ TEST(profiles_are_printed)
                              "--profiles p.tsv --plot-size 85mm --plot-script p.gp"),
                      66);
     assert_int_equal(shell("grep -q '^# profiles over flops, 1 problems' p.tsv"), 0);
-    assert_int_equal(
-        shell("grep -q 'width=.321. height=.321.' p.svg && gnuplot -d p.gp | "
-              "cmp - p.svg"),
-        0);
+    assert_int_equal(shell("grep -q 'width=.321. height=.321.' p.svg && gnuplot -d p.gp | "
+                           "cmp - p.svg"),
+                     0);
 }
 
 /* In units in which W is 1e4 times as large, (13) with rho = 1 is content after one
@@ -274,10 +260,8 @@ TEST(the_chosen_measure_decides)
         json_t *root = json_loads(out, 0, NULL);
         const json_t *run = json_array_get(json_object_get(root, "runs"), 0);
         CHECK_ABS(number_in(run, "iterations"), k == 0 ? 3.0 : 1.0, 0.0, "%s", sweeps[k]);
-        assert_string_equal(json_string_value(json_object_get(root, "measure")),
-                            sweeps[k]);
-        assert_string_equal(json_string_value(json_object_get(root, "cost")),
-                            "iterations");
+        assert_string_equal(json_string_value(json_object_get(root, "measure")), sweeps[k]);
+        assert_string_equal(json_string_value(json_object_get(root, "cost")), "iterations");
         json_decref(root);
     }
     check_refused("compare stiff --measure flops", 64, "--measure: expected scaled or");

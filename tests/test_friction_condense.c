@@ -122,8 +122,7 @@ TEST(bodies_that_meet_anywhere_are_condensed)
                 if (j == M)
                     CHECK_ABS(local.q[i], want, 1e-12, "trial %d, q(%d)", trial, i);
                 else
-                    CHECK_ABS(W[i + j * M], want, 1e-12, "trial %d, W(%d, %d)", trial, i,
-                              j);
+                    CHECK_ABS(W[i + j * M], want, 1e-12, "trial %d, W(%d, %d)", trial, i, j);
             }
         for (int c = 0; c < NC; c++)
             CHECK_ABS(local.mu[c], p.mu[c], 0.0, "mu(%d)", c);

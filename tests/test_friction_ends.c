@@ -176,8 +176,7 @@ TEST(options_that_are_none_are_refused)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         CHECK_STATUS(solve("nsgs-ac", &p, &bad[k], &info), RB_EINVAL);
         assert_non_null(strstr(info.msg.text, "max_iters ="));
-        CHECK_STATUS(rb_friction_handle_solve(handle, NULL, &bad[k], &at, NULL),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_friction_handle_solve(handle, NULL, &bad[k], &at, NULL), RB_EINVAL);
     }
     CHECK_STATUS(solve("lemke", &p, NULL, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "in 2D only"));
@@ -206,17 +205,14 @@ TEST(a_handle_keeps_its_last_solution)
         CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
                      RB_MAXITER); /* which is no solution to start from */
         opt.max_iters = 0;
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
-                     RB_OK);
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
         const int cold = info.iters;
         assert_true(cold > 1);
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
-                     RB_OK);
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
         assert_int_equal(info.iters, 0);
         opt.r0 = zero;
         opt.v0 = zero;
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
-                     RB_OK);
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
         assert_int_equal(info.iters, cold);
         rb_friction_handle_free(handle);
     }
@@ -256,9 +252,8 @@ typedef enum { NO_P, NO_I, NO_X, NO_ROWS, NO_COLS, INFINITE, DEFECTS } defect;
 
 TEST(damaged_matrices_are_named)
 {
-    static const char *const words[DEFECTS] = {"H is missing", "H is missing",
-                                               "H is missing", "H is 11 x 12",
-                                               "H is 12 x 11", "H: entry 1 is inf"};
+    static const char *const words[DEFECTS] = {"H is missing", "H is missing", "H is missing",
+                                               "H is 11 x 12", "H is 12 x 11", "H: entry 1 is inf"};
     for (defect k = 0; k < DEFECTS; k++) {
         OWNED(rb_friction_problem) p;
         rb_message why = {""};
@@ -407,8 +402,7 @@ TEST(cones_that_are_none_are_refused)
 static double cone_matrix[9] = {3.0, 0.5, 0.2, 0.5, 2.0, 0.1, 0.2, 0.1, 1.0};
 static double cone_q[3] = {-1.0, 0.7, -0.3};
 static int cone_sizes[2] = {2, 1};
-static const rb_friction_soclcp_problem on_cones = {3, cone_matrix, cone_q, 2,
-                                                    cone_sizes};
+static const rb_friction_soclcp_problem on_cones = {3, cone_matrix, cone_q, 2, cone_sizes};
 
 /* ||x - P(x - y)|| / ||q||, whatever the unit of both; absolute where q = 0. */
 TEST(the_error_on_cones_is_relative)
@@ -435,8 +429,8 @@ TEST(the_error_on_cones_is_relative)
             far_q[i] = unit * cone_q[i];
         }
         const rb_friction_soclcp_problem far = {3, cone_matrix, far_q, 2, cone_sizes};
-        CHECK_REL(rb_friction_soclcp_error(&far, far_x, y),
-                  sqrt(square / (1.0 + 0.49 + 0.09)), 1e-12, "times %g", unit);
+        CHECK_REL(rb_friction_soclcp_error(&far, far_x, y), sqrt(square / (1.0 + 0.49 + 0.09)),
+                  1e-12, "times %g", unit);
     }
     const double none[3] = {0.0};
     const rb_friction_soclcp_problem at_rest = {3, cone_matrix, none, 2, cone_sizes};
@@ -514,10 +508,8 @@ TEST(what_does_not_roll_is_refused)
         p.H.cols -= k == 3;
         p.H.rows -= k == 4;
         p.K.cols -= k == 5;
-        CHECK_STATUS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &why),
-                     RB_EINVAL);
-        assert_non_null(
-            strstr(why.text, k < 6 ? "five columns of H" : "mu_r of contact"));
+        CHECK_STATUS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, k < 6 ? "five columns of H" : "mu_r of contact"));
         rb_friction_problem_free(&whole);
     }
 }
@@ -566,9 +558,9 @@ TEST(contacts_without_tangential_compliance_slip)
         rb_friction_info info;
         double r[2 * NC], u[2 * NC];
         make_loose(&p);
-        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
-                                       &(rb_friction_solution){r, u, NULL}, &info),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+            RB_OK);
         for (int c = 0; c < NC; c++) {
             const double rn = fmax(0.0, -p.q[2 * c] / 2.0);
             CHECK_ABS(r[2 * c], rn, 1e-7, "%s, r_N of %d", names[k], c);
@@ -579,9 +571,9 @@ TEST(contacts_without_tangential_compliance_slip)
         memset(p.W, 0, 4 * NC * NC * sizeof *p.W); /* nothing can be pushed: all open */
         for (int c = 0; c < NC; c++)
             p.q[2 * c] = 1.0 + c;
-        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
-                                       &(rb_friction_solution){r, u, NULL}, &info),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+            RB_OK);
         CHECK_ABS(rb_norm_inf(2 * NC, r), 0.0, 0.0, "%s, W = 0", names[k]);
     }
 }
@@ -595,8 +587,8 @@ static rb_status use_handle(void *context)
     rb_status s = rb_friction_setup(context, &handle, NULL);
     if (s != RB_OK)
         return s;
-    s = rb_friction_handle_solve(handle, "nsgs-aa", NULL,
-                                 &(rb_friction_solution){r, u, NULL}, NULL);
+    s = rb_friction_handle_solve(handle, "nsgs-aa", NULL, &(rb_friction_solution){r, u, NULL},
+                                 NULL);
     if (s == RB_OK)
         s = rb_friction_update(handle, NULL);
     rb_friction_handle_free(handle);

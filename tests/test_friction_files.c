@@ -22,8 +22,7 @@ static const char half[] = "2 1 0 2 2 2 2\n4 0 0 3\n-5 -6\n0.5\n";
 static const char global[] = "2 1 0 3 3 3 3\n2 0 0 0 3 0 0 0 4\n0 3 2 3 2\n1 0 5 0 1 0\n"
                              "7 8 9\n0.1 0.2\n0.3\n";
 /* As many motions as rows of contacts: its head is that of a local problem too. */
-static const char two_ways[] =
-    "2 1 0 2 2 2 2\n2 0 0 4\n0 2 2 2 2\n1 0 0 5\n7 8\n0.1 0.2\n0.3\n";
+static const char two_ways[] = "2 1 0 2 2 2 2\n2 0 0 4\n0 2 2 2 2\n1 0 0 5\n7 8\n0.1 0.2\n0.3\n";
 /* n, cones; M; q; where the cones start; slopes. */
 static const char cones[] = "4 2 0 4 4 4 4\n"
                             "8 1 2 4 1 6 3 5 2 3 9 7 4 5 7 10\n-1 -2 -3 -4\n0 3 4\n2 5\n";
@@ -65,8 +64,7 @@ TEST(global_problems_come_from_text)
 {
     for (int named = 0; named < 2; named++) {
         OWNED(rb_friction_problem) p;
-        read_whole(global, named ? RB_FRICTION_FILE_SICONOS_GLOBAL : RB_FRICTION_FILE_ANY,
-                   &p);
+        read_whole(global, named ? RB_FRICTION_FILE_SICONOS_GLOBAL : RB_FRICTION_FILE_ANY, &p);
         assert_int_equal(p.form, RB_FRICTION_GLOBAL);
         assert_int_equal(p.dofs, 3);
         for (int k = 0; k < 3; k++) {
@@ -100,8 +98,7 @@ TEST(a_head_of_both_forms_is_followed_to_the_end)
     put(text);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_EFORMAT);
     snprintf(wanted, sizeof wanted,
-             "%s:5: after the last number: expected an integer from 0 to 1, got '99'",
-             path);
+             "%s:5: after the last number: expected an integer from 0 to 1, got '99'", path);
     assert_string_equal(why.text, wanted);
 }
 
@@ -125,9 +122,8 @@ TEST(cones_get_the_slope_one)
     for (int j = 0; j < 4; j++) {
         CHECK_ABS(d.problem.q[j], (-1.0 - j) / (j ? 1.0 : 2.0), 0.0, "q[%d]", j);
         for (int i = 0; i < 4; i++)
-            CHECK_ABS(d.problem.M[i + 4 * j],
-                      M[i + 4 * j] / ((i ? 1.0 : 2.0) * (j ? 1.0 : 2.0)), 0.0,
-                      "M(%d, %d)", i, j);
+            CHECK_ABS(d.problem.M[i + 4 * j], M[i + 4 * j] / ((i ? 1.0 : 2.0) * (j ? 1.0 : 2.0)),
+                      0.0, "M(%d, %d)", i, j);
     }
     rb_friction_soclcp_data_free(NULL);
 }
@@ -138,17 +134,16 @@ TEST(what_is_no_friction_problem_is_refused)
         const char *text;
         rb_friction_file kind;
         const char *words;
-    } all[] = {{cones, RB_FRICTION_FILE_SICONOS_SOCLCP,
-                "a problem on cones, not one of friction"},
-               {cones, RB_FRICTION_FILE_ANY, "a problem on cones, not one of friction"},
-               {"2 0 2 2 2 2 1 3 3 2 5 6", RB_FRICTION_FILE_ANY, "see 'rollbem lcp'"},
-               {"2 1 0 2 2 2 2 4 1 2 3 -5 -6 -0.5", RB_FRICTION_FILE_ANY,
-                "mu of contact 1 is -0.5"},
-               {"2 1 0 3 3 3 3 2 0 0 1 3 0 0 0 4 0 3 2 3 2 1 0 5 0 1 0 7 8 9 0 0 0.3",
-                RB_FRICTION_FILE_ANY, "K is not symmetric"},
-               {"2 1 0 2 2 2 2 4 1 2", RB_FRICTION_FILE_SICONOS, ""},
-               {full, RB_FRICTION_FILE_FCLIB, ""},
-               {"nothing", RB_FRICTION_FILE_ANY, ""}};
+    } all[] = {
+        {cones, RB_FRICTION_FILE_SICONOS_SOCLCP, "a problem on cones, not one of friction"},
+        {cones, RB_FRICTION_FILE_ANY, "a problem on cones, not one of friction"},
+        {"2 0 2 2 2 2 1 3 3 2 5 6", RB_FRICTION_FILE_ANY, "see 'rollbem lcp'"},
+        {"2 1 0 2 2 2 2 4 1 2 3 -5 -6 -0.5", RB_FRICTION_FILE_ANY, "mu of contact 1 is -0.5"},
+        {"2 1 0 3 3 3 3 2 0 0 1 3 0 0 0 4 0 3 2 3 2 1 0 5 0 1 0 7 8 9 0 0 0.3",
+         RB_FRICTION_FILE_ANY, "K is not symmetric"},
+        {"2 1 0 2 2 2 2 4 1 2", RB_FRICTION_FILE_SICONOS, ""},
+        {full, RB_FRICTION_FILE_FCLIB, ""},
+        {"nothing", RB_FRICTION_FILE_ANY, ""}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_friction_problem p;
         rb_message why = {""};
@@ -195,8 +190,7 @@ TEST(problems_go_into_fclib_and_come_back)
         const int solved = k / 3;
         read_whole(texts[k % 3], RB_FRICTION_FILE_ANY, &p);
         const int is_global = p.form == RB_FRICTION_GLOBAL;
-        CHECK_STATUS(rb_friction_write(path, &p, solved ? &at : NULL, "title", &why),
-                     RB_OK);
+        CHECK_STATUS(rb_friction_write(path, &p, solved ? &at : NULL, "title", &why), RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &file, &why), RB_OK);
         assert_int_equal(file.global, is_global);
         check_vector("r", 2, file.r, solved ? r : NULL);

@@ -47,8 +47,7 @@ static rb_status run(const char *solver, const rb_friction_problem *p, double *r
  * 1.1 times those of its first member where that needs no more than its first turn. */
 static void compare(const char *name, const rb_friction_problem *p, double most)
 {
-    static const char *const members[] = {"nsgs-aa", "nsgs-ac", "nsn-ac", "nsn-fb",
-                                          "admm"};
+    static const char *const members[] = {"nsgs-aa", "nsgs-ac", "nsn-ac", "nsn-fb", "admm"};
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 1), best = INFINITY;
     rb_friction_info info, first = {0};
@@ -141,8 +140,8 @@ TEST(auto_on_the_packings_it_lost_on)
  * takes less time than solving. */
 TEST(global_packings_condense_to_the_local_ones)
 {
-    static const char *const packings[] = {"boxes 30 0.5 3", "discs 60 0.5 3",
-                                           "bricks 20 0.6 3", "spheres 360 0.7 9"};
+    static const char *const packings[] = {"boxes 30 0.5 3", "discs 60 0.5 3", "bricks 20 0.6 3",
+                                           "spheres 360 0.7 9"};
     for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
         rb_friction_problem local, global, p = {0};
         rb_friction_info info;
@@ -170,8 +169,8 @@ TEST(global_packings_condense_to_the_local_ones)
                 while (l < local.Ws.p[j + 1] && local.Ws.i[l] < p.Ws.i[i])
                     CHECK_ABS(local.Ws.x[l++], 0.0, 1e-15, "left out of column %d", j);
                 const int there = l < local.Ws.p[j + 1] && local.Ws.i[l] == p.Ws.i[i];
-                CHECK_ABS(p.Ws.x[i], there ? local.Ws.x[l++] : 0.0, 1e-14, "W(%d, %d)",
-                          p.Ws.i[i], j);
+                CHECK_ABS(p.Ws.x[i], there ? local.Ws.x[l++] : 0.0, 1e-14, "W(%d, %d)", p.Ws.i[i],
+                          j);
             }
             CHECK_ABS(p.q[j], local.q[j], 1e-14, "q[%d]", j);
         }
@@ -216,8 +215,7 @@ TEST(lemke_solves_redundant_contacts)
         SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
         CHECK_STATUS(run("lemke", &p, r, &info), RB_OK);
         CHECK_MAX(violation(&p, r), 1e-11, "%s", cases[k].packing);
-        CHECK_MAX(info.iters, cases[k].pivots * p.contacts, "%s: pivots",
-                  cases[k].packing);
+        CHECK_MAX(info.iters, cases[k].pivots * p.contacts, "%s: pivots", cases[k].packing);
     }
 }
 
@@ -230,8 +228,7 @@ TEST(lemke_ends_in_time)
     rb_friction_options opt = rb_friction_defaults();
     opt.seconds = 1e-3;
     CHECK_STATUS(rb_friction_solve("lemke", &p, &opt,
-                                   &(rb_friction_solution){r, r + 2 * p.contacts, NULL},
-                                   &info),
+                                   &(rb_friction_solution){r, r + 2 * p.contacts, NULL}, &info),
                  RB_INTERRUPTED);
     CHECK_MAX(info.seconds, 0.1, "a pivot takes no longer");
 }
@@ -254,8 +251,7 @@ TEST(the_winner_hands_over_all_it_has)
         const int global = p.form == RB_FRICTION_GLOBAL;
         double *r = rb_alloc((size_t)(2 * m + 2 * n + 1), 1), *u = r + m, *v = u + m;
         CHECK_STATUS(rb_friction_solve("auto", &p, NULL,
-                                       &(rb_friction_solution){r, u, global ? v : NULL},
-                                       &info),
+                                       &(rb_friction_solution){r, u, global ? v : NULL}, &info),
                      RB_OK);
         assert_string_equal(info.solver, cases[k].winner);
         if (global) {
@@ -264,8 +260,7 @@ TEST(the_winner_hands_over_all_it_has)
             rb_sparse_apply(1.0, &p.H, r, 1.0, rest);
             const double size = rb_norm_inf((size_t)n, rest);
             rb_sparse_apply(-1.0, &p.K, v, 1.0, rest);
-            CHECK_MAX(rb_norm_inf((size_t)n, rest), 1e-12 * size, "forces of case %d",
-                      (int)k);
+            CHECK_MAX(rb_norm_inf((size_t)n, rest), 1e-12 * size, "forces of case %d", (int)k);
             CHECK_STATUS(rb_friction_condense(&p, &condensed, &why), RB_OK);
         }
         const rb_friction_problem *local = global ? &condensed : &p;
@@ -321,16 +316,14 @@ TEST(the_caller_hears_and_may_stop)
     for (int k = 0; k < count; k++) {
         l = (listener){0, -1};
         opt.max_iters = 100;
-        rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL},
-                          &info);
+        rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL}, &info);
         if (!l.calls)
             print_error("%s tells nothing\n", all[k].name);
         assert_true(l.calls > 0);
     }
     l = (listener){0, 2};
-    CHECK_STATUS(
-        rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_INTERRUPTED);
+    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_INTERRUPTED);
     assert_int_equal(l.calls, 2);
     free(r);
 }

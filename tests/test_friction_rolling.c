@@ -88,8 +88,7 @@ static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
         rb_triplets_add(&M, i, i, m);
         p->f[i] = m * s->v[i] * (turns ? 1.0 : unit);
         for (int k = 0; k < s->rows; k++) /* slip: arms are lengths; turns: rates */
-            H[i + k * s->dofs] =
-                s->H[i + k * s->dofs] * (turns && k % 5 < 3 ? unit : 1.0);
+            H[i + k * s->dofs] = s->H[i + k * s->dofs] * (turns && k % 5 < 3 ? unit : 1.0);
     }
     for (int c = 0; c < s->contacts; c++)
         p->mu[c] = s->mu, p->mu_r[c] = unit * s->mu_r;
@@ -118,17 +117,15 @@ static double violation(const row_of_balls *s, const double *r)
         worst = fmax(worst, fmax(-F[0], fmax(-V[0], fabs(F[0] * V[0]))));
         worst = fmax(worst, hypot(F[1], F[2]) - s->mu * F[0]);
         worst = fmax(worst, hypot(F[3], F[4]) - s->mu_r * F[0]);
-        worst = fmax(worst,
-                     fabs(s->mu * F[0] * hypot(V[1], V[2]) + F[1] * V[1] + F[2] * V[2]));
-        worst = fmax(
-            worst, fabs(s->mu_r * F[0] * hypot(V[3], V[4]) + F[3] * V[3] + F[4] * V[4]));
+        worst = fmax(worst, fabs(s->mu * F[0] * hypot(V[1], V[2]) + F[1] * V[1] + F[2] * V[2]));
+        worst = fmax(worst, fabs(s->mu_r * F[0] * hypot(V[3], V[4]) + F[3] * V[3] + F[4] * V[4]));
     }
     return worst;
 }
 
 /* Through a file, solved, as five entries per contact. */
-static rb_status solve_row(const row_of_balls *s, double unit, const char *solver,
-                           double *r, double *u)
+static rb_status solve_row(const row_of_balls *s, double unit, const char *solver, double *r,
+                           double *u)
 {
     OWNED(rb_io_fclib) file;
     OWNED(rb_friction_problem) p;
@@ -153,9 +150,8 @@ TEST(rows_of_balls_obey_both_laws)
     static const struct {
         int balls;
         double mu, mu_r;
-    } cases[] = {{1, 0.5, 0.05}, {1, 0.5, 0.5}, {2, 0.3, 0.02},
-                 {3, 0.5, 0.05}, {5, 0.8, 0.2}, {8, 0.3, 0.01},
-                 {12, 0.5, 0.1}, {4, 0.0, 0.1}, {4, 0.5, 0.0}};
+    } cases[] = {{1, 0.5, 0.05}, {1, 0.5, 0.5},  {2, 0.3, 0.02}, {3, 0.5, 0.05}, {5, 0.8, 0.2},
+                 {8, 0.3, 0.01}, {12, 0.5, 0.1}, {4, 0.0, 0.1},  {4, 0.5, 0.0}};
     static double r[6 * CONTACTS], u[6 * CONTACTS];
     unsigned random = 8;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
@@ -163,8 +159,7 @@ TEST(rows_of_balls_obey_both_laws)
             row_of_balls s;
             make_row(cases[k].balls, cases[k].mu, cases[k].mu_r, seed, &s);
             CHECK_STATUS(solve_row(&s, 1.0, "auto", r, u), RB_OK);
-            CHECK_MAX(violation(&s, r), 1e-7, "%d balls, mu %g, mu_r %g", s.balls, s.mu,
-                      s.mu_r);
+            CHECK_MAX(violation(&s, r), 1e-7, "%d balls, mu %g, mu_r %g", s.balls, s.mu, s.mu_r);
             for (int i = 0; i < s.rows; i++)
                 s.w[i] = 0.2 * uniform_from(&random);
             CHECK_STATUS(solve_row(&s, 2.0, "auto", r, u), RB_OK);
@@ -243,15 +238,13 @@ TEST(constraints_go_with_rolling_friction)
     file.b = rb_alloc(3, 1);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){
-                .rows = 6, .cols = 3, .nz = 3, .row = turns, .col = each, .x = one},
+            &(rb_triplets){.rows = 6, .cols = 3, .nz = 3, .row = turns, .col = each, .x = one},
             &file.G),
         RB_OK);
     CHECK_STATUS(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &why), RB_OK);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
-    CHECK_STATUS(
-        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+                 RB_OK);
     rb_friction_unite_rolling(&p, r, u, r, u);
     CHECK_ABS(fabs(r[1]), 0.1, 1e-7, "it slides");
     CHECK_ABS(hypot(u[3], u[4]), 0.0, 1e-9, "and does not turn");
@@ -262,8 +255,7 @@ TEST(constraints_go_with_rolling_friction)
  * is what the united one does. */
 TEST(united_entries_do_the_same_work)
 {
-    const double r[6] = {3.0, 0.5, -0.7, 3.0, 0.2, 0.9},
-                 u[6] = {0.4, -1.0, 2.0, -0.3, 5.0, 0.25};
+    const double r[6] = {3.0, 0.5, -0.7, 3.0, 0.2, 0.9}, u[6] = {0.4, -1.0, 2.0, -0.3, 5.0, 0.25};
     double force[5], velocity[5], length[1] = {0.8}, apart = 0.0, together = 0.0;
     rb_friction_problem p = {.contacts = 2, .dimension = 3, .lengths = length};
     rb_friction_unite_rolling(&p, r, u, force, velocity);

@@ -63,23 +63,21 @@ TEST(every_solver_obeys_coulomb)
             double r[180], u[180], reference[180];
             chain(d, 60, &p);
             CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL,
-                                           &(rb_friction_solution){reference, u, NULL},
-                                           &info),
+                                           &(rb_friction_solution){reference, u, NULL}, &info),
                          RB_OK);
             if (k % 2) {
                 const int m = 60 * d;
                 CHECK_STATUS(rb_sparse_from_dense(m, m, p.W, m, &p.Ws), RB_OK);
                 p.form = RB_FRICTION_LOCAL_SPARSE;
             }
-            const rb_status s = rb_friction_solve(
-                all[k].name, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info);
+            const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
+                                                  &(rb_friction_solution){r, u, NULL}, &info);
             if (s != RB_OK)
                 print_error("%s in %dD: %s\n", all[k].name, d, rb_status_text(s));
             CHECK_STATUS(s, RB_OK);
             CHECK_MAX(violation(&p, r, u), 1e-6, "%s in %dD", all[k].name, d);
             for (int i = 0; i < 60 * d; i++)
-                CHECK_ABS(r[i], reference[i], 1e-6, "%s in %dD, r[%d]", all[k].name, d,
-                          i);
+                CHECK_ABS(r[i], reference[i], 1e-6, "%s in %dD, r[%d]", all[k].name, d, i);
             assert_true(info.flops > 0.0 && info.seconds > 0.0);
         }
 }
@@ -96,15 +94,13 @@ static void a_loose_block(rb_friction_problem *p)
                                .mu = rb_alloc(1, 1),
                                .f = rb_alloc(2, 1),
                                .w = rb_alloc(2, 1)};
-    CHECK_STATUS(rb_sparse_from_triplets(
-                     &(rb_triplets){
-                         .rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = zero},
-                     &p->K),
-                 RB_OK);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = one},
-            &p->H),
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = zero}, &p->K),
+        RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = one}, &p->H),
         RB_OK);
     p->mu[0] = 0.5, p->f[0] = -2.0, p->f[1] = 0.7;
 }
@@ -118,8 +114,8 @@ TEST(solvers_without_need_of_w_take_a_singular_k)
         rb_friction_info info;
         double r[2], u[2], v[2];
         a_loose_block(&p);
-        const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
-                                              &(rb_friction_solution){r, u, v}, &info);
+        const rb_status s =
+            rb_friction_solve(all[k].name, &p, NULL, &(rb_friction_solution){r, u, v}, &info);
         if (all[k].needs & RB_FRICTION_NEEDS_W) {
             CHECK_STATUS(s, RB_SINGULAR);
             assert_non_null(strstr(info.msg.text, "nullity 2"));
@@ -148,8 +144,8 @@ TEST(what_has_no_solution_is_not_solved)
         double r[2], u[2], v[2];
         a_loose_block(&p);
         p.f[1] = 1.5;
-        const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
-                                              &(rb_friction_solution){r, u, v}, &info);
+        const rb_status s =
+            rb_friction_solve(all[k].name, &p, NULL, &(rb_friction_solution){r, u, v}, &info);
         if (s <= 0)
             print_error("%s: %s\n", all[k].name, rb_status_text(s));
         assert_true(s > 0);
@@ -169,8 +165,7 @@ TEST(the_iteration_limit_is_that_of_the_whole_call)
             opt.tol = 1e-14;
             opt.max_iters = most;
             chain(2, 60, &p);
-            rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL},
-                              &info);
+            rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL}, &info);
             CHECK_MAX(info.iters, most, "%s with --max-iters %d", all[k].name, most);
         }
 }
@@ -183,12 +178,11 @@ TEST(info_may_be_null)
     double r[20], u[20];
     chain(2, 10, &p);
     for (int k = 0; k < count; k++)
-        CHECK_STATUS(rb_friction_solve(all[k].name, &p, NULL,
-                                       &(rb_friction_solution){r, u, NULL}, NULL),
-                     RB_OK);
-    CHECK_STATUS(
-        rb_friction_solve("none", &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
-        RB_EINVAL);
+        CHECK_STATUS(
+            rb_friction_solve(all[k].name, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+            RB_OK);
+    CHECK_STATUS(rb_friction_solve("none", &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+                 RB_EINVAL);
     CHECK_MAX(violation(&p, r, u), 1e-6, "without info");
     const double M[] = {2.0}, q[] = {-1.0};
     const int one[] = {1};
@@ -299,8 +293,8 @@ TEST(failing_allocations_are_reported)
         int count = 0;
         for (rb_status s = RB_ENOMEM; s != RB_OK && count < 300; count++) {
             alloc_fail_after(count);
-            s = rb_friction_solve(all[k].name, &p, NULL,
-                                  &(rb_friction_solution){r, u, NULL}, &info);
+            s = rb_friction_solve(all[k].name, &p, NULL, &(rb_friction_solution){r, u, NULL},
+                                  &info);
             const int refused = alloc_failed();
             alloc_succeed();
             assert_true(s == RB_OK || refused);
@@ -322,9 +316,8 @@ static void solve_outside(const char *file)
     if (s != RB_OK)
         print_error("%s\n", why.text);
     CHECK_STATUS(s, RB_OK);
-    CHECK_STATUS(
-        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-        RB_OK);
+    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+                 RB_OK);
     CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error), RB_OK);
     CHECK_MAX(error.residual, 1e-8, "%s", file);
 }
@@ -360,9 +353,9 @@ TEST(the_soclcp_file_is_solved)
     rb_friction_info info;
     rb_message why = {""};
     double x[9], y[9];
-    CHECK_STATUS(rb_friction_soclcp_read(
-                     outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &d, &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_friction_soclcp_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &d, &why),
+        RB_OK);
     CHECK_STATUS(rb_friction_soclcp(&d.problem, NULL, x, y, &info), RB_OK);
     for (int i = 0; i < 9; i++)
         CHECK_ABS(x[i] / (i % 3 ? 1.0 : d.tau[i / 3]), want[i % 3], 1e-6, "x[%d]", i);
@@ -372,16 +365,14 @@ TEST(other_text_files_are_refused)
 {
     rb_friction_problem p;
     rb_message why = {""};
-    CHECK_STATUS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &why),
-                 RB_EFORMAT);
+    CHECK_STATUS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &why), RB_EFORMAT);
     assert_non_null(strstr(why.text, "rollbem lcp"));
-    CHECK_STATUS(rb_friction_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"),
-                                  &p, &why),
+    CHECK_STATUS(rb_friction_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &p, &why),
                  RB_EFORMAT);
     CHECK_STATUS(rb_friction_read("/nowhere", &p, &why), RB_ENOENT);
-    CHECK_STATUS(rb_friction_read_as(outside_data("fclib/CubeH8.hdf5"),
-                                     RB_FRICTION_FILE_SICONOS, &p, &why),
-                 RB_EFORMAT);
+    CHECK_STATUS(
+        rb_friction_read_as(outside_data("fclib/CubeH8.hdf5"), RB_FRICTION_FILE_SICONOS, &p, &why),
+        RB_EFORMAT);
 }
 
 /* ---- Profiles ---------------------------------------------------------------------- */
@@ -413,9 +404,8 @@ TEST(the_documentation_lists_every_solver)
     assert_non_null(at);
     for (int k = 0; k < count; k++) {
         char line[300];
-        snprintf(line, sizeof line, "\n| `%s` | %s | %s%s |\n", all[k].name,
-                 all[k].method, all[k].summary,
-                 all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
+        snprintf(line, sizeof line, "\n| `%s` | %s | %s%s |\n", all[k].name, all[k].method,
+                 all[k].summary, all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
         at = strstr(at, line);
         if (!at)
             fail_msg("docs/friction.md has no line, in its place, '%s'", line + 1);

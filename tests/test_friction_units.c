@@ -100,8 +100,7 @@ TEST(the_scaled_measure_sees_no_units)
             r[i] *= 1e9;
         CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &again), RB_OK);
         CHECK_REL(again.scaled, first.scaled, 1e-12, "in other units");
-        assert_true(again.residual >
-                    10.0 * first.scaled); /* (13) adds forces to velocities */
+        assert_true(again.residual > 10.0 * first.scaled); /* (13) adds forces to velocities */
     }
 }
 
@@ -118,9 +117,7 @@ static outcome solved(const char *solver, rb_friction_problem *p, double tol)
     rb_friction_info info;
     opt.tol = tol;
     opt.max_iters = 2000;
-    outcome o = {
-        rb_friction_solve(solver, p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
-        0};
+    outcome o = {rb_friction_solve(solver, p, &opt, &(rb_friction_solution){r, u, NULL}, &info), 0};
     o.iters = info.iters;
     return o;
 }
@@ -144,8 +141,7 @@ static void same_in_other_units(const char *name, rb_friction_problem *p, double
                 print_error("%s, %s: %s, in other units %s\n", name, all[k].name,
                             rb_status_text(first.status), rb_status_text(o.status));
             CHECK_STATUS(o.status, first.status);
-            CHECK_ABS(o.iters, first.iters, most, "%s, %s, units %d", name, all[k].name,
-                      i);
+            CHECK_ABS(o.iters, first.iters, most, "%s, %s, units %d", name, all[k].name, i);
         }
     }
 }
@@ -162,18 +158,17 @@ TEST(every_solver_in_other_units)
 
 TEST(every_solver_on_files_in_other_units)
 {
-    static const char *const files[] = {
-        "siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat",
-        "siconos/fc2d/FrictionContactProblem00394.dat",
-        "siconos/fc2d/FrictionContactProblem00031.dat",
-        "siconos/fc3d/FC3D_Example1_SBM.dat",
-        "siconos/fc3d/FrictionContact3D_1c.dat",
-        "siconos/fc3d/Rover11035.dat",
-        "siconos/fc3d/Rover1039.dat",
-        "siconos/fc3d/NESpheres_10_1.dat",
-        "siconos/fc3d/OneObject-i100000-499.hdf5.dat",
-        "fclib/CubeH8.hdf5",
-        "packings/scale_small.dat"};
+    static const char *const files[] = {"siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat",
+                                        "siconos/fc2d/FrictionContactProblem00394.dat",
+                                        "siconos/fc2d/FrictionContactProblem00031.dat",
+                                        "siconos/fc3d/FC3D_Example1_SBM.dat",
+                                        "siconos/fc3d/FrictionContact3D_1c.dat",
+                                        "siconos/fc3d/Rover11035.dat",
+                                        "siconos/fc3d/Rover1039.dat",
+                                        "siconos/fc3d/NESpheres_10_1.dat",
+                                        "siconos/fc3d/OneObject-i100000-499.hdf5.dat",
+                                        "fclib/CubeH8.hdf5",
+                                        "packings/scale_small.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         OWNED(rb_friction_problem) p;
         rb_message why = {""};
@@ -187,12 +182,8 @@ TEST(a_light_touch_is_solved_at_once)
 {
     double W[] = {1e-9, 3e-10, 0.0, 3e-10, 1e-9, 1e-10, 0.0, 1e-10, 1e-9};
     double q[] = {-1e-3, 5e-3, 0.0}, mu[] = {0.5};
-    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
-                             .dimension = 3,
-                             .contacts = 1,
-                             .W = W,
-                             .q = q,
-                             .mu = mu};
+    rb_friction_problem p = {
+        .form = RB_FRICTION_LOCAL_DENSE, .dimension = 3, .contacts = 1, .W = W, .q = q, .mu = mu};
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     for (int k = 0; k < count; k++) {
@@ -259,8 +250,7 @@ TEST(the_measure_of_acary_decides_where_asked)
                     continue;
                 opt.tol = 1e-5;
                 opt.measure = acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
-                const rb_status got =
-                    rb_friction_solve(solvers[s].name, &p, &opt, &at, &info);
+                const rb_status got = rb_friction_solve(solvers[s].name, &p, &opt, &at, &info);
                 if (s == 0)
                     CHECK_STATUS(got, RB_OK);
                 if (got != RB_OK)
@@ -268,10 +258,9 @@ TEST(the_measure_of_acary_decides_where_asked)
                 CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &again), RB_OK);
                 CHECK_REL(info.residual, again.residual, 1e-9, "%s", solvers[s].name);
                 CHECK_REL(info.scaled, again.scaled, 1e-9, "%s", solvers[s].name);
-                CHECK_MAX(acary ? info.residual : info.scaled, opt.tol, "%s, %s",
-                          solvers[s].name, acary ? "(13)" : "scaled");
-                assert_int_equal(rb_friction_note(opt.tol, &info, &note),
-                                 info.residual > opt.tol);
+                CHECK_MAX(acary ? info.residual : info.scaled, opt.tol, "%s, %s", solvers[s].name,
+                          acary ? "(13)" : "scaled");
+                assert_int_equal(rb_friction_note(opt.tol, &info, &note), info.residual > opt.tol);
                 assert_int_equal(note.text[0] != '\0', info.residual > opt.tol);
                 notes += note.text[0] != '\0';
             }

@@ -122,11 +122,11 @@ int main(void)
     if (!getcwd(here, sizeof here) || fuzz_begin() != 0)
         return 1;
     snprintf(corpus, sizeof corpus, "%s/tests/fuzz", here);
-    at_hand = mmap(NULL, sizeof *at_hand, PROT_READ | PROT_WRITE,
-                   MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    at_hand =
+        mmap(NULL, sizeof *at_hand, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     for (const fuzz_target *t = fuzz_targets; t->run; t++)
-        tests[n++] = (struct CMUnitTest){t->name, every_file_is_taken_or_refused, NULL,
-                                         NULL, (void *)t};
+        tests[n++] =
+            (struct CMUnitTest){t->name, every_file_is_taken_or_refused, NULL, NULL, (void *)t};
     failed = _cmocka_run_group_tests("fuzz", tests, (size_t)n, NULL, NULL);
     fuzz_end();
     return failed;

@@ -75,8 +75,7 @@ static double poisson(void)
 /* Thin rims have thousands of elements: seconds each, which make test has not. */
 static double hub_ratio(void)
 {
-    const double thick = between(0.05, 0.9),
-                 thin = choice(2) ? 0.995 : between(0.9, 0.995);
+    const double thick = between(0.05, 0.9), thin = choice(2) ? 0.995 : between(0.9, 0.995);
     return choice(3) || !getenv("HOSTILE") ? thick : thin;
 }
 
@@ -98,8 +97,7 @@ static void add_bodies(double radius)
     if (choice(3) == 0)
         add(" --similar");
     else
-        add(" --young-b %.17g --poisson-b %.4g", young * power_of_ten(-6.0, 6.0),
-            poisson());
+        add(" --young-b %.17g --poisson-b %.4g", young * power_of_ten(-6.0, 6.0), poisson());
     if (choice(3) == 0)
         add(" --radius-b %.17g", radius * power_of_ten(-1.0, 3.0));
 }
@@ -111,16 +109,14 @@ static void add_gap(double radius, double a)
         add(choice(3) ? " --gap parabola" : " --gap exact");
         return;
     }
-    const double height = a * a / (2.0 * radius),
-                 noise = height * power_of_ten(-6.0, -2.0);
+    const double height = a * a / (2.0 * radius), noise = height * power_of_ten(-6.0, -2.0);
     const double step = choice(2) ? height * power_of_ten(-4.0, -1.0) : 0.0;
     FILE *file = fopen("gap.txt", "w");
     assert_non_null(file);
     for (int k = -40; k <= 40; k++) {
         const double x = 0.1 * k * a;
         fprintf(file, "%.17g %.17g\n", x,
-                x * x / (2.0 * radius) + (k > 3 ? step : 0.0) +
-                    noise * between(0.0, 1.0));
+                x * x / (2.0 * radius) + (k > 3 ? step : 0.0) + noise * between(0.0, 1.0));
     }
     fclose(file);
     add(" --gap gap.txt");
@@ -171,8 +167,8 @@ static void add_more(double radius, double a, int is_steady)
     if (choice(4) == 0)
         add(" --plane stress");
     if (on_halfplane && is_steady && choice(4) == 0)
-        add(" --relaxation-time 1 --relaxation-ratio %.17g --speed %.17g",
-            power_of_ten(-2.0, 2.0), a * power_of_ten(-3.0, 3.0));
+        add(" --relaxation-time 1 --relaxation-ratio %.17g --speed %.17g", power_of_ten(-2.0, 2.0),
+            a * power_of_ten(-3.0, 3.0));
     if (strstr(line, "--similar") && !strstr(line, "--radius-b") && choice(2))
         add(" --radius-b %.17g", -radius * (1.0 + power_of_ten(-3.0, 1.0)));
 }
@@ -181,8 +177,7 @@ static void make_case(int k)
 {
     static const char *const meshes[] = {"", " --mesh uniform", " --mesh fitted",
                                          " --mesh aligned"};
-    static const char *const solvers[] = {"", "", "", " --solver lemke",
-                                          " --solver newton"};
+    static const char *const solvers[] = {"", "", "", " --solver lemke", " --solver newton"};
     begin_case(k);
     line[0] = '\0';
     const double radius = power_of_ten(-2.0, 4.0);
@@ -194,9 +189,7 @@ static void make_case(int k)
         add(" --half-width %.17g", a);
     else
         add(" --approach %.17g", a * a / radius * between(0.3, 2.0));
-    add(" --mu %.17g", choice(3)   ? power_of_ten(-12.0, 3.0)
-                       : choice(4) ? between(0.05, 0.6)
-                                   : 0.0);
+    add(" --mu %.17g", choice(3) ? power_of_ten(-12.0, 3.0) : choice(4) ? between(0.05, 0.6) : 0.0);
     add(formulation == 0   ? " --formulation static"
         : formulation == 7 ? " --formulation transient --distance 0.3 --steps 3"
                            : " --formulation steady");
@@ -209,8 +202,8 @@ static void make_case(int k)
 /* ---- Judgement --------------------------------------------------------------------- */
 
 enum { SOLVED, REFUSED, BEYOND, UNSOLVED, WRONG, ENDS };
-static const char *const ends[ENDS] = {"right", "refused", "beyond the given gap",
-                                       "not solved", "wrong"};
+static const char *const ends[ENDS] = {"right", "refused", "beyond the given gap", "not solved",
+                                       "wrong"};
 
 enum { REASONS = 60, SECONDS_AIM = 5, SECONDS_TOLD = 20, SECONDS_MAX = 60 };
 static struct {
@@ -225,8 +218,8 @@ static void count_reason(const char *kind, const char *text)
     size_t n = (size_t)snprintf(key, sizeof key, "%s: ", kind);
     int in_number = 0;
     for (; *text && *text != '\n' && n + 2 < sizeof key; text++) {
-        const int digit = (*text >= '0' && *text <= '9') ||
-                          (in_number && strchr(".e+-", *text) != NULL);
+        const int digit =
+            (*text >= '0' && *text <= '9') || (in_number && strchr(".e+-", *text) != NULL);
         if (!digit || !in_number)
             key[n++] = digit ? '#' : *text;
         in_number = digit;
@@ -256,8 +249,8 @@ static int run_case(int k, double *seconds)
     make_case(k);
     /* who runs the tests may allow less already */
     snprintf(command, sizeof command,
-             "(ulimit -t %d) 2>/dev/null && ulimit -t %d; \"$R\"%s --json >json",
-             SECONDS_MAX, SECONDS_MAX, line);
+             "(ulimit -t %d) 2>/dev/null && ulimit -t %d; \"$R\"%s --json >json", SECONDS_MAX,
+             SECONDS_MAX, line);
     const double start = seconds_so_far();
     const int code = shell(command);
     *seconds = seconds_so_far() - start;
@@ -266,15 +259,14 @@ static int run_case(int k, double *seconds)
         return WRONG;
     }
     if (code == 64 || code == 65) {
-        const int one_line = strncmp(err, "rollbem: ", 9) == 0 && strchr(err, '\n') &&
-                             !strchr(err, '\n')[1];
+        const int one_line =
+            strncmp(err, "rollbem: ", 9) == 0 && strchr(err, '\n') && !strchr(err, '\n')[1];
         count_reason("refused", err + 9);
         return one_line ? REFUSED : WRONG;
     }
     if (code == 1) {
         const char *last = strstr(err, "rollbem: ");
-        for (const char *more; last && (more = strstr(last + 9, "rollbem: "));
-             last = more)
+        for (const char *more; last && (more = strstr(last + 9, "rollbem: ")); last = more)
             ;
         /* high friction between unlike bodies widens the contact: such a case has no
          * answer where its table of the gap says nothing any more */
@@ -356,7 +348,6 @@ int main(void)
     if (!getcwd(here, sizeof here))
         return 1;
     snprintf(checker, sizeof checker,
-             build[0] == '/' ? "%.0s%s/tests/checker" : "%s/%s/tests/checker", here,
-             build);
+             build[0] == '/' ? "%.0s%s/tests/checker" : "%s/%s/tests/checker", here, build);
     return run_all_tests(enter_folder, leave_folder);
 }

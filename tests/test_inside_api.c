@@ -41,22 +41,19 @@ TEST(arrays_of_every_name_fit)
     char name[20];
     int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
     for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
-        names +=
-            t->results->n *
-            (strcmp(t->name, "history") == 0 || strcmp(t->name, "curve") == 0 ? 2 : 1);
+        names += t->results->n *
+                 (strcmp(t->name, "history") == 0 || strcmp(t->name, "curve") == 0 ? 2 : 1);
     assert_true(names <= API_ARRAYS);
     for (int k = 0; k < API_ARRAYS; k++) {
         snprintf(name, sizeof name, "a%d", k);
         assert_non_null(rb_api_make_array(a, name, 1, 1));
     }
     assert_null(rb_api_make_array(a, "one more", 1, 1));
-    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
-                     RB_ENOMEM);
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0), RB_ENOMEM);
     rb_api_forget_arrays(a, "a1");
     assert_null(rb_api_find_array(a, "a17"));
     assert_non_null(rb_api_find_array(a, "a27"));
-    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
-                     RB_OK);
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0), RB_OK);
     rb_api_free(a);
 }
 
@@ -74,27 +71,23 @@ TEST(values_from_elsewhere_resolve_a_table)
     rb_option options[] = {{.name = "a", .offset = 0, .excludes = 1},
                            {.name = "b", .offset = sizeof(double), .excludes = 2}};
     int given[] = {RB_GIVEN_ARGUMENT, 3};
-    const rb_option_set set = {
-        .options = options, .n = 2, .target = &target, .given = given};
+    const rb_option_set set = {.options = options, .n = 2, .target = &target, .given = given};
     const rb_option_precedence how = {.defaults = &defaults, .path = "case.ini"};
     rb_option other = {.name = "c", .excludes = 4};
     rb_message why = {""};
 
     options[0].kind = options[1].kind = RB_OPTION_NUMBER;
     CHECK_STATUS(rb_option_resolve(&set, &how, &why), RB_OK);
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_OK);
+    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+                 RB_OK);
     assert_true(target.a == 1.0 && target.b == 2.0);
     other.excludes = 2;
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_OK);
+    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+                 RB_OK);
     assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
     other.excludes = 1;
-    CHECK_STATUS(
-        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+                 RB_EINVAL);
     assert_string_equal(why.text, "--a: no");
 }
 

@@ -36,15 +36,13 @@ TEST(the_strip_is_flamants_on_the_surface)
     double W[4 * 6];
     OWNED(rb_bem_mesh) mesh;
     const rb_strip strip = flat_strip(&mesh);
-    CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 1.0), 1, ends, 6, x, W),
-                 RB_OK);
+    CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 1.0), 1, ends, 6, x, W), RB_OK);
     /* the datum and the rotation-free constant differ: compare with the first point */
     for (int load = 0; load < 2; load++)
         for (int i = 1; i < 6; i++) {
             const double complex f = load ? 1.0 : I;
-            const double complex u =
-                rb_strip_under(rb_strip_displacement(&strip, x[i]), f) -
-                rb_strip_under(rb_strip_displacement(&strip, x[0]), f);
+            const double complex u = rb_strip_under(rb_strip_displacement(&strip, x[i]), f) -
+                                     rb_strip_under(rb_strip_displacement(&strip, x[0]), f);
             const double *column = W + 12 * load;
             CHECK_ABS(cimag(u), column[i] - column[0], 1e-18, "w_N at %g", x[i]);
             CHECK_ABS(creal(u), column[6 + i] - column[6], 1e-18, "w_T at %g", x[i]);
@@ -65,8 +63,7 @@ TEST(its_tractions_are_those_of_the_stress)
         for (int turn = 0; turn < 4; turn++) {
             const double nx = cos(0.3 + turn), ny = sin(0.3 + turn), *s = sigma + 3 * k;
             const double complex t = rb_strip_under(
-                rb_strip_traction(&strip, xy[2 * k] + xy[2 * k + 1] * I, nx + ny * I),
-                q + p * I);
+                rb_strip_traction(&strip, xy[2 * k] + xy[2 * k + 1] * I, nx + ny * I), q + p * I);
             CHECK_ABS(creal(t), s[0] * nx + s[2] * ny, 1e-14, "t_x, point %d", k);
             CHECK_ABS(cimag(t), s[2] * nx + s[1] * ny, 1e-14, "t_y, point %d", k);
         }
@@ -82,8 +79,7 @@ TEST(far_away_it_keeps_its_digits)
     const rb_strip strip = rb_strip_on(&mesh, 0, steel, 1.0);
     const double complex z = 0.3 + 0.4 * I, F = 1e-10 * I;
     const double kappa = 3.0 - 4.0 * steel.poisson;
-    const double complex point =
-        -kappa * F * clog(z) + z * conj(F) / conj(z) - F * conj(clog(z));
+    const double complex point = -kappa * F * clog(z) + z * conj(F) / conj(z) - F * conj(clog(z));
     const double complex want = point / (4.0 * M_PI * steel.shear);
     const double complex got = rb_strip_under(rb_strip_displacement(&strip, z), I);
     CHECK_MAX(cabs(got - want), 1e-14 * cabs(want), "against the force");
@@ -93,8 +89,7 @@ TEST(far_away_it_keeps_its_digits)
  * the tent of the half-plane; the end itself included. */
 TEST(linear_strips_make_a_tent)
 {
-    const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0},
-                 q[] = {0.0, -0.7, 0.0};
+    const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0}, q[] = {0.0, -0.7, 0.0};
     const double xy[] = {0.0, 0.3, 0.1, 0.2, 0.1, 0.0, -1.0, 0.01, 0.3, 0.0, 2.0, 1.0};
     const rb_strip left = rb_strip_between(-0.3, 0.1, steel, 1.0),
                    right = rb_strip_between(0.1, 0.2, steel, 1.0);
@@ -108,8 +103,7 @@ TEST(linear_strips_make_a_tent)
         rb_strip_linear_stress(&left, z, 0.5 * top, top / 0.4, a);
         rb_strip_linear_stress(&right, z, 0.5 * top, -top / 0.1, b);
         for (int i = 0; i < 3; i++)
-            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-10, "point %d, component %d", k,
-                      i);
+            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-10, "point %d, component %d", k, i);
     }
 }
 
@@ -158,8 +152,7 @@ TEST(every_wave_has_its_own_inverse)
 
     for (int i = 0; i <= m; i++)
         ends[i] = i;
-    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL), RB_OK);
     CHECK_STATUS(rb_bem_circulant_create(&f, stencil, stencil, &c), RB_OK);
     assert_true(rb_fourier_make(n + n / 8 + 2, &transform));
     const int size = transform.size;
@@ -171,8 +164,7 @@ TEST(every_wave_has_its_own_inverse)
             one[at] = 1.0;
             for (int i = 0; i < n; i++)
                 answer[i] = NAN;
-            (k ? rb_bem_circulant_apply_difference : rb_bem_circulant_apply)(c, one,
-                                                                             answer);
+            (k ? rb_bem_circulant_apply_difference : rb_bem_circulant_apply)(c, one, answer);
             for (int i = 0; i < n; i++) {
                 const int d = (i - at + size) % size;
                 if (at == 0 || d == size - at)
@@ -261,16 +253,14 @@ TEST(materials_have_their_limits)
     static const struct {
         double shear, poisson;
         rb_status wanted;
-    } all[] = {
-        {1e-300, -1.0 + 1e-15, RB_OK}, {1e300, 0.5, RB_OK},        {1.0, -1.0, RB_EINVAL},
-        {1.0, 0.5 + 1e-15, RB_EINVAL}, {1.0, NAN, RB_EINVAL},      {0.0, 0.3, RB_EINVAL},
-        {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
+    } all[] = {{1e-300, -1.0 + 1e-15, RB_OK}, {1e300, 0.5, RB_OK},        {1.0, -1.0, RB_EINVAL},
+               {1.0, 0.5 + 1e-15, RB_EINVAL}, {1.0, NAN, RB_EINVAL},      {0.0, 0.3, RB_EINVAL},
+               {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_message why = {""};
-        CHECK_STATUS(
-            rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &why),
-            all[k].wanted);
+        CHECK_STATUS(rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &why),
+                     all[k].wanted);
         assert_true((why.text[0] != 0) == (all[k].wanted != RB_OK));
     }
 }
@@ -300,8 +290,8 @@ TEST(the_table_is_the_sum)
         const double d = -log(wheel.inner), reach = fmin(1.0, 1e3 * thickness);
         const int last = (int)(RB_RING_REACH / d) + 2;
         OWNED(rb_ring_table) table;
-        CHECK_STATUS(rb_ring_table_create(&wheel, falling_waves, last, NULL,
-                                          fmin(1.0, 0.01 * d), reach, &table),
+        CHECK_STATUS(rb_ring_table_create(&wheel, falling_waves, last, NULL, fmin(1.0, 0.01 * d),
+                                          reach, &table),
                      RB_OK);
         for (int k = -200; k <= 200; k++) {
             const double x = copysign(reach * pow(1e-6, 1.0 - abs(k) / 200.0), k);
@@ -309,8 +299,7 @@ TEST(the_table_is_the_sum)
             const double scale = 1.0 + cabs(sum);
             const rb_ring_answer at = rb_ring_table_at(&table, x);
             CHECK_ABS(at.N, creal(sum) + 3.0 * x, 2e-12 * scale, "N, %g at %g", d, x);
-            CHECK_ABS(at.T, creal((1.0 + 2.0 * I) * sum), 2e-12 * scale, "T, %g at %g", d,
-                      x);
+            CHECK_ABS(at.T, creal((1.0 + 2.0 * I) * sum), 2e-12 * scale, "T, %g at %g", d, x);
             CHECK_ABS(at.C, cimag(sum), 2e-12 * scale, "C, %g at %g", d, x);
         }
     }
@@ -337,17 +326,15 @@ typedef struct {
 /* Every third on a rigid base, two in three with memory. */
 static void any_layer(uint64_t *seed, int k, layer *l)
 {
-    l->body =
-        (rb_bem_surface){.material = {between(seed, 0.1, 5.0), between(seed, -0.5, 0.5)},
-                         .datum = 10.0,
-                         .terms = k % 3 == 2 ? 2 : k % 3,
-                         .ratio = l->ratio,
-                         .length = l->length,
-                         .thickness = pow(10.0, between(seed, -2.0, 2.0)),
-                         .elastic_base = k / 3 % 3 > 0};
-    l->body.base =
-        (rb_bem_material){l->body.material.shear * pow(10.0, between(seed, -2.0, 3.0)),
-                          between(seed, -0.5, 0.5)};
+    l->body = (rb_bem_surface){.material = {between(seed, 0.1, 5.0), between(seed, -0.5, 0.5)},
+                               .datum = 10.0,
+                               .terms = k % 3 == 2 ? 2 : k % 3,
+                               .ratio = l->ratio,
+                               .length = l->length,
+                               .thickness = pow(10.0, between(seed, -2.0, 2.0)),
+                               .elastic_base = k / 3 % 3 > 0};
+    l->body.base = (rb_bem_material){l->body.material.shear * pow(10.0, between(seed, -2.0, 3.0)),
+                                     between(seed, -0.5, 0.5)};
     for (int j = 0; j < 2; j++) {
         l->ratio[j] = pow(10.0, between(seed, -1.0, 1.0));
         l->length[j] = l->body.thickness * pow(10.0, between(seed, -2.0, 2.0));
@@ -355,8 +342,7 @@ static void any_layer(uint64_t *seed, int k, layer *l)
 }
 
 /* (L3) on the real axis, panels of one radian in all that is in it. */
-static void integral_over_waves(const rb_bem_surface *body, double X, double b,
-                                double of[3])
+static void integral_over_waves(const rb_bem_surface *body, double X, double b, double of[3])
 {
     enum { ORDER = 24, HALVINGS = 24, LAST = 24 };
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(ORDER);
@@ -368,8 +354,7 @@ static void integral_over_waves(const rb_bem_surface *body, double X, double b,
     for (int c = 0; c < 3; c++)
         of[c] = c < 2 ? -Z_0[c] * gsl_sf_expint_E1(LAST) : 0.0;
     for (int k = 0; k < panels + HALVINGS; k++) {
-        const double to =
-            k < HALVINGS ? ldexp(width, k - HALVINGS) : (k - HALVINGS + 1) * width;
+        const double to = k < HALVINGS ? ldexp(width, k - HALVINGS) : (k - HALVINGS + 1) * width;
         for (size_t g = 0; g < ORDER; g++) {
             double al, weight;
             double complex Z[3];
@@ -377,8 +362,8 @@ static void integral_over_waves(const rb_bem_surface *body, double X, double b,
             rb_bem_layer_remainder_at(body, al, Z);
             const double complex e = cexp(I * al * X) * sin(al * b) / (al * b);
             for (int c = 0; c < 3; c++)
-                of[c] += weight / al *
-                         (c < 2 ? creal(Z[c] * e) - Z_0[c] * exp(-al) : cimag(Z[c] * e));
+                of[c] +=
+                    weight / al * (c < 2 ? creal(Z[c] * e) - Z_0[c] * exp(-al) : cimag(Z[c] * e));
         }
         from = to;
     }
@@ -442,11 +427,8 @@ TEST(tables_are_alike_however_they_are_made)
 {
     enum { PLACES = 30 };
     const double ratio = 2.0, length = 0.7;
-    const rb_bem_surface body = {.material = {1.0, 0.3},
-                                 .thickness = 1.0,
-                                 .terms = 1,
-                                 .ratio = &ratio,
-                                 .length = &length};
+    const rb_bem_surface body = {
+        .material = {1.0, 0.3}, .thickness = 1.0, .terms = 1, .ratio = &ratio, .length = &length};
     rb_bem_layer_kernel first[2 * PLACES];
     for (int round = 0; round < 2; round++) {
         if (round == 0)
@@ -504,8 +486,8 @@ static void plant(double decades, double K[ROWS * COLUMNS])
     for (int r = 0; r < RANK; r++)
         for (int j = 0; j < COLUMNS; j++)
             for (int i = 0; i < ROWS; i++)
-                K[i + j * ROWS] += pow(10.0, -decades * r / (RANK - 1)) *
-                                   cos(1.0 + r * (1.0 + i)) * sin(2.0 + (r + 1.0) * j);
+                K[i + j * ROWS] += pow(10.0, -decades * r / (RANK - 1)) * cos(1.0 + r * (1.0 + i)) *
+                                   sin(2.0 + (r + 1.0) * j);
 }
 
 static void decompose(const double *K, int kept, int *rank, int *order, double *T)
@@ -584,8 +566,7 @@ TEST(wide_matrices_are_shortened)
         for (int j = 0; j < columns; j++)
             for (int i = 0; i < rows; i++) {
                 for (int r = 0; r < RANK; r++)
-                    K[i + j * rows] +=
-                        cos(1.0 + r * (1.0 + i)) * sin(2.0 + (r + 1.0) * j);
+                    K[i + j * rows] += cos(1.0 + r * (1.0 + i)) * sin(2.0 + (r + 1.0) * j);
                 s.K[i + (size_t)j * (size_t)s.ld] = K[i + j * rows];
             }
         CHECK_STATUS(rb_skeleton_factor(&s, 1e-9), RB_OK);

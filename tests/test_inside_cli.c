@@ -91,8 +91,7 @@ TEST(a_refusal_is_one_line_in_print)
                         "rollbem: case.ini:7: a\\x0ab\\x09\\x1b\n");
     assert_int_equal(strlen(printed(fail_long, CLI_USAGE)), 9 + 3999 + 1);
     assert_string_equal(printed(say_nothing, CLI_CONTINUE), "");
-    assert_string_equal(printed(say_reason, CLI_USAGE),
-                        "rollbem: mu = -1: expected >= 0\n");
+    assert_string_equal(printed(say_reason, CLI_USAGE), "rollbem: mu = -1: expected >= 0\n");
     assert_string_equal(printed(say_of_option, CLI_NOINPUT),
                         "rollbem: --gap: mu = -1: expected >= 0\n");
     char wanted[200];
@@ -108,8 +107,7 @@ static int run_nothing(int argc, char **argv)
     return CLI_OK;
 }
 
-static const cli_command two[] = {{"lcp", run_nothing, "problems"},
-                                  {"", run_nothing, "cases"}};
+static const cli_command two[] = {{"lcp", run_nothing, "problems"}, {"", run_nothing, "cases"}};
 
 /* What is printed as the command gives the same words again. */
 TEST(a_command_line_is_quoted_and_split)

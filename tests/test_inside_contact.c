@@ -35,8 +35,7 @@ TEST(uncoupled_problems_are_solved_in_turn)
 TEST(pairs_move_as_their_elements)
 {
     numbers = 18;
-    const kind of = {
-        .n = 8, .mu = 0.3, .coupling = 0.1, .load_given = 1, .force_given = 2};
+    const kind of = {.n = 8, .mu = 0.3, .coupling = 0.1, .load_given = 1, .force_given = 2};
     OWNED(rb_contact_problem) p, half;
     OWNED(rb_contact_state) fine, coarse;
     double gap[4], slip[4], most;
@@ -60,15 +59,13 @@ TEST(pairs_move_as_their_elements)
             move(&p, &fine, 2 * i + k, &g[k], &l[k]);
         CHECK_ABS(gap[i], 0.5 * (g[0] + g[1]), 1e-12 * GAP, "gap %d", i);
         CHECK_ABS(slip[i], 0.5 * (l[0] + l[1]), 1e-12 * SLIP, "slip %d", i);
-        CHECK_REL(half.bound[i], 0.5 * (p.bound[2 * i] + p.bound[2 * i + 1]), 1e-14,
-                  "bound");
+        CHECK_REL(half.bound[i], 0.5 * (p.bound[2 * i] + p.bound[2 * i + 1]), 1e-14, "bound");
     }
     CHECK_REL(rb_contact_load(&half, &coarse), rb_contact_load(&p, &fine), 1e-13, "P");
     CHECK_REL(rb_contact_force(&half, &coarse), rb_contact_force(&p, &fine), 1e-12, "Q");
-    CHECK_REL(rb_contact_moment(&half, &coarse), rb_contact_moment(&p, &fine), 1e-12,
-              "M");
-    CHECK_ABS(force_error(&half, &coarse, &most) - rb_contact_force(&half, &coarse),
-              -p.force, 1e-12 * STRESS, "the force that is given");
+    CHECK_REL(rb_contact_moment(&half, &coarse), rb_contact_moment(&p, &fine), 1e-12, "M");
+    CHECK_ABS(force_error(&half, &coarse, &most) - rb_contact_force(&half, &coarse), -p.force,
+              1e-12 * STRESS, "the force that is given");
 }
 
 /* From zones of which one or two elements are wrong, a path leads to the solution within
@@ -114,9 +111,7 @@ TEST(products_follow_friction)
         int n, load, force;
         double mu, coupling;
         uint64_t seed;
-    } all[] = {{32, 0, 1, 100.0, 0.3, 102},
-               {47, 1, 0, 10.0, 0.6, 117},
-               {33, 1, 1, 1e3, 0.4, 103}};
+    } all[] = {{32, 0, 1, 100.0, 0.3, 102}, {47, 1, 0, 10.0, 0.6, 117}, {33, 1, 1, 1e3, 0.4, 103}};
 
     for (int k = 0; k < 3; k++) {
         const kind of = {.n = all[k].n,
@@ -154,15 +149,13 @@ TEST(products_follow_friction)
 TEST(zones_are_told_by_what_is_larger)
 {
     static const double yields_by[] = {-1e-8, 1e-8, 1e-8, 0.3, 0.0, 0.3, -0.3};
-    static const int zone[] = {RB_ZONE_YIELD_POSITIVE, RB_ZONE_STICK,
-                               RB_ZONE_SEPARATED,      RB_ZONE_YIELD_NEGATIVE,
-                               RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
+    static const int zone[] = {RB_ZONE_YIELD_POSITIVE, RB_ZONE_STICK, RB_ZONE_SEPARATED,
+                               RB_ZONE_YIELD_NEGATIVE, RB_ZONE_STICK, RB_ZONE_SLIP_NEGATIVE,
                                RB_ZONE_SLIP_POSITIVE};
 
     numbers = 23;
     for (int k = 0; k < 9; k++) {
-        const kind of = {
-            .n = 7, .mu = 0.3, .yields = 1 + k % 3, .order = k / 3, .coupling = 0.05};
+        const kind of = {.n = 7, .mu = 0.3, .yields = 1 + k % 3, .order = k / 3, .coupling = 0.05};
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         double u[7];
@@ -227,15 +220,13 @@ TEST(residuals_and_forces_are_sums_over_elements)
         double u[6];
         rb_contact_yielded(&p, s.plastic, u);
         for (int i = 0; i < of.n && p.yield; i++)
-            friction =
-                fmax(friction, fabs(s.q[i]) - fmax(p.yield[i] + p.hardening * u[i], 0.0));
+            friction = fmax(friction, fabs(s.q[i]) - fmax(p.yield[i] + p.hardening * u[i], 0.0));
         CHECK_REL(v.friction, friction, 1e-12, "friction");
-        CHECK_REL(rb_contact_load(&p, &s), sum_of(of.n, p.load_N, s.p, p.load_T, s.q),
-                  1e-12, "P");
-        CHECK_REL(rb_contact_force(&p, &s), sum_of(of.n, p.force_N, s.p, p.force_T, s.q),
-                  1e-12, "Q");
-        CHECK_REL(rb_contact_moment(&p, &s),
-                  sum_of(of.n, p.moment_N, s.p, p.moment_T, s.q), 1e-11, "M");
+        CHECK_REL(rb_contact_load(&p, &s), sum_of(of.n, p.load_N, s.p, p.load_T, s.q), 1e-12, "P");
+        CHECK_REL(rb_contact_force(&p, &s), sum_of(of.n, p.force_N, s.p, p.force_T, s.q), 1e-12,
+                  "Q");
+        CHECK_REL(rb_contact_moment(&p, &s), sum_of(of.n, p.moment_N, s.p, p.moment_T, s.q), 1e-11,
+                  "M");
         force_error(&p, &s, &most);
         CHECK_ABS(rb_contact_capacity(&p, &s), most, 1e-12 * STRESS * of.n, "mu P");
         double resultant = 0.0;
@@ -254,8 +245,8 @@ TEST(residuals_and_forces_are_sums_over_elements)
 }
 
 /* Tractions that tell their places; what has been asked for must be u = W r + q. */
-static rb_status number_tractions(const char *name, const rb_contact_cone *cone,
-                                  double tol, double *r, int *iterations, rb_message *why)
+static rb_status number_tractions(const char *name, const rb_contact_cone *cone, double tol,
+                                  double *r, int *iterations, rb_message *why)
 {
     (void)why;
     assert_string_equal(name, "it");
@@ -387,8 +378,7 @@ static int allocations(rb_contact_problem *p, rb_contact_state *s)
 TEST(what_is_kept_can_be_forgotten)
 {
     for (int k = 0; k < 4; k++) {
-        const kind of = {
-            .n = 24, .mu = 0.3, .coupling = k % 2 ? 0.05 : 0.0, .force_given = k / 2};
+        const kind of = {.n = 24, .mu = 0.3, .coupling = k % 2 ? 0.05 : 0.0, .force_given = k / 2};
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         double gap[24];

@@ -19,9 +19,9 @@ static void open_parts(const rb_fem_wall_options *o, parts *p)
     p->contacts = wall_find_contacts(&p->layout, NULL);
     p->contact = calloc((size_t)p->contacts, sizeof *p->contact);
     wall_find_contacts(&p->layout, p->contact);
-    CHECK_STATUS(wall_elastic_system(&p->layout, &p->mesh, p->contacts, p->contact,
-                                     &p->system, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        wall_elastic_system(&p->layout, &p->mesh, p->contacts, p->contact, &p->system, NULL),
+        RB_OK);
 }
 
 static void close_parts(parts *p)
@@ -76,8 +76,7 @@ TEST(common_motion_leaves_the_joints_alone)
         const double *mine = v + 3 * c->node;
         for (int k = 0; k < 3; k++) {
             const double sign = k == 0 ? c->sign : 1.0;
-            const double want =
-                c->other >= 0 && c->other < BLOCKS ? 0.0 : mine[wall_axis(c, k)];
+            const double want = c->other >= 0 && c->other < BLOCKS ? 0.0 : mine[wall_axis(c, k)];
             CHECK_ABS(u[3 * i + k], sign * want, 1e-14, "contact %d, component %d", i, k);
         }
     }
@@ -98,8 +97,7 @@ TEST(rigid_blocks_have_their_inertia)
     for (int j = 0; j < 6; j++) {
         double column[6] = {0};
         for (int k = rigid.M.p[j]; k < rigid.M.p[j + 1]; k++) {
-            CHECK_ABS(rigid.M.i[k] < 6 ? 0.0 : rigid.M.x[k], 0.0, 1e-14,
-                      "between blocks");
+            CHECK_ABS(rigid.M.i[k] < 6 ? 0.0 : rigid.M.x[k], 0.0, 1e-14, "between blocks");
             if (rigid.M.i[k] < 6)
                 column[rigid.M.i[k]] = rigid.M.x[k];
         }
@@ -133,8 +131,7 @@ TEST(steps_are_problems_for_every_solver)
     for (int k = 0; k < 7; k++) {
         CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &why), RB_OK);
         CHECK_REL(step.compression, 10e3 * fmin(k, 3), 1e-14, "step %d", k);
-        assert_int_equal(step.stick + step.slip + step.separated,
-                         rb_fem_wall_contacts(wall));
+        assert_int_equal(step.stick + step.slip + step.separated, rb_fem_wall_contacts(wall));
     }
     CHECK_REL(step.drift, 3e-5, 1e-12, "drift");
     assert_true(step.shear > 500.0 && step.shear < 0.53 * 30e3);
@@ -149,9 +146,9 @@ TEST(steps_are_problems_for_every_solver)
         options.tol = 1e-11;
         CHECK_STATUS(rb_fem_wall_problem(wall, k, &problem), RB_OK);
         for (size_t l = 0; l < 2; l++)
-            CHECK_STATUS(rb_friction_solve(
-                             solvers[l], &problem, &options,
-                             &(rb_friction_solution){r + l * m, u + l * m, NULL}, &info),
+            CHECK_STATUS(rb_friction_solve(solvers[l], &problem, &options,
+                                           &(rb_friction_solution){r + l * m, u + l * m, NULL},
+                                           &info),
                          RB_OK);
         for (size_t i = 0; i < m; i++)
             CHECK_ABS(u[i], u[i + m], 1e-7 * 1e-3, "step %d, entry %zu", k, i);

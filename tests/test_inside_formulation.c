@@ -153,8 +153,7 @@ static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.formulation = RB_STEADY;
-    rc.friction =
-        (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
+    rc.friction = (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
     return rc;
 }
 
@@ -183,8 +182,8 @@ TEST(each_law_is_its_formula)
             rc = law(RB_FRICTION_exponential, one ? 0.2 : 0.0, one ? 0.0 : 0.1);
             rc.friction.slip_scale[one] = 0.0;
             CHECK_REL(rb_rolling_law_mu(&rc, 9.0, v, 0.0),
-                      0.3 + (one ? 0.2 * pow(0.5, v / 3.0) : 0.1 * pow(0.5, v / 7.0)),
-                      1e-14, "one term at %g", v);
+                      0.3 + (one ? 0.2 * pow(0.5, v / 3.0) : 0.1 * pow(0.5, v / 7.0)), 1e-14,
+                      "one term at %g", v);
         }
     }
 }
@@ -251,8 +250,8 @@ TEST(the_largest_coefficient_is_at_rest_or_fast)
 /* The steepest fall of each term by differences; two terms by no less than their sum. */
 TEST(the_steepest_fall_is_that_of_the_formula)
 {
-    static const rb_rolling_friction_law laws[] = {
-        RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
+    static const rb_rolling_friction_law laws[] = {RB_FRICTION_exponential, RB_FRICTION_rational,
+                                                   RB_FRICTION_linear};
     for (int k = 0; k < 3; k++) {
         double of[2];
         for (int term = 0; term < 2; term++) {
@@ -262,14 +261,11 @@ TEST(the_steepest_fall_is_that_of_the_formula)
                 of[term] = fmax(of[term], (rb_rolling_law_mu(&rc, 0.0, v, 0.0) -
                                            rb_rolling_law_mu(&rc, 0.0, v + 1e-4, 0.0)) /
                                               1e-4);
-            CHECK_REL(rb_rolling_law_steepest(&rc), of[term], 1e-3, "law %d, term %d", k,
-                      term);
+            CHECK_REL(rb_rolling_law_steepest(&rc), of[term], 1e-3, "law %d, term %d", k, term);
         }
-        const rb_rolling_case both = law(laws[k], 0.2, 0.1),
-                              rising = law(laws[k], 0.2, -0.1);
+        const rb_rolling_case both = law(laws[k], 0.2, 0.1), rising = law(laws[k], 0.2, -0.1);
         CHECK_REL(rb_rolling_law_steepest(&both), of[0] + of[1], 1e-3, "both");
-        CHECK_REL(rb_rolling_law_steepest(&rising), of[0], 1e-3,
-                  "what rises is not steep");
+        CHECK_REL(rb_rolling_law_steepest(&rising), of[0], 1e-3, "what rises is not steep");
     }
     const rb_rolling_case constant = law(RB_FRICTION_constant, 0.0, 0.0);
     CHECK_ABS(rb_rolling_law_steepest(&constant), 0.0, 0.0, "constant");
@@ -308,7 +304,7 @@ TEST(coefficients_forget_from_the_leading_edge_on)
                 const double kept = exp(-fmax(v, 15.0) * e_T[i] / rc.speed / 0.01);
                 const double want = s->zone[i] == RB_ZONE_SEPARATED ? rest
                                     : k == 0                        ? now
-                                             : now + (from - now) * kept;
+                                                                    : now + (from - now) * kept;
                 CHECK_REL(mu[i], want, 1e-13, "%d %d: element %d", steady, k, i);
                 upstream = want;
             }
@@ -348,9 +344,8 @@ TEST(bounds_start_where_they_are_told)
         rb_rolling_start_bounds(model.rc, &model.bodies, &model.problem);
         for (int i = 0; i < model.problem.n; i++) {
             const double at = model.bodies.f.x[i];
-            CHECK_ABS(model.problem.bound[i],
-                      k ? 0.4 : 0.26 + 0.5 * fmin(0.1, fmax(-0.1, at)), 1e-12, "at %g",
-                      at);
+            CHECK_ABS(model.problem.bound[i], k ? 0.4 : 0.26 + 0.5 * fmin(0.1, fmax(-0.1, at)),
+                      1e-12, "at %g", at);
         }
         CHECK_ABS(model.problem.mu, 0.4, 1e-15, "the scale");
     }
@@ -406,8 +401,7 @@ TEST(newtons_method_may_have_no_memory)
     assert_true(model->problem.n <= 60);
     memcpy(from.bound, model->problem.bound, (size_t)model->problem.n * sizeof(double));
     assert_true(alloc_fail_each(go_to_rest, &from) > 5);
-    case_of_model(model)->heat_a =
-        (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    case_of_model(model)->heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
     case_of_model(model)->friction.heat = -0.1;
     case_of_model(model)->friction.heat_range = 100.0;
     assert_true(alloc_fail_each(set_friction, model) > 2);

@@ -39,8 +39,7 @@ static double violation(int d, double mu, const double *r, const double *u)
     double power = mu * r[0] * ut;
     for (int a = 1; a < d; a++)
         power += r[a] * u[a];
-    return fmax(fmax(fmax(-r[0], -u[0]), rt - mu * r[0]),
-                fmax(fabs(r[0] * u[0]), fabs(power)));
+    return fmax(fmax(fmax(-r[0], -u[0]), rt - mu * r[0]), fmax(fabs(r[0] * u[0]), fabs(power)));
 }
 
 TEST(one_contact_obeys_coulomb)
@@ -61,8 +60,7 @@ TEST(one_contact_obeys_coulomb)
             const int steps = rb_friction_contact_exact(&c, &lambda, q, r);
             assert_true(steps > 0 && steps < 20);
             velocity(d, W, q, r, u);
-            CHECK_MAX(violation(d, mu, r, u), 1e-11, "contact %d, d = %d, mu = %g", k, d,
-                      mu);
+            CHECK_MAX(violation(d, mu, r, u), 1e-11, "contact %d, d = %d, mu = %g", k, d, mu);
             const double rt = d == 2 ? fabs(r[1]) : hypot(r[1], r[2]);
             states[r[0] == 0.0 ? 0 : rt < mu * r[0] * (1.0 - 1e-9) ? 1 : 2]++;
         }
@@ -150,8 +148,7 @@ TEST(a_singular_block_is_left_to_newton)
     CHECK_ABS(r[0], 7.0, 0.0, "r as it was");
     rb_friction_contact_init(2, 0.3, upside_down, &c);
     assert_int_equal(rb_friction_contact_exact(&c, &lambda, q, r), 0);
-    assert_int_equal(rb_friction_contact_exact(&c, &lambda, away, r),
-                     1); /* open all the same */
+    assert_int_equal(rb_friction_contact_exact(&c, &lambda, away, r), 1); /* open all the same */
     CHECK_ABS(r[0], 0.0, 0.0, "it opens");
 }
 
@@ -229,8 +226,7 @@ TEST(a_newton_step_solves_its_system)
             B[i] = open ? 0.0 : uniform_from(&seed);
         }
         rb_friction_shared shared = {.problem = &p, .local = &p};
-        rb_friction_task task = {
-            .shared = &shared, .problem = &p, .d = d, .contacts = nc, .m = m};
+        rb_friction_task task = {.shared = &shared, .problem = &p, .d = d, .contacts = nc, .m = m};
         CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
         CHECK_STATUS(rb_friction_system_step(&s, &at, NULL, dr, NULL), RB_OK);
         assert_true((s.lu != NULL) == (k / 2));
@@ -320,11 +316,9 @@ TEST(acceleration_saves_sweeps)
     rb_friction_info plain, fast;
     double r[60], s[60], u[60];
     pile(30, 1.0, &p);
-    CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL,
-                                   &(rb_friction_solution){r, u, NULL}, &plain),
-                 RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL,
-                                   &(rb_friction_solution){s, u, NULL}, &fast),
+    CHECK_STATUS(
+        rb_friction_solve("nsgs-ac", &p, NULL, &(rb_friction_solution){r, u, NULL}, &plain), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL, &(rb_friction_solution){s, u, NULL}, &fast),
                  RB_OK);
     CHECK_MAX((double)fast.iters, plain.iters / 5.0, "%d sweeps without", plain.iters);
     for (int k = 0; k < 60; k++)
@@ -368,8 +362,8 @@ TEST(a_step_of_all_bodies_solves_its_system)
         const double order = n + m, lu = 2.0 / 3.0 * order * order * order;
         if (!sparse) {
             CHECK_REL(estimate, lu, 1e-15, "estimate");
-            CHECK_REL(s.flops, 2.0 * 2.0 * 2.0 * m * 2.0 + lu + 2.0 * order * order,
-                      1e-15, "operations");
+            CHECK_REL(s.flops, 2.0 * 2.0 * 2.0 * m * 2.0 + lu + 2.0 * order * order, 1e-15,
+                      "operations");
         } else {
             assert_true(estimate < 0.1 * lu && s.flops < 0.1 * lu);
         }
@@ -381,8 +375,8 @@ TEST(a_step_of_all_bodies_solves_its_system)
             y[j] = dv[j] - dv[j + 2];
         for (int j = 0; j < m; j++) {
             const int own = 4 * (j / 2) + j % 2, first = j / 2 * 2;
-            CHECK_ABS(A[own] * dr[first] + A[own + 2] * dr[first + 1] +
-                          B[own] * y[first] + B[own + 2] * y[first + 1],
+            CHECK_ABS(A[own] * dr[first] + A[own + 2] * dr[first + 1] + B[own] * y[first] +
+                          B[own + 2] * y[first + 1],
                       -F[j], 1e-12, "contact equation %d", j);
         }
         free(A);
@@ -404,9 +398,9 @@ TEST(the_hybrid_sees_what_sweeps_are_worth)
             p.q[2 * c] = strong ? -1.0 : 0.1 * (c % 9) - 0.5;
             p.q[2 * c + 1] = strong ? 0.05 * (c - 30) : 0.2 * (c % 5) - 0.3;
         }
-        CHECK_STATUS(rb_friction_solve("nsn-ac-nls", &p, NULL,
-                                       &(rb_friction_solution){r, u, NULL}, &newton),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_friction_solve("nsn-ac-nls", &p, NULL, &(rb_friction_solution){r, u, NULL}, &newton),
+            RB_OK);
         CHECK_STATUS(rb_friction_solve("nsn-ac-hybrid", &p, NULL,
                                        &(rb_friction_solution){r, u, NULL}, &hybrid),
                      RB_OK);
@@ -455,9 +449,8 @@ TEST(sweeps_that_stall_yield)
 /* A method that pauses and goes on arrives where it does without pauses. */
 TEST(pauses_change_nothing)
 {
-    static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
-                                        "extragradient", "nsgs-fp", "fixed-point",
-                                        "admm"};
+    static const char *const names[] = {"nsgs-aa", "nsgs-ac",     "nsn-fb", "extragradient",
+                                        "nsgs-fp", "fixed-point", "admm"};
     OWNED(rb_friction_problem) p;
     packing("spheres 20 0.4 3", &p);
     const int m = 3 * p.contacts;
@@ -468,9 +461,9 @@ TEST(pauses_change_nothing)
         OWNED(rb_friction_shared) shared;
         double v[1];
         rb_friction_record record = {.r = best, .error = INFINITY};
-        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
-                                       &(rb_friction_solution){whole, u, NULL}, &info),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){whole, u, NULL}, &info),
+            RB_OK);
         CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
         memset(r, 0, (size_t)m * sizeof *r);
         rb_friction_task task = {.shared = &shared,
@@ -529,8 +522,7 @@ TEST(smoothed_projections_obey_their_definition)
             for (int side = n == 1 ? 1 : -1; side <= 1; side += 2) {
                 const double s = P[0] + side * along;
                 assert_true(s > 0.0);
-                CHECK_ABS(s - mu * mu / s, x[0] + side * t, 1e-10, "n = %d, mu = %g", n,
-                          mu);
+                CHECK_ABS(s - mu * mu / s, x[0] + side * t, 1e-10, "n = %d, mu = %g", n, mu);
             }
             for (int b = 0; b < n; b++) {
                 x[b] += step;

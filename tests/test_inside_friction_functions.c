@@ -54,8 +54,8 @@ TEST(projections_are_nearest_points)
             at[b] -= 2.0 * h;
             rb_friction_project(d, mu, at, down);
             for (int a = 0; a < d; a++)
-                CHECK_ABS(D[a + b * d], (up[a] - down[a]) / (2.0 * h), 1e-4,
-                          "mu = %g, D(%d, %d)", mu, a, b);
+                CHECK_ABS(D[a + b * d], (up[a] - down[a]) / (2.0 * h), 1e-4, "mu = %g, D(%d, %d)",
+                          mu, a, b);
         }
         memcpy(gap, z, sizeof gap);
         rb_friction_project(d, mu, gap, gap); /* in place */
@@ -76,14 +76,12 @@ TEST(norms_hold_over_all_sizes)
         }
         CHECK_REL(rb_friction_norm(n, x), sqrt(squares), 1e-15, "norm of %zu", n);
         CHECK_ABS(rb_dot(n, x, y), product, 1e-15, "product of %zu", n);
-        CHECK_REL(rb_friction_distance(n, x, y), sqrt(apart), 1e-15, "distance of %zu",
-                  n);
+        CHECK_REL(rb_friction_distance(n, x, y), sqrt(apart), 1e-15, "distance of %zu", n);
         for (int large = 0; large < 2; large++) {
             const double unit = large ? 1e200 : 1e-200;
             for (size_t k = 0; k < n; k++)
                 y[k] = unit * x[k];
-            CHECK_REL(rb_friction_norm(n, y), unit * sqrt(squares), 1e-14, "times %g",
-                      unit);
+            CHECK_REL(rb_friction_norm(n, y), unit * sqrt(squares), 1e-14, "times %g", unit);
         }
     }
     const double wide[] = {3e200, 0.0, -4e200}, thin[] = {0.0, 3e-200, 4e-200};
@@ -107,12 +105,11 @@ static const struct {
                  {"Fischer-Burmeister", rb_friction_fischer_burmeister}};
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-static double evaluate(int k, const rb_friction_cone *cone, const double *r,
-                       const double *u, double *F, double *A, double *B)
+static double evaluate(int k, const rb_friction_cone *cone, const double *r, const double *u,
+                       double *F, double *A, double *B)
 {
     double room_a[9], room_b[9], size = 0.0;
-    functions[k].f(cone, r, u,
-                   &(rb_friction_linearised){F, A ? A : room_a, B ? B : room_b});
+    functions[k].f(cone, r, u, &(rb_friction_linearised){F, A ? A : room_a, B ? B : room_b});
     for (int a = 0; a < cone->d; a++)
         size = fmax(size, fabs(F[a]));
     return size;
@@ -140,8 +137,8 @@ static void obey_coulomb(const rb_friction_cone *cone, int how, double *r, doubl
 TEST(solutions_are_the_roots)
 {
     for (int trial = 0; trial < 300; trial++) {
-        const rb_friction_cone cone = {2 + trial % 2, trial % 5 ? 0.6 : 0.0,
-                                       1.5 + uniform(), 1.5 + uniform()};
+        const rb_friction_cone cone = {2 + trial % 2, trial % 5 ? 0.6 : 0.0, 1.5 + uniform(),
+                                       1.5 + uniform()};
         double r[3], u[3], F[3];
         obey_coulomb(&cone, trial % 3, r, u);
         for (int k = 0; k < FUNCTIONS; k++)
@@ -172,8 +169,7 @@ TEST(derivatives_are_those_of_the_functions)
     int compared = 0, all = 0;
     for (int trial = 0; trial < 400; trial++) {
         const int d = 2 + trial % 2;
-        const rb_friction_cone cone = {d, trial % 5 ? 0.6 : 0.0, 1.5 + uniform(),
-                                       1.5 + uniform()};
+        const rb_friction_cone cone = {d, trial % 5 ? 0.6 : 0.0, 1.5 + uniform(), 1.5 + uniform()};
         double x[6], F[3], A[9], B[9];
         for (int k = 0; k < 2 * d; k++)
             x[k] = uniform();
@@ -198,8 +194,8 @@ TEST(derivatives_are_those_of_the_functions)
                     if (fabs(by[0] - by[1]) > 1e-6)
                         continue;
                     compared++;
-                    CHECK_ABS(of, by[1], 1e-5, "%s, trial %d, (%d, %d)",
-                              functions[k].name, trial, a, b);
+                    CHECK_ABS(of, by[1], 1e-5, "%s, trial %d, (%d, %d)", functions[k].name, trial,
+                              a, b);
                 }
         }
     }
@@ -216,8 +212,7 @@ TEST(at_zero_the_derivatives_are_regular)
             for (int sliding = 0; sliding < 2; sliding++) {
                 const rb_friction_cone cone = {d, 0.6 * sliding, 2.0, 2.0};
                 double F[3], A[9], B[9];
-                CHECK_MAX(evaluate(k, &cone, zero, zero, F, A, B), 0.0, "%s",
-                          functions[k].name);
+                CHECK_MAX(evaluate(k, &cone, zero, zero, F, A, B), 0.0, "%s", functions[k].name);
                 for (int a = 0; a < d; a++) {
                     const double both = A[a + a * d] + B[a + a * d] / 2.0;
                     assert_true(A[a + a * d] >= 0.0 && B[a + a * d] >= 0.0);
@@ -250,11 +245,10 @@ TEST(single_entries_make_blocks)
                     CHECK_ABS(y[k], k == entry % m ? 2.0 * x[entry / m] : 0.0, 0.0,
                               "entry %d, y(%d)", entry, k);
                 for (int k = 0; k < m; k++) {
-                    const double one[6] = {k == 0, k == 1, k == 2,
-                                           k == 3, k == 4, k == 5};
+                    const double one[6] = {k == 0, k == 1, k == 2, k == 3, k == 4, k == 5};
                     rb_friction_blocks_apply(&b, one, y);
-                    CHECK_ABS(y[entry % m], k == entry / m ? 2.0 : 0.0, 0.0,
-                              "entry %d, column %d", entry, k);
+                    CHECK_ABS(y[entry % m], k == entry / m ? 2.0 : 0.0, 0.0, "entry %d, column %d",
+                              entry, k);
                 }
             }
             rb_sparse_free(&p.Ws);
@@ -332,18 +326,15 @@ TEST(rho_of_a_structure_comes_from_its_diagonal)
 {
     int rows[] = {0, 1, 2, 0, 1}, cols[] = {0, 1, 2, 1, 0};
     double k[] = {2.0, 4.0, 5.0, -1.0, -1.0}, h[] = {1.0, 3.0, 2.0, 0.5, 0.0}, rho[2];
-    rb_friction_problem p = {
-        .form = RB_FRICTION_GLOBAL, .dimension = 3, .contacts = 1, .dofs = 3};
-    CHECK_STATUS(rb_sparse_from_triplets(
-                     &(rb_triplets){
-                         .rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = k},
-                     &p.K),
-                 RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(
-                     &(rb_triplets){
-                         .rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = h},
-                     &p.H),
-                 RB_OK);
+    rb_friction_problem p = {.form = RB_FRICTION_GLOBAL, .dimension = 3, .contacts = 1, .dofs = 3};
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = k}, &p.K),
+        RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = h}, &p.H),
+        RB_OK);
     CHECK_STATUS(rb_friction_rho(&p, rho), RB_OK);
     /* columns (1, 0, 0), (0.5, 3, 0), (0, 0, 2) */
     CHECK_REL(rho[0], 0.1 / (1.0 / 2.0), 1e-15, "normal");
@@ -357,12 +348,8 @@ TEST(velocities_and_imbalance_are_those_of_the_structure)
 {
     enum { DOFS = 4, M = 2 };
     double K[DOFS * DOFS], H[DOFS * M], f[DOFS], w[M], r[M], v[DOFS], u[M], e[DOFS];
-    rb_friction_problem p = {.form = RB_FRICTION_GLOBAL,
-                             .dimension = 2,
-                             .contacts = 1,
-                             .dofs = DOFS,
-                             .f = f,
-                             .w = w};
+    rb_friction_problem p = {
+        .form = RB_FRICTION_GLOBAL, .dimension = 2, .contacts = 1, .dofs = DOFS, .f = f, .w = w};
     for (int i = 0; i < DOFS; i++) {
         f[i] = uniform();
         v[i] = uniform();
@@ -377,8 +364,7 @@ TEST(velocities_and_imbalance_are_those_of_the_structure)
     }
     CHECK_STATUS(rb_sparse_from_dense(DOFS, DOFS, K, DOFS, &p.K), RB_OK);
     CHECK_STATUS(rb_sparse_from_dense(DOFS, M, H, DOFS, &p.H), RB_OK);
-    const rb_friction_system s = {
-        .problem = &p, .d = 2, .contacts = 1, .m = M, .n = DOFS};
+    const rb_friction_system s = {.problem = &p, .d = 2, .contacts = 1, .m = M, .n = DOFS};
     for (int c = 0; c < 3; c++) {
         rb_friction_system_velocity(&s, c, r, v, u);
         for (int j = 0; j < M; j++) {
@@ -425,8 +411,7 @@ TEST(the_natural_norm_is_that_of_the_contacts)
                 const double by = unit ? 1.0 : rho[2 * c], *uc = u + c * d;
                 double z[3], F[3];
                 for (int a = 0; a < d; a++)
-                    z[a] = r[c * d + a] -
-                           by * (uc[a] + (a ? 0.0 : mu[c] * tangential(d, uc)));
+                    z[a] = r[c * d + a] - by * (uc[a] + (a ? 0.0 : mu[c] * tangential(d, uc)));
                 rb_friction_project(d, mu[c], z, z);
                 for (int a = 0; a < d; a++)
                     F[a] = (r[c * d + a] - z[a]) / by;
@@ -434,11 +419,9 @@ TEST(the_natural_norm_is_that_of_the_contacts)
             }
             size += dot(d, r + c * d, r + c * d) / (rho[2 * c] * rho[2 * c]);
         }
-        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, &with_rho_1), sqrt(sum), 1e-14,
-                  "norm");
+        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, &with_rho_1), sqrt(sum), 1e-14, "norm");
         CHECK_REL(with_rho_1, sqrt(one), 1e-14, "norm with rho = 1");
-        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, NULL), sqrt(sum), 1e-14,
-                  "norm");
+        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, NULL), sqrt(sum), 1e-14, "norm");
         CHECK_REL(rb_friction_size(&p, rho, r, work), sqrt(size), 1e-14, "size");
         for (int k = 0; k < d * NC; k++)
             r[k] *= 1e200;

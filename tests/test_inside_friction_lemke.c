@@ -44,9 +44,8 @@ static void local_problem(kind k, rb_friction_problem *p)
     for (int j = 0; j < M; j++)
         for (int i = 0; i <= j; i++)
             p->W[i + j * M] = p->W[j + i * M] = i == j ? 3000.0 + 1000.0 * uniform()
-                                                : k == SPARSE && i / 2 != j / 2
-                                                    ? 0.0
-                                                    : 200.0 * uniform();
+                                                : k == SPARSE && i / 2 != j / 2 ? 0.0
+                                                                                : 200.0 * uniform();
     plant(p, r, u);
     for (int i = 0; i < M; i++) {
         p->q[i] = u[i];
@@ -183,12 +182,10 @@ static double operations(kind k, int attempt, const rb_friction_problem *p, int 
     const double n = 3.0 * NC, m = M;
     const double entries = p->form == RB_FRICTION_LOCAL_SPARSE ? p->Ws.p[M] : m * m;
     const double of_measure =
-        25.0 * m +
-        (k == HELD || k == LOOSE ? 4.0 * p->H.p[M] + 2.0 * p->K.p[DOFS] : 2.0 * entries);
+        25.0 * m + (k == HELD || k == LOOSE ? 4.0 * p->H.p[M] + 2.0 * p->K.p[DOFS] : 2.0 * entries);
     if (attempt == 2)
         return pivots * (4.5 * entries + 100.0 * m) + of_measure;
-    return pivots * 2.0 * n * n + (attempt > 3 ? 8.0 / 3.0 * n * n * n : 0.0) +
-           of_measure;
+    return pivots * 2.0 * n * n + (attempt > 3 ? 8.0 / 3.0 * n * n * n : 0.0) + of_measure;
 }
 
 /* Paths in the displacement basis may end on a ray, and few do. */
@@ -210,8 +207,7 @@ TEST(every_attempt_solves_by_itself)
             else if (s != RB_OK && s != RB_RAY)
                 fail_msg("kind %d, attempt %d: %s", (int)k, a, rb_status_text(s));
             if (s == RB_OK) {
-                CHECK_MAX(violation(&p, b.r, b.v), 1e-9, "kind %d, attempt %d", (int)k,
-                          a);
+                CHECK_MAX(violation(&p, b.r, b.v), 1e-9, "kind %d, attempt %d", (int)k, a);
                 CHECK_REL(b.info.flops, operations(k, a, &p, b.info.iters), 1e-12,
                           "operations, kind %d, attempt %d", (int)k, a);
             }
@@ -234,16 +230,13 @@ TEST(limits_hold_for_every_attempt)
         static bench b;
         prepare(&p, &b);
         b.task.opt.max_iters = 3;
-        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0),
-                     RB_MAXITER);
+        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0), RB_MAXITER);
         assert_int_equal(b.info.iters, 3);
-        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0),
-                     RB_MAXITER);
+        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0), RB_MAXITER);
         assert_int_equal(b.info.iters, 3);
         b.task.opt.max_iters = 0;
         b.task.deadline = rb_seconds() - 1.0;
-        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0),
-                     RB_INTERRUPTED);
+        CHECK_STATUS(rb_friction_run(&b.task, &rb_friction_lemke_method, a, 0), RB_INTERRUPTED);
         rb_friction_shared_free(&b.shared);
     }
 }
@@ -251,8 +244,7 @@ TEST(limits_hold_for_every_attempt)
 static rb_status solve_anew(void *context)
 {
     static double r[M], u[M], v[DOFS];
-    return rb_friction_solve("lemke", context, NULL, &(rb_friction_solution){r, u, v},
-                             NULL);
+    return rb_friction_solve("lemke", context, NULL, &(rb_friction_solution){r, u, v}, NULL);
 }
 
 TEST(short_memory_is_reported)

@@ -16,11 +16,8 @@ enum { CONTACT = 20 };
 /* A wheel on a hub, contact -half ... half. */
 static rb_bem_mesh wheel(rb_bem_support support, double half, int outer)
 {
-    const rb_bem_cylinder cylinder = {.radius = 50.0,
-                                      .support = support,
-                                      .arc = 0.5,
-                                      .hub_ratio = 0.3,
-                                      .outer_elements = outer};
+    const rb_bem_cylinder cylinder = {
+        .radius = 50.0, .support = support, .arc = 0.5, .hub_ratio = 0.3, .outer_elements = outer};
     double ends[CONTACT + 2];
     rb_bem_mesh mesh;
     rb_message why;
@@ -36,8 +33,7 @@ static void put_square(rb_bem_mesh *mesh, int first, int m, double x, double y)
     const double corner[5][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0}};
     for (int k = 0; k <= 4 * m; k++) {
         const double *a = corner[k / m], *b = corner[k < 4 * m ? k / m + 1 : 4];
-        const double part = (double)(k % m) / m,
-                     px = x - 0.5 + a[0] + part * (b[0] - a[0]),
+        const double part = (double)(k % m) / m, px = x - 0.5 + a[0] + part * (b[0] - a[0]),
                      py = y - 0.5 + a[1] + part * (b[1] - a[1]);
         if (k < 4 * m) {
             mesh->x0[first + k] = px;
@@ -74,14 +70,13 @@ static double *units(const rb_bem_mesh *mesh, rb_bem_material material)
     double *unit = rb_alloc((size_t)mesh->n, 1);
     assert_non_null(unit);
     for (int j = 0; j < mesh->n; j++)
-        unit[j] =
-            material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        unit[j] = material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
     return unit;
 }
 
 /* A x for unknowns x, from the integrals of the dense assembly. */
-static void multiply(const rb_bem_mesh *mesh, rb_bem_material material,
-                     const double *unit, const double *x, double *y)
+static void multiply(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
+                     const double *x, double *y)
 {
     const size_t dofs = 2 * (size_t)mesh->n;
     SCRATCH double *H = rb_alloc(dofs, dofs), *G = rb_alloc(dofs, dofs);
@@ -92,9 +87,9 @@ static void multiply(const rb_bem_mesh *mesh, rb_bem_material material,
     memset(y, 0, dofs * sizeof *y);
     for (size_t j = 0; j < dofs; j++)
         for (size_t i = 0; i < dofs; i++) {
-            y[i] += x[j] * (mesh->condition[j] == RB_BEM_DISPLACEMENT
-                                ? -unit[j / 2] * G[i + j * dofs]
-                                : H[i + j * dofs]);
+            y[i] +=
+                x[j] * (mesh->condition[j] == RB_BEM_DISPLACEMENT ? -unit[j / 2] * G[i + j * dofs]
+                                                                  : H[i + j * dofs]);
             if (held.count)
                 y[i] += x[j] * rb_held_contours_term(&held, (int)i, (int)j);
         }
@@ -131,13 +126,10 @@ static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double 
 TEST(solves_what_the_dense_matrix_says)
 {
     double ratio;
-    CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-5, &ratio), 1e-3,
-              "hub, 1e-5");
+    CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-5, &ratio), 1e-3, "hub, 1e-5");
     CHECK_MAX(ratio, 0.25, "numbers stored");
-    CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-8, &ratio), 1e-6,
-              "hub, 1e-8");
-    CHECK_MAX(solution_error(wheel(RB_BEM_ARC, 2.5, 900), steel, 1e-8, &ratio), 1e-6,
-              "arc, 1e-8");
+    CHECK_MAX(solution_error(wheel(RB_BEM_HUB, 2.5, 900), steel, 1e-8, &ratio), 1e-6, "hub, 1e-8");
+    CHECK_MAX(solution_error(wheel(RB_BEM_ARC, 2.5, 900), steel, 1e-8, &ratio), 1e-6, "arc, 1e-8");
 }
 
 /* Held contours with corners, where their terms are no kernel's. */
@@ -156,8 +148,7 @@ TEST(singular_systems_are_refused)
     rb_message why;
     for (int dense = 0; dense < 2; dense++) {
         rb_bem_system *system;
-        CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, dense, &system, &why),
-                     RB_SINGULAR);
+        CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, dense, &system, &why), RB_SINGULAR);
         assert_null(system);
         assert_non_null(strstr(why.text, "singular"));
     }
@@ -165,15 +156,15 @@ TEST(singular_systems_are_refused)
 
 /* ---- Behind the system ------------------------------------------------------------- */
 
-static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
-                     int subtracted, double *F)
+static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dense, int subtracted,
+                     double *F)
 {
     rb_bem_system *system;
     OWNED(rb_bem_flexibility) f;
     rb_message why;
     CHECK_STATUS(rb_bem_system_create_as(mesh, material, dense, &system, &why), RB_OK);
-    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
-                     system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
+    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted
+                             : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
                  RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * (CONTACT + 1)), RB_OK);
     rb_bem_system_free(system);
@@ -213,8 +204,7 @@ TEST(plates_are_solved_as_by_the_dense_matrix)
         const rb_bem_material material = {1.0, poisson[k]};
         for (int dense = 0; dense < 2; dense++) {
             rb_bem_system *system;
-            CHECK_STATUS(rb_bem_system_create_as(&mesh, material, dense, &system, NULL),
-                         RB_OK);
+            CHECK_STATUS(rb_bem_system_create_as(&mesh, material, dense, &system, NULL), RB_OK);
             CHECK_STATUS(rb_bem_system_solve(system, NULL, u + (size_t)dense * dofs,
                                              t + (size_t)dense * dofs),
                          RB_OK);
@@ -237,22 +227,19 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
         scale = fmax(scale, fabs(u[j]));
     for (int i = 0; i < mesh->n; i += 97) {
         double sum[2] = {0.0, 0.0};
-        const double px = 0.5 * (mesh->x0[i] + mesh->x1[i]),
-                     py = 0.5 * (mesh->y0[i] + mesh->y1[i]);
+        const double px = 0.5 * (mesh->x0[i] + mesh->x1[i]), py = 0.5 * (mesh->y0[i] + mesh->y1[i]);
         for (int j = 0; j < mesh->n; j++) {
-            const rb_bem_segment element = {mesh->x0[j], mesh->y0[j], mesh->x1[j],
-                                            mesh->y1[j]};
+            const rb_bem_segment element = {mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j]};
             rb_bem_blocks b = rb_bem_element_integrals(element, px, py, i == j, steel);
             /* logarithms over the size of the mesh, as everywhere */
-            const double length =
-                hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+            const double length = hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
             const double more = length * (3.0 - 4.0 * steel.poisson) * log_size /
                                 (8.0 * M_PI * steel.shear * (1.0 - steel.poisson));
             b.G[0] += more;
             b.G[3] += more;
             for (int k = 0; k < 2; k++)
-                sum[k] += b.H[k] * u[2 * j] + b.H[2 + k] * u[2 * j + 1] -
-                          b.G[k] * t[2 * j] - b.G[2 + k] * t[2 * j + 1];
+                sum[k] += b.H[k] * u[2 * j] + b.H[2 + k] * u[2 * j + 1] - b.G[k] * t[2 * j] -
+                          b.G[2 + k] * t[2 * j + 1];
         }
         CHECK_ABS(sum[0], 0.0, 1e-6 * scale, "x of point %d", i);
         CHECK_ABS(sum[1], 0.0, 1e-6 * scale, "y of point %d", i);
@@ -304,8 +291,7 @@ static rb_status solve_by_clusters(void *of)
     const solid *b = of;
     rb_bem_system *system = NULL;
     SCRATCH double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
-    rb_status s =
-        u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL) : RB_ENOMEM;
+    rb_status s = u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
     rb_bem_system_free(system);
@@ -342,8 +328,7 @@ TEST(failing_allocations)
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;
         alloc_fail_after(k);
-        const rb_status s =
-            rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
+        const rb_status s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
@@ -370,17 +355,17 @@ TEST(a_pressed_circle_displaces_nothing_outside)
     CHECK_STATUS(rb_mixed_rows_make(&a, rows, row, NULL, 0, &r), RB_OK);
     for (int points = 3; points < 20; points += 4) {
         double *G = rb_alloc(rows, 2 * (size_t)points), largest;
-        CHECK_STATUS(rb_mixed_far(&a, &r, (rb_circle){3.0, -1.5, 1.7}, points,
-                                  (rb_matrix_view){G, 1, rows}),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_mixed_far(&a, &r, (rb_circle){3.0, -1.5, 1.7}, points, (rb_matrix_view){G, 1, rows}),
+            RB_OK);
         largest = rb_norm_inf((size_t)rows * 2 * (size_t)points, G);
         assert_true(largest > 0.01 && largest < 100.0);
         for (int i = 0; i < rows; i++) {
             double sum = 0.0;
             for (int q = 0; q < points; q++) {
                 const double outward = 2.0 * M_PI * (q + 0.5) / points;
-                sum += cos(outward) * G[i + 2 * q * rows] +
-                       sin(outward) * G[i + (2 * q + 1) * rows];
+                sum +=
+                    cos(outward) * G[i + 2 * q * rows] + sin(outward) * G[i + (2 * q + 1) * rows];
             }
             CHECK_ABS(sum, 0.0, 1e-13 * largest * points, "%d points, row %d", points, i);
         }

@@ -70,9 +70,9 @@ TEST(whole_elements_ahead_are_their_midpoints)
         double w_T[ELEMENTS];
         for (int steps = 1; steps <= 3; steps++) {
             OWNED(rb_rolling_former_place) ahead;
-            CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies,
-                                                        steps * 6.0 / ELEMENTS, &ahead),
-                         RB_OK);
+            CHECK_STATUS(
+                rb_rolling_former_place_create(&rc, &d.bodies, steps * 6.0 / ELEMENTS, &ahead),
+                RB_OK);
             rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
             for (int i = 0; i + steps <= ELEMENTS; i++)
                 CHECK_ABS(w_T[i], d.w[ELEMENTS + 1 + i + steps], 1e-12 * largest(&d),
@@ -86,8 +86,7 @@ TEST(whole_elements_ahead_are_their_midpoints)
  * line between its neighbours as far as the bodies differ from half-planes. */
 TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
 {
-    const rb_rolling_case rc = plane_ahead(1, ELEMENTS),
-                          longer = plane_ahead(1, ELEMENTS + 4);
+    const rb_rolling_case rc = plane_ahead(1, ELEMENTS), longer = plane_ahead(1, ELEMENTS + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
     OWNED(rb_rolling_former_place) ahead;
     double w_T[ELEMENTS], W_T[2 * 2 * ELEMENTS], outside[2] = {0.0, 0.0};
@@ -99,8 +98,7 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
     CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 1.5, &ahead), RB_OK);
     rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < ELEMENTS; i++)
-        CHECK_ABS(w_T[i], more.w[ELEMENTS + 5 + i + 4], 1e-12 * largest(&d), "element %d",
-                  i);
+        CHECK_ABS(w_T[i], more.w[ELEMENTS + 5 + i + 4], 1e-12 * largest(&d), "element %d", i);
 
     memset(W_T, 0, sizeof W_T);
     CHECK_STATUS(rb_rolling_displacement_outside(&rc, &d.bodies, W_T), RB_OK);
@@ -108,8 +106,7 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
         for (int k = 0; k < 2; k++)
             outside[k] += W_T[2 * j + k] * d.p[j] + W_T[2 * (ELEMENTS + j) + k] * d.q[j];
     CHECK_ABS(outside[0], more.w[ELEMENTS + 5], 1e-12 * largest(&d), "downstream");
-    CHECK_ABS(outside[1], more.w[ELEMENTS + 5 + 1 + ELEMENTS + 1], 1e-12 * largest(&d),
-              "upstream");
+    CHECK_ABS(outside[1], more.w[ELEMENTS + 5 + 1 + ELEMENTS + 1], 1e-12 * largest(&d), "upstream");
     release_pressed(&more);
     release_pressed(&d);
 }
@@ -142,8 +139,7 @@ TEST(a_wheel_is_nearly_on_the_line_of_its_midpoints)
     memcpy(more.q + 1, d.q, sizeof(double) * ELEMENTS);
     CHECK_STATUS(rb_rolling_displacement(&more.bodies, more.p, more.q, more.w), RB_OK);
     CHECK_ABS(outside[0], more.w[ELEMENTS + 5], 2e-2 * largest(&d), "downstream");
-    CHECK_ABS(outside[1], more.w[ELEMENTS + 5 + ELEMENTS + 2], 2e-2 * largest(&d),
-              "upstream");
+    CHECK_ABS(outside[1], more.w[ELEMENTS + 5 + ELEMENTS + 2], 2e-2 * largest(&d), "upstream");
     release_pressed(&more);
     release_pressed(&d);
 }
@@ -161,16 +157,13 @@ TEST(large_contacts_look_ahead_alike)
         rb_rolling_former_place ahead;
         assert_non_null(w_T);
         assert_null(d.bodies.F);
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 2.0 * h, &ahead),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 2.0 * h, &ahead), RB_OK);
         rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
         rb_rolling_former_place_free(&ahead);
         for (int i = 0; i + 2 <= LARGE; i += 50)
-            CHECK_ABS(w_T[i], d.w[LARGE + 1 + i + 2], 1e-11 * largest(&d), "element %d",
-                      i);
+            CHECK_ABS(w_T[i], d.w[LARGE + 1 + i + 2], 1e-11 * largest(&d), "element %d", i);
         /* what an interface adds half an element ahead */
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.5 * h, &ahead),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.5 * h, &ahead), RB_OK);
         rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
         rc.interlayer_tangential = 0.0;
         pressed without = press(&rc, -3.0, 3.0);
@@ -197,8 +190,7 @@ TEST(memory_for_what_is_ahead_may_be_refused)
         rb_rolling_former_place ahead;
         assert_int_equal(d.bodies.F == NULL, k);
         alloc_fail_after(0);
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.01, &ahead),
-                     RB_ENOMEM);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.01, &ahead), RB_ENOMEM);
         alloc_succeed();
         assert_true(!ahead.W_T && !ahead.response);
         release_pressed(&d);
@@ -223,10 +215,8 @@ TEST(large_contacts_know_what_is_ahead)
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL), RB_OK);
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
     assert_null(bodies.F);
-    CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead),
-                 RB_OK);
-    SCRATCH double *r = calloc((size_t)(2 * n), sizeof *r),
-                   *w = calloc((size_t)(2 * m), sizeof *w),
+    CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead), RB_OK);
+    SCRATCH double *r = calloc((size_t)(2 * n), sizeof *r), *w = calloc((size_t)(2 * m), sizeof *w),
                    *w_T = calloc((size_t)n, sizeof *w_T);
     for (int i = n / 3; i < 2 * n / 3; i++) {
         r[i] = 1.0 + 0.3 * sin(0.01 * i);
@@ -260,8 +250,7 @@ TEST(an_interface_moves_with_the_steps)
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL), RB_OK);
         assert_int_equal(bodies.F == NULL, large);
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead), RB_OK);
         w[large] = rb_alloc((size_t)n, 1);
         rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
     }
@@ -299,16 +288,14 @@ TEST(no_part_of_a_row_is_longer_than_the_time_step)
     static const struct {
         double step;
         int parts[5];
-    } rows[] = {
-        {0.0, {1, 1, 1, 1, 1}},  {0.5, {1, 2, 4, 1, 1}},
-        {0.3, {1, 4, 7, 1, 1}},  {0.1, {1, 10, 20, 1, 3}}, /* 0.3/0.1, to rounding */
-        {10.0, {1, 1, 1, 1, 1}}, {1e-9, {1, 10000000, 10000000, 1, 10000000}}};
+    } rows[] = {{0.0, {1, 1, 1, 1, 1}},  {0.5, {1, 2, 4, 1, 1}},
+                {0.3, {1, 4, 7, 1, 1}},  {0.1, {1, 10, 20, 1, 3}}, /* 0.3/0.1, to rounding */
+                {10.0, {1, 1, 1, 1, 1}}, {1e-9, {1, 10000000, 10000000, 1, 10000000}}};
     rb_rolling_case rc = relaxing_press();
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
         for (int r = 0; r < 5; r++) {
             rc.time_step = rows[k].step;
-            assert_int_equal(rb_rolling_program_parts(&program, &rc, r),
-                             rows[k].parts[r]);
+            assert_int_equal(rb_rolling_program_parts(&program, &rc, r), rows[k].parts[r]);
             assert_int_equal(rb_rolling_program_parts(&timeless, &rc, r), 1);
         }
     for (int part = 1; part <= 4; part++)
@@ -371,33 +358,32 @@ TEST(results_refer_to_the_largest_mu)
     CHECK_ABS(rb_rolling_program_base(&empty, &rc).mu, 0.3, 0.0, "the case's");
 }
 
-#define REFUSED(words, rc, ...)                                                          \
-    do {                                                                                 \
-        const rb_rolling_program program = {__VA_ARGS__};                                \
-        const rb_rolling_case one = rc;                                                  \
-        rb_message why = {""};                                                           \
-        CHECK_STATUS(rb_rolling_program_check(&program, &one, &why), RB_EINVAL);         \
-        if (!strstr(why.text, words))                                                    \
-            fail_msg("'%s' does not say '%s'", why.text, words);                         \
+#define REFUSED(words, rc, ...)                                                                    \
+    do {                                                                                           \
+        const rb_rolling_program program = {__VA_ARGS__};                                          \
+        const rb_rolling_case one = rc;                                                            \
+        rb_message why = {""};                                                                     \
+        CHECK_STATUS(rb_rolling_program_check(&program, &one, &why), RB_EINVAL);                   \
+        if (!strstr(why.text, words))                                                              \
+            fail_msg("'%s' does not say '%s'", why.text, words);                                   \
     } while (0)
-#define ACCEPTED(rc, ...)                                                                \
-    do {                                                                                 \
-        const rb_rolling_program program = {__VA_ARGS__};                                \
-        const rb_rolling_case one = rc;                                                  \
-        rb_message why = {""};                                                           \
-        if (rb_rolling_program_check(&program, &one, &why) != RB_OK)                     \
-            fail_msg("%s", why.text);                                                    \
+#define ACCEPTED(rc, ...)                                                                          \
+    do {                                                                                           \
+        const rb_rolling_program program = {__VA_ARGS__};                                          \
+        const rb_rolling_case one = rc;                                                            \
+        rb_message why = {""};                                                                     \
+        if (rb_rolling_program_check(&program, &one, &why) != RB_OK)                               \
+            fail_msg("%s", why.text);                                                              \
     } while (0)
 TEST(programs_that_make_no_sense_are_refused)
 {
-    const double d[] = {0.0, 0.0, 1.0}, late[] = {0.1, 0.2, 1.0},
-                 back[] = {0.0, 2.0, 1.0}, twice[] = {0.0, 1.0, 1.0},
-                 load[] = {1.0, 2.0, 3.0}, none[] = {1.0, NAN, 3.0},
+    const double d[] = {0.0, 0.0, 1.0}, late[] = {0.1, 0.2, 1.0}, back[] = {0.0, 2.0, 1.0},
+                 twice[] = {0.0, 1.0, 1.0}, load[] = {1.0, 2.0, 3.0}, none[] = {1.0, NAN, 3.0},
                  far[] = {0.0, 0.4, 0.8}, pull[] = {1.0, 2.0, -3.0};
     rb_rolling_case rest = rb_rolling_case_defaults(), steady = rest, table = rest;
     steady.formulation = RB_STEADY;
-    table.friction = (rb_rolling_friction){.law = RB_FRICTION_table,
-                                           .table = {.n = 3, .x = d, .y = load}};
+    table.friction =
+        (rb_rolling_friction){.law = RB_FRICTION_table, .table = {.n = 3, .x = d, .y = load}};
 
     ACCEPTED(rest, .n = 3, .load = load);
     ACCEPTED(rolling_press(), .n = 3, .distance = d, .load = load);
@@ -406,8 +392,7 @@ TEST(programs_that_make_no_sense_are_refused)
     REFUSED("steady rolling has none", steady, .n = 3, .load = load);
     REFUSED("needs a column distance", rolling_press(), .n = 3, .load = load);
     REFUSED("is for transient", rest, .n = 3, .distance = d, .load = load);
-    REFUSED("column time is for static", rolling_press(), .n = 3, .distance = d,
-            .time = d);
+    REFUSED("column time is for static", rolling_press(), .n = 3, .distance = d, .time = d);
     REFUSED("is for viscoelastic bodies", rest, .n = 3, .time = d);
     REFUSED("column mu cannot be combined with a table", table, .n = 3, .mu = load);
     REFUSED("row 2: load is not a number", rest, .n = 3, .load = none);
@@ -417,16 +402,14 @@ TEST(programs_that_make_no_sense_are_refused)
     REFUSED("needs a column time", relaxing_press(), .n = 3, .load = load);
     REFUSED("row 1: expected time 0", relaxing_press(), .n = 3, .time = late);
     REFUSED("row 3: time 1 is before", relaxing_press(), .n = 3, .time = back);
-    REFUSED("history: row 3: load: expected a number > 0, got -3", rest, .n = 3,
-            .load = pull);
+    REFUSED("history: row 3: load: expected a number > 0, got -3", rest, .n = 3, .load = pull);
 
     rb_rolling_case fine = relaxing_press();
     fine.time_step = 1.0000001e-7; /* 1e7 steps */
     ACCEPTED(fine, .n = 3, .time = d);
     fine.time_step = 4e-8; /* of a row no more than 1e7 count */
     ACCEPTED(fine, .n = 2, .time = twice);
-    REFUSED("time step: 4e-08 s makes 2e+07 steps", fine, .n = 3, .time = far,
-            .load = load);
+    REFUSED("time step: 4e-08 s makes 2e+07 steps", fine, .n = 3, .time = far, .load = load);
 }
 
 static void check_rows(const double *got, const double *wanted, int n, const char *what)
@@ -443,8 +426,7 @@ TEST(increments_press_first_and_load_then)
     rc.approach = 0.1;
     rc.shift = 0.02;
     double *columns = rb_rolling_program_of_case(&rc, &program);
-    static const double approach[] = {0.05, 0.1, 0.1, 0.1},
-                        shift[] = {0.0, 0.0, 0.01, 0.02};
+    static const double approach[] = {0.05, 0.1, 0.1, 0.1}, shift[] = {0.0, 0.0, 0.01, 0.02};
     assert_int_equal(program.n, 4);
     assert_null(program.load);
     assert_null(program.distance);
@@ -515,13 +497,13 @@ TEST(whole_elements_ahead_are_known)
         const double *F = model.bodies.F, size = fabs(F[0]);
         for (int k = 0; k <= 3; k++) {
             OWNED(rb_rolling_former_place) ahead;
-            CHECK_STATUS(rb_rolling_former_place_create(
-                             &rc, &model.bodies, k * model.bodies.f.h[n / 2], &ahead),
+            CHECK_STATUS(rb_rolling_former_place_create(&rc, &model.bodies,
+                                                        k * model.bodies.f.h[n / 2], &ahead),
                          RB_OK);
             for (int j = 0; j < 2 * n; j++)
                 for (int i = 0; i + k < m && i < n; i++)
-                    CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m],
-                              1e-12 * size, "%d ahead of %d, column %d", k, i, j);
+                    CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m], 1e-12 * size,
+                              "%d ahead of %d, column %d", k, i, j);
         }
     }
 }
@@ -546,15 +528,15 @@ TEST(a_quarter_ahead_is_a_midpoint_of_halves)
     for (int j = 0; j < 2 * n; j++)
         for (int i = 0; i < n; i++) {
             const double *a = F + (size_t)(4 * j * m) + m + 2 * i + 1, *b = a + 2 * m;
-            CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d",
-                      i, j, 2 * n);
+            CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d", i, j,
+                      2 * n);
         }
 }
 
 /* Steps of more than an element: what has yielded comes from between midpoints, and from
  * beyond the mesh comes nothing. */
-static int check_yielded(const rb_rolling_model *model, const rb_rolling_history *h,
-                         int step, int steps, void *context)
+static int check_yielded(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                         int steps, void *context)
 {
     static double before[100];
     const double *x = model->bodies.f.x, c = h->step;
@@ -565,11 +547,10 @@ static int check_yielded(const rb_rolling_model *model, const rb_rolling_history
         for (int j = 0; j < n; j++) {
             const double next = j + 1 < n ? before[j + 1] : 0.0, place = x[i] + c;
             if (x[j] <= place && place < x[j + 1])
-                want =
-                    before[j] + (next - before[j]) * (place - x[j]) / (x[j + 1] - x[j]);
+                want = before[j] + (next - before[j]) * (place - x[j]) / (x[j + 1] - x[j]);
         }
-        CHECK_ABS(model->carried.yielded[i], want, 1e-9 * *(double *)context,
-                  "step %d, element %d", step, i);
+        CHECK_ABS(model->carried.yielded[i], want, 1e-9 * *(double *)context, "step %d, element %d",
+                  step, i);
     }
     rb_rolling_yielded(model, before);
     for (int i = 0; i < n; i++)
@@ -669,8 +650,7 @@ TEST(a_step_loses_what_its_dashpot_does)
         const long double r = (long double)(step / TAU), faded = -expm1l(-r);
         const double f0 = (double)(-0.5L * expm1l(-2.0L * r)),
                      f1 = (double)(0.5L * faded * faded / r),
-                     f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) /
-                                   (r * r));
+                     f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) / (r * r));
         OWNED(rb_rolling_memory_track) track;
         double e[2 * N] = {0.0}, d[2 * N], next[2 * N];
         CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, 0, &track, NULL), RB_OK);
@@ -687,10 +667,9 @@ TEST(a_step_loses_what_its_dashpot_does)
         const rb_bem_flexibility *f = &track.body[0].f;
         const double was = track.lost;
         rb_rolling_memory_track_end(&track, step, next, next + N);
-        const double want = F * (f0 * work_of(f, e, e) + 2.0 * f1 * work_of(f, d, e) +
-                                 f2 * work_of(f, d, d));
-        CHECK_REL(track.lost - was, want, kind == 2 ? 1e-7 : 1e-9, "step %g, %d", step,
-                  kind);
+        const double want =
+            F * (f0 * work_of(f, e, e) + 2.0 * f1 * work_of(f, d, e) + f2 * work_of(f, d, d));
+        CHECK_REL(track.lost - was, want, kind == 2 ? 1e-7 : 1e-9, "step %g, %d", step, kind);
     }
 }
 

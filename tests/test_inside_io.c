@@ -16,8 +16,7 @@ static rb_status do_it(FILE *out, const void *context, rb_message *why)
     switch (*(const deed *)context) {
     case ANSWERS:
         fputs("an answer", out);
-        return getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur == 0 ? RB_OK
-                                                                        : RB_EINVAL;
+        return getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur == 0 ? RB_OK : RB_EINVAL;
     case REFUSES:
         fputs("half of it", out);
         return rb_fail(why, RB_EFORMAT, "it is bad");

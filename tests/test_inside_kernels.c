@@ -15,8 +15,8 @@ static const char *const place_name[places] = {"anywhere", "collinear", "above"}
 
 static rb_element element_in_general_position(void)
 {
-    const double h = pow(10.0, between(-3, 0)), angle = between(0, 2 * M_PI),
-                 x = between(-1, 1), y = between(-1, 1);
+    const double h = pow(10.0, between(-3, 0)), angle = between(0, 2 * M_PI), x = between(-1, 1),
+                 y = between(-1, 1);
     return rb_element_make(x, y, x + h * cos(angle), y + h * sin(angle), 1.0);
 }
 
@@ -25,8 +25,7 @@ static rb_element element_in_general_position(void)
 static void put_points(const rb_element *e, int place, double *x, double *y)
 {
     for (int i = 0; i < n_seen; i++) {
-        const double away = e->a * pow(10.0, between(-1, 4)),
-                     angle = between(0, 2 * M_PI);
+        const double away = e->a * pow(10.0, between(-1, 4)), angle = between(0, 2 * M_PI);
         const double along = place == ANYWHERE    ? away * cos(angle)
                              : place == COLLINEAR ? e->a + away
                                                   : 0.0;
@@ -59,15 +58,14 @@ static void make_column_case(int place, column_case *c)
     put_points(&c->e, place, c->x, c->y);
 }
 
-static void fill_columns(const column_case *c, const rb_column_variant *variant,
-                         int with_G, columns_of_H_and_G to)
+static void fill_columns(const column_case *c, const rb_column_variant *variant, int with_G,
+                         columns_of_H_and_G to)
 {
     const rb_constants k = rb_constants_make(&c->e, c->material);
     OWNED(rb_points) points;
     CHECK_STATUS(rb_points_make(n_seen, c->x, c->y, &points), RB_OK);
-    variant->fill(
-        &k, &c->e, c->self, &points,
-        (double *const[4]){to[0], to[1], with_G ? to[2] : NULL, with_G ? to[3] : NULL});
+    variant->fill(&k, &c->e, c->self, &points,
+                  (double *const[4]){to[0], to[1], with_G ? to[2] : NULL, with_G ? to[3] : NULL});
 }
 
 static void put_blocks(const double H[4], const double G[4], int i, columns_of_H_and_G to)
@@ -92,8 +90,8 @@ static void fill_scalar(const column_case *c, columns_of_H_and_G to)
             rb_integrate_H(&k, &v, &f);
             rb_integrate_G(&k, c->e.a, &v, &f);
         }
-        put_blocks((double[]){f.Hxx, f.Hyx, f.Hxy, f.Hyy},
-                   (double[]){f.Gxx, f.Gxy, f.Gxy, f.Gyy}, i, to);
+        put_blocks((double[]){f.Hxx, f.Hyx, f.Hxy, f.Hyy}, (double[]){f.Gxx, f.Gxy, f.Gxy, f.Gyy},
+                   i, to);
     }
 }
 
@@ -102,19 +100,18 @@ static void integrate_long(const column_case *c, int i, double H[4], double G[4]
 {
     const long double pi = acosl(-1.0L), t = hypotl(c->e.tx, c->e.ty), tx = c->e.tx / t,
                       ty = c->e.ty / t, a = c->e.a, nu = c->material.poisson,
-                      C = 1 / (8 * pi * c->material.shear * (1 - nu)),
-                      D = -1 / (4 * pi * (1 - nu)), kap = 3 - 4 * nu;
-    const long double dx = (long double)c->e.mx - c->x[i],
-                      dy = (long double)c->e.my - c->y[i], X = dx * tx + dy * ty,
-                      d = dx * ty - dy * tx, r1 = hypotl(X - a, d), r2 = hypotl(X + a, d);
+                      C = 1 / (8 * pi * c->material.shear * (1 - nu)), D = -1 / (4 * pi * (1 - nu)),
+                      kap = 3 - 4 * nu;
+    const long double dx = (long double)c->e.mx - c->x[i], dy = (long double)c->e.my - c->y[i],
+                      X = dx * tx + dy * ty, d = dx * ty - dy * tx, r1 = hypotl(X - a, d),
+                      r2 = hypotl(X + a, d);
     const long double Th = i == c->self ? 0 : atan2l(2 * a * d, X * X + d * d - a * a),
                       Lam = 0.5L * log1pl(4 * a * X / (r1 * r1)),
                       L = X * Lam + a * logl(r1 * r2) - 2 * a + d * Th,
                       q = 2 * a * d / (r1 * r1 * r2 * r2);
-    const long double dev = q * (X * X - d * d - a * a), shear = q * 2 * X * d,
-                      g = a - d * Th, g12 = d * Lam, cc = tx * tx - ty * ty,
-                      ss = 2 * tx * ty, mean = 2 * (1 - nu) * Th,
-                      skew = (1 - 2 * nu) * Lam;
+    const long double dev = q * (X * X - d * d - a * a), shear = q * 2 * X * d, g = a - d * Th,
+                      g12 = d * Lam, cc = tx * tx - ty * ty, ss = 2 * tx * ty,
+                      mean = 2 * (1 - nu) * Th, skew = (1 - 2 * nu) * Lam;
     const double own = i == c->self ? 0.5 : 0.0;
     H[0] = own + (double)(D * (mean + cc * dev + ss * shear));
     H[3] = own + (double)(D * (mean - cc * dev - ss * shear));
@@ -140,8 +137,7 @@ typedef struct {
     int n;
 } differences;
 
-static void compare(columns_of_H_and_G got, columns_of_H_and_G want, int matrix,
-                    differences *to)
+static void compare(columns_of_H_and_G got, columns_of_H_and_G want, int matrix, differences *to)
 {
     for (int i = 0; i < n_seen; i++) {
         double size = 0.0, error = 0.0;
@@ -159,13 +155,12 @@ static void compare(columns_of_H_and_G got, columns_of_H_and_G want, int matrix,
 
 /* In the mean below one rounding.  One block may have more: where one of its parts
  * changes sign it is small against what it was made of. */
-static void check_differences(const differences *of, double mean, double largest,
-                              const char *who, const char *whom, int place, char matrix)
+static void check_differences(const differences *of, double mean, double largest, const char *who,
+                              const char *whom, int place, char matrix)
 {
-    CHECK_MAX(sqrt(of->squares / of->n), mean, "%c, %s against %s, %s, root mean square",
-              matrix, who, whom, place_name[place]);
-    CHECK_MAX(of->largest, largest, "%c, %s against %s, %s", matrix, who, whom,
-              place_name[place]);
+    CHECK_MAX(sqrt(of->squares / of->n), mean, "%c, %s against %s, %s, root mean square", matrix,
+              who, whom, place_name[place]);
+    CHECK_MAX(of->largest, largest, "%c, %s against %s, %s", matrix, who, whom, place_name[place]);
 }
 
 TEST(every_instruction_set_gives_the_same)
@@ -188,10 +183,10 @@ TEST(every_instruction_set_gives_the_same)
                 }
             }
             for (int m = 0; m < 2; m++) {
-                check_differences(&from_single[m], 2e-16, 5e-15, variant->name,
-                                  "single points", place, "HG"[m]);
-                check_differences(&from_exact[m], 3e-16, 1e-14, variant->name,
-                                  "long double", place, "HG"[m]);
+                check_differences(&from_single[m], 2e-16, 5e-15, variant->name, "single points",
+                                  place, "HG"[m]);
+                check_differences(&from_exact[m], 3e-16, 1e-14, variant->name, "long double", place,
+                                  "HG"[m]);
             }
         }
     assert_null(rb_column_variant_get(-1));
@@ -208,11 +203,11 @@ TEST(the_series_meet_at_the_ends_of_their_ranges)
                          s = r * sin(angle * M_PI / 45);
             rb_view_angles v = rb_see(&e, -c, s);
             rb_turn_far(1.0, range[k]->terms, 2.0 / v.rho, &v);
-            const long double Lam = 0.5L * log1pl(4.0L * v.X /
-                                                  ((v.X - 1.0L) * (v.X - 1.0L) +
-                                                   (long double)v.d * v.d)),
-                              Th = atan2l(2.0L * v.d, (long double)v.X * v.X +
-                                                          (long double)v.d * v.d - 1.0L);
+            const long double Lam = 0.5L *
+                                    log1pl(4.0L * v.X /
+                                           ((v.X - 1.0L) * (v.X - 1.0L) + (long double)v.d * v.d)),
+                              Th = atan2l(2.0L * v.d,
+                                          (long double)v.X * v.X + (long double)v.d * v.d - 1.0L);
             CHECK_ABS(v.Lam, (double)Lam, 1e-15 / r, "Lam, %d terms", range[k]->terms);
             CHECK_ABS(v.Th, (double)Th, 1e-15 / r, "Th, %d terms", range[k]->terms);
         }

@@ -59,12 +59,11 @@ static void check_same(lcp_tableau *t, lcp_tableau *anew, int pivots)
         rb_lcp_tableau_column(t, c, a);
         rb_lcp_tableau_column(anew, c, b);
         for (int i = 0; i < N; i++)
-            CHECK_ABS(a[i], b[i], 1e-9 * (1.0 + fabs(b[i])), "%d pivots, T(%d, %d)",
-                      pivots, i, c);
+            CHECK_ABS(a[i], b[i], 1e-9 * (1.0 + fabs(b[i])), "%d pivots, T(%d, %d)", pivots, i, c);
     }
     for (int i = 0; i < N; i++)
-        CHECK_ABS(t->q[i], anew->q[i], 1e-9 * (1.0 + fabs(anew->q[i])),
-                  "%d pivots, q(%d)", pivots, i);
+        CHECK_ABS(t->q[i], anew->q[i], 1e-9 * (1.0 + fabs(anew->q[i])), "%d pivots, q(%d)", pivots,
+                  i);
 }
 
 static void take_basis(const lcp_tableau *t, lcp_tableau *anew)
@@ -278,8 +277,7 @@ static void bench_create(bench *b)
         for (int j = 0; j < LDM; j++)
             M_[j + i * LDM] = uniform() + (i == j ? ROWS : 0.0);
     }
-    *b = (bench){
-        .l = {.n = ROWS, .data = {{ROWS, M_, LDM, q_}, cover_}, .largest = ROWS + 1.0}};
+    *b = (bench){.l = {.n = ROWS, .data = {{ROWS, M_, LDM, q_}, cover_}, .largest = ROWS + 1.0}};
     l->info = &b->info;
     l->a = b->room;
     l->other = l->a + ROWS;
@@ -429,8 +427,8 @@ TEST(only_a_solution_is_polished)
             l->t.q[i] += l->t.basis[i] >= ROWS ? 1e-7 : 0.0;
         rb_lcp_lemke_answer(l, solved, z);
         for (int i = 0; i < ROWS; i++)
-            CHECK_ABS(z[i], b.x[ROWS + i] + (i < PIVOTS - 1 && !solved ? 1e-7 : 0.0),
-                      1e-11, "z(%d)", i + 1);
+            CHECK_ABS(z[i], b.x[ROWS + i] + (i < PIVOTS - 1 && !solved ? 1e-7 : 0.0), 1e-11,
+                      "z(%d)", i + 1);
         CHECK_MAX(b.info.res, solved ? 1e-13 : 1e-4, "residual");
         assert_true(solved || b.info.res > 1e-8);
         rb_lcp_tableau_free(&l->t);

@@ -12,11 +12,8 @@ static rb_rolling_case steady(rb_bem_support support, int elements)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
 
-    rc.a = (rb_rolling_body){.young = 210000.0,
-                             .poisson = 0.28,
-                             .radius = 500.0,
-                             .support = support,
-                             .hub_ratio = 0.5};
+    rc.a = (rb_rolling_body){
+        .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = support, .hub_ratio = 0.5};
     rc.b = rc.a;
     rc.b.young = 70000.0;
     rc.b.radius = INFINITY;
@@ -62,9 +59,9 @@ static void check_pairs(const rb_rolling_model *model, const rb_contact_problem 
     for (int k = 0; k < m; k++)
         CHECK_ABS(half_gap[k], pair_mean(n, gap, k), 1e-11 * p->gap_length, "gap %d", k);
     for (int k = 0; k < inner; k++) {
-        const double want =
-            p->differences ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
-                           : pair_mean(n, w_T, k);
+        const double want = p->differences
+                                ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
+                                : pair_mean(n, w_T, k);
         const int alone = p->differences && n % 2 && k == inner - 1;
         if (!alone)
             CHECK_ABS(half_gap[m + k], want, 1e-11 * p->slip_length, "slip %d", k);
@@ -193,8 +190,8 @@ TEST(full_sliding_needs_no_other_solver)
         assert_int_equal(s.solver, RB_SOLVER_NEWTON);
         assert_int_equal(s.stick, 0);
         for (int i = 0; i < s.n; i++)
-            CHECK_ABS(s.q[i], -sign * rc.mu * s.p[i], 1e-9 * s.max_pressure,
-                      "case %d, element %d", k, i);
+            CHECK_ABS(s.q[i], -sign * rc.mu * s.p[i], 1e-9 * s.max_pressure, "case %d, element %d",
+                      k, i);
     }
 }
 
@@ -242,8 +239,7 @@ static void disturb(int count, rb_contact_state *s)
 }
 
 /* Returns the changes that the kept LU was used over. */
-static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns,
-                      rb_contact_state *s)
+static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns, rb_contact_state *s)
 {
     rb_contact_reduced kept, fresh;
 
@@ -308,8 +304,7 @@ TEST(a_kept_lu_gives_way_to_a_new_one)
 }
 
 /* Zones solved with the friction of `bound`, by what is kept or anew. */
-static void solve_with(rb_rolling_model *model, const double *bound, int anew,
-                       rb_contact_state *s)
+static void solve_with(rb_rolling_model *model, const double *bound, int anew, rb_contact_state *s)
 {
     rb_contact_problem *p = &model->problem;
 
@@ -379,8 +374,8 @@ TEST(a_given_load_does_not_feel_the_datum)
     CHECK_STATUS(rb_contact_state_alloc(usual.mesh.n, &s), RB_OK);
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
-    rc.a.datum = rb_rolling_datum(&rc, &rc.a) *
-                 exp(-0.5 * M_PI * rb_rolling_derive(&rc).modulus * soft);
+    rc.a.datum =
+        rb_rolling_datum(&rc, &rc.a) * exp(-0.5 * M_PI * rb_rolling_derive(&rc).modulus * soft);
     rc.b.datum = rc.a.datum;
     critical = solved_model(&rc);
     p = &critical.problem;

@@ -17,23 +17,16 @@ TEST(axes_have_units_that_fit)
         const char *of;
         double largest, size;
         const char *name;
-    } axes[] = {{RB_UNITS_MM, "MPa", 9999.0, 1.0, "MPa"},
-                {RB_UNITS_MM, "MPa", 1e4, 1e3, "GPa"},
-                {RB_UNITS_SI, "MPa", 9999.0, 1.0, "Pa"},
-                {RB_UNITS_SI, "MPa", 1e4, 1e3, "kPa"},
-                {RB_UNITS_SI, "MPa", 1e6, 1e6, "MPa"},
-                {RB_UNITS_SI, "MPa", 9.9e9, 1e6, "MPa"},
-                {RB_UNITS_SI, "MPa", 1e10, 1e9, "GPa"},
-                {RB_UNITS_INCH, "MPa", 9999.0, 1.0, "psi"},
-                {RB_UNITS_INCH, "MPa", 1e4, 1e3, "ksi"},
-                {RB_UNITS_MM, "mm", 1e-3, 1.0, "mm"},
-                {RB_UNITS_SI, "mm", 0.099, 1e-3, "mm"},
-                {RB_UNITS_SI, "mm", 0.1, 1.0, "m"},
-                {RB_UNITS_SI, "N/mm", 0.01, 1.0, "N/m"},
-                {RB_UNITS_INCH, "mm", 0.01, 1.0, "in"}};
+    } axes[] = {
+        {RB_UNITS_MM, "MPa", 9999.0, 1.0, "MPa"}, {RB_UNITS_MM, "MPa", 1e4, 1e3, "GPa"},
+        {RB_UNITS_SI, "MPa", 9999.0, 1.0, "Pa"},  {RB_UNITS_SI, "MPa", 1e4, 1e3, "kPa"},
+        {RB_UNITS_SI, "MPa", 1e6, 1e6, "MPa"},    {RB_UNITS_SI, "MPa", 9.9e9, 1e6, "MPa"},
+        {RB_UNITS_SI, "MPa", 1e10, 1e9, "GPa"},   {RB_UNITS_INCH, "MPa", 9999.0, 1.0, "psi"},
+        {RB_UNITS_INCH, "MPa", 1e4, 1e3, "ksi"},  {RB_UNITS_MM, "mm", 1e-3, 1.0, "mm"},
+        {RB_UNITS_SI, "mm", 0.099, 1e-3, "mm"},   {RB_UNITS_SI, "mm", 0.1, 1.0, "m"},
+        {RB_UNITS_SI, "N/mm", 0.01, 1.0, "N/m"},  {RB_UNITS_INCH, "mm", 0.01, 1.0, "in"}};
     for (size_t k = 0; k < sizeof axes / sizeof *axes; k++) {
-        const rb_report_unit unit =
-            rb_report_axis_unit(axes[k].units, axes[k].of, axes[k].largest);
+        const rb_report_unit unit = rb_report_axis_unit(axes[k].units, axes[k].of, axes[k].largest);
         CHECK_ABS(unit.size, axes[k].size, 0.0, "axis %zu", k);
         assert_string_equal(unit.name, axes[k].name);
     }
@@ -59,9 +52,9 @@ TEST(lengths_are_shown_in_half_widths_or_units)
 
 TEST(steps_are_one_two_or_five)
 {
-    static const double steps[][2] = {
-        {1.0, 1.0},  {1.01, 2.0}, {2.0, 2.0},   {2.1, 5.0},  {5.0, 5.0},
-        {5.1, 10.0}, {9.9, 10.0}, {0.03, 0.05}, {70.0, 1e2}, {1.2e-7, 2e-7}};
+    static const double steps[][2] = {{1.0, 1.0},  {1.01, 2.0},   {2.0, 2.0},  {2.1, 5.0},
+                                      {5.0, 5.0},  {5.1, 10.0},   {9.9, 10.0}, {0.03, 0.05},
+                                      {70.0, 1e2}, {1.2e-7, 2e-7}};
     for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
         CHECK_REL(rb_report_round_step(steps[k][0]), steps[k][1], 1e-14, "step %zu", k);
     static const double powers[][2] = {{0.0, 0.0},   {0.1, 0.0},     {0.099, -2.0},
@@ -77,8 +70,7 @@ TEST(dashes_repeat)
 {
     for (int k = 0; k < 12; k++)
         for (int j = 0; j < k; j++)
-            assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)),
-                             j + 6 == k);
+            assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)), j + 6 == k);
 }
 
 /* ---- Gnuplot ----------------------------------------------------------------------- */
@@ -88,8 +80,7 @@ TEST(gnuplot_complaint_is_handed_on)
     FILE *script = tmpfile(), *out = tmpfile();
     rb_message why = {""};
     fputs("plt 1\n", script);
-    assert_int_equal(rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why),
-                     RB_EHELPER);
+    assert_int_equal(rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why), RB_EHELPER);
     assert_non_null(strstr(why.text, "invalid command"));
     fclose(script);
     fclose(out);
@@ -111,8 +102,8 @@ TEST(missing_gnuplot_is_named)
 }
 
 /* A program called gnuplot, of that shell script, comes first in PATH. */
-static rb_status draw_by(const char *lines, double seconds, rb_report_picture_kind kind,
-                         FILE *out, rb_message *why)
+static rb_status draw_by(const char *lines, double seconds, rb_report_picture_kind kind, FILE *out,
+                         rb_message *why)
 {
     char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], path[4200], before[4096];
     assert_non_null(mkdtemp(folder));
@@ -141,16 +132,14 @@ TEST(a_part_of_a_picture_is_none)
         const char *part, *all;
     } pictures[] = {
         {RB_REPORT_SVG, "printf '<?xml <svg>'", "printf '<?xml <svg> more </svg>\\n\\n'"},
-        {RB_REPORT_PDF, "printf '%%PDF-1.5 and so on'",
-         "printf '%%PDF-1.5 and so on %%%%EOF\\n'"},
+        {RB_REPORT_PDF, "printf '%%PDF-1.5 and so on'", "printf '%%PDF-1.5 and so on %%%%EOF\\n'"},
         {RB_REPORT_PNG, "printf '\\211PNG\\r\\n\\032\\n and so on'",
          "printf '\\211PNG\\r\\n\\032\\n and so on IEND\\256B`\\202'"},
         {RB_REPORT_SVG, ":", "printf '<?xml <svg> more </svg>'"}};
     for (int k = 0; k < 4; k++) {
         FILE *out = tmpfile();
         rb_message why = {""};
-        CHECK_STATUS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &why),
-                     RB_EWRITE);
+        CHECK_STATUS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &why), RB_EWRITE);
         assert_non_null(strstr(why.text, "a part of the picture only"));
         assert_int_equal(ftell(out), 0);
         CHECK_STATUS(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &why), RB_OK);
@@ -171,16 +160,14 @@ TEST(gnuplot_that_fails_is_told)
                 {"echo '  wrong' >&2; echo '  ^' >&2; echo >&2; exit 1", RB_EHELPER,
                  "gnuplot failed:   wrong"},
                 {"kill -9 $$", RB_EHELPER, "gnuplot failed: no message"},
-                {"printf '<!xml> <svg> more and more </svg>'", RB_EWRITE,
-                 "a part of the picture"},
+                {"printf '<!xml> <svg> more and more </svg>'", RB_EWRITE, "a part of the picture"},
                 {"printf '<?xml'", RB_EWRITE, "a part of the picture"},
-                {"printf '<?xml <svg> more </svg\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n'",
-                 RB_EWRITE, "a part of the picture"}};
+                {"printf '<?xml <svg> more </svg\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n'", RB_EWRITE,
+                 "a part of the picture"}};
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
         FILE *out = tmpfile();
         rb_message why = {""};
-        CHECK_STATUS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &why),
-                     ends[k].status);
+        CHECK_STATUS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &why), ends[k].status);
         if (!strstr(why.text, ends[k].part))
             fail_msg("'%s': %s", ends[k].lines, why.text);
         assert_int_equal(ftell(out), 0);

@@ -55,8 +55,7 @@ TEST(the_warmest_place_is_a_vertex_in_contact)
 
 TEST(peclets_number_compares_speed_and_diffusion)
 {
-    const rb_rolling_heat steel = {.conductivity = 40.0, .heat_capacity = 4.0},
-                          none = {0};
+    const rb_rolling_heat steel = {.conductivity = 40.0, .heat_capacity = 4.0}, none = {0};
     CHECK_REL(rb_rolling_peclet(&steel, 500.0, 0.2), 500.0 * 0.2 / 20.0, 1e-15, "V a/2k");
     assert_true(isinf(rb_rolling_peclet(&none, 500.0, 0.2)));
 }
@@ -96,8 +95,7 @@ TEST(steps_warm_what_passes_them)
                     H += left + 1 < N ? part * heat[k - b][left + 1] : 0.0;
                     want += unit * H * (sqrt(b + 1.0) - sqrt(b));
                 }
-                CHECK_REL(t[i], want, 1e-9, "length %g, step %d, element %d", lengths[j],
-                          k, i);
+                CHECK_REL(t[i], want, 1e-9, "length %g, step %d, element %d", lengths[j], k, i);
             }
         }
         rb_rolling_heat_track_free(&track);
@@ -158,9 +156,9 @@ TEST(unlike_bodies_share_by_temperature)
         s.contact = 0;
         double power[100] = {0.0};
         assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
-        CHECK_STATUS(rb_rolling_steady_temperature(&rc, &s, power, s.temperature,
-                                                   s.temperature_b, NULL),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_rolling_steady_temperature(&rc, &s, power, s.temperature, s.temperature_b, NULL),
+            RB_OK);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
             CHECK_ABS(s.temperature_b[i], rc.heat_b.temperature, 1e-12, "B");
@@ -174,8 +172,7 @@ TEST(shares_of_equal_elements_are_those_of_any)
 {
     rb_rolling_case rc = warm_sliding(RB_STEADY);
     rc.contact_elements = 60;
-    rc.heat_b =
-        (rb_rolling_heat){.conductivity = 7.0, .heat_capacity = 2.0, .temperature = 30.0};
+    rc.heat_b = (rb_rolling_heat){.conductivity = 7.0, .heat_capacity = 2.0, .temperature = 30.0};
     OWNED(rb_rolling_solution) s = solved(&rc);
     double power[200], t[4][200];
     assert_true(s.n <= 200 && s.contact > 20);
@@ -187,9 +184,8 @@ TEST(shares_of_equal_elements_are_those_of_any)
             power[i] = s.zone[i] != RB_ZONE_SEPARATED ? 1.0 + 0.01 * i : 0.0;
         for (int k = 0; k < 2; k++) {
             rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-            CHECK_STATUS(rb_rolling_steady_temperature(&rc, &s, power, t[2 * k],
-                                                       t[2 * k + 1], NULL),
-                         RB_OK);
+            CHECK_STATUS(
+                rb_rolling_steady_temperature(&rc, &s, power, t[2 * k], t[2 * k + 1], NULL), RB_OK);
         }
         for (int i = 0; i < s.n; i++) {
             CHECK_REL(t[0][i], t[2][i], 1e-11, "A at %d, hole %d", i, hole);
@@ -235,8 +231,7 @@ TEST(columns_are_those_of_the_state)
             CHECK_ABS(s.ut[i], w[n + 1 + i], 0.0, "w_T %d", i);
             CHECK_ABS(s.gap[i], model.mesh.gap[i] + w[i] - c->delta, 1e-12, "gap %d", i);
             const double dx = model.bodies.f.x[i + 1] - model.bodies.f.x[i];
-            const double slip = k == RB_STATIC
-                                    ? s.creepage - (w[n + 2 + i] - w[n + 1 + i]) / dx
+            const double slip = k == RB_STATIC   ? s.creepage - (w[n + 2 + i] - w[n + 1 + i]) / dx
                                 : k == RB_STEADY ? c->lambda[i] / dx
                                                  : c->lambda[i] / model.problem.e_T[i];
             CHECK_ABS(s.slip[i], slip, 1e-15, "slip %d", i);
@@ -345,8 +340,7 @@ static void make(made_up *m)
     for (int i = 0; i < N + 2; i++)
         m->ends[i] = i;
     m->mesh = (rb_rolling_mesh){.n = N, .ends = m->ends};
-    m->state =
-        (rb_contact_state){.n = N, .p = m->p, .q = m->q, .zone = m->zone, .delta = 1.0};
+    m->state = (rb_contact_state){.n = N, .p = m->p, .q = m->q, .zone = m->zone, .delta = 1.0};
 }
 
 /* Pressure of the distance to either edge to the power of its exponent. */
@@ -361,8 +355,7 @@ static void press(made_up *m, double from, double to, double left, double right,
     }
 }
 
-static void check_edges(const made_up *m, double from, double to, double tol,
-                        const char *what)
+static void check_edges(const made_up *m, double from, double to, double tol, const char *what)
 {
     double got[2];
     rb_rolling_contact_edges(&m->rc, &m->mesh, &m->state, &got[0], &got[1]);
@@ -527,8 +520,8 @@ TEST(aligned_edges_are_roots_of_a_parabola)
 TEST(aligned_edges_stay_beside_their_element)
 {
     static const struct {
-        double p[3]; /* of the third, fourth and fifth element from the edge */
-        double off;  /* of the edge, from the midpoint of the third */
+        double p[3];                     /* of the third, fourth and fifth element from the edge */
+        double off;                      /* of the edge, from the midpoint of the third */
     } rows[] = {{{1.0, 2.0, 3.0}, 2.0},  /* a line: its root is 1, too near */
                 {{1.0, 1.2, 1.4}, 3.0},  /* 5, too far */
                 {{1.0, 1.4, 1.8}, 2.5},  /* of a line */
@@ -600,8 +593,7 @@ TEST(the_peak_is_hertzs)
         m.p[i] = 5.0;
         m.zone[i] = RB_ZONE_STICK;
     }
-    m.p[9] = m.p[20] =
-        5.0; /* neighbours without a fall: open elements are not looked at */
+    m.p[9] = m.p[20] = 5.0; /* neighbours without a fall: open elements are not looked at */
     CHECK_ABS(rb_rolling_peak_pressure(&model), 5.0, 0.0, "a plateau");
 }
 
@@ -627,20 +619,14 @@ TEST(a_vertex_is_that_of_the_parabola)
 
 enum { FIVE = 5 };
 
-static double shift[FIVE] = {0.3, -0.1, 0.0, 0.2, 0.7},
-              q[FIVE] = {1.0, -2.0, 3.0, 0.5, 4.0},
-              h[FIVE] = {0.5, 0.25, 1.0, 2.0, 0.125},
-              slip[FIVE] = {0.1, 0.2, -0.3, 0.4, 0.5},
+static double shift[FIVE] = {0.3, -0.1, 0.0, 0.2, 0.7}, q[FIVE] = {1.0, -2.0, 3.0, 0.5, 4.0},
+              h[FIVE] = {0.5, 0.25, 1.0, 2.0, 0.125}, slip[FIVE] = {0.1, 0.2, -0.3, 0.4, 0.5},
               e_T[FIVE] = {2.0, 3.0, 4.0, 5.0, 6.0};
 
 TEST(steady_slip_lies_between_two_midpoints)
 {
-    const rb_rolling_solution s = {.n = FIVE,
-                                   .shift = shift,
-                                   .q = q,
-                                   .h = h,
-                                   .slip = slip,
-                                   .formulation = RB_STEADY};
+    const rb_rolling_solution s = {
+        .n = FIVE, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
     rb_rolling_case rc = rb_rolling_case_defaults();
     double power[FIVE], sum = 0.0;
     rc.formulation = RB_STEADY;
@@ -650,8 +636,7 @@ TEST(steady_slip_lies_between_two_midpoints)
         CHECK_REL(power[i], -0.5 * (before + shift[i]) * q[i] / h[i], 1e-15, "%d", i);
         sum += power[i] * h[i];
     }
-    CHECK_REL(rb_rolling_dissipated_power(&rc, FIVE, shift, q, h, e_T), sum, 1e-14,
-              "all");
+    CHECK_REL(rb_rolling_dissipated_power(&rc, FIVE, shift, q, h, e_T), sum, 1e-14, "all");
     CHECK_REL(sum, -0.5 * (0.3 * -1.0 + -0.1 * 1.0 + 0.2 * 4.5 + 0.7 * 4.0), 1e-14,
               "sum of lambda_i (q_i + q_i+1)/2");
 }
@@ -660,34 +645,23 @@ TEST(steady_slip_lies_between_two_midpoints)
  * friction of anything that slips. */
 TEST(what_sticks_dissipates_nothing)
 {
-    double opens[FIVE] = {0.3, 0.0, 0.0, 0.0, -0.1},
-           sticks[FIVE] = {0.0, -2.0, 3.0, 0.5, 0.0};
-    const rb_rolling_solution s = {.n = FIVE,
-                                   .shift = opens,
-                                   .q = sticks,
-                                   .h = h,
-                                   .slip = slip,
-                                   .formulation = RB_STEADY};
+    double opens[FIVE] = {0.3, 0.0, 0.0, 0.0, -0.1}, sticks[FIVE] = {0.0, -2.0, 3.0, 0.5, 0.0};
+    const rb_rolling_solution s = {
+        .n = FIVE, .shift = opens, .q = sticks, .h = h, .slip = slip, .formulation = RB_STEADY};
     rb_rolling_case rc = rb_rolling_case_defaults();
     double power[FIVE];
     rc.formulation = RB_STEADY;
     rb_rolling_friction_power(&s, power);
     for (int i = 0; i < FIVE; i++)
         CHECK_ABS(power[i], 0.0, 0.0, "%d", i);
-    CHECK_ABS(rb_rolling_dissipated_power(&rc, FIVE, opens, sticks, h, e_T), 0.0, 0.0,
-              "D");
-    CHECK_ABS(rb_rolling_slid_pressure(&rc, FIVE, opens, sticks, h, e_T), 0.0, 0.0,
-              "wear");
+    CHECK_ABS(rb_rolling_dissipated_power(&rc, FIVE, opens, sticks, h, e_T), 0.0, 0.0, "D");
+    CHECK_ABS(rb_rolling_slid_pressure(&rc, FIVE, opens, sticks, h, e_T), 0.0, 0.0, "wear");
 }
 
 TEST(other_slip_belongs_to_its_element)
 {
-    rb_rolling_solution s = {.n = FIVE,
-                             .shift = shift,
-                             .q = q,
-                             .h = h,
-                             .slip = slip,
-                             .formulation = RB_STEADY};
+    rb_rolling_solution s = {
+        .n = FIVE, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
     rb_rolling_case rc = rb_rolling_case_defaults();
     double power[FIVE], want = 0.0;
     for (int i = 0; i < FIVE; i++)
@@ -699,8 +673,7 @@ TEST(other_slip_belongs_to_its_element)
         rb_rolling_friction_power(&s, power);
         for (int i = 0; i < FIVE; i++)
             CHECK_REL(power[i], -slip[i] * q[i], 1e-15, "%d", i);
-        CHECK_REL(rb_rolling_dissipated_power(&rc, FIVE, shift, q, h, e_T), want, 1e-14,
-                  "all");
+        CHECK_REL(rb_rolling_dissipated_power(&rc, FIVE, shift, q, h, e_T), want, 1e-14, "all");
     }
     rc.formulation = s.formulation = RB_STATIC;
     rb_rolling_friction_power(&s, power);

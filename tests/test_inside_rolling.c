@@ -25,8 +25,7 @@ TEST(the_gap_is_that_of_both_bodies)
     rc.b.radius = 20.0;
     CHECK_REL(rb_rolling_initial_gap(&rc, x), a + b, 1e-13, "two circles");
     rc.gap = RB_GAP_PARABOLA;
-    CHECK_REL(rb_rolling_initial_gap(&rc, x), 4.5 * (1 / 50.0 + 1 / 20.0), 1e-14,
-              "two parabolas");
+    CHECK_REL(rb_rolling_initial_gap(&rc, x), 4.5 * (1 / 50.0 + 1 / 20.0), 1e-14, "two parabolas");
     assert_true(rb_rolling_is_convex(&rc));
     rc.gap = RB_GAP_TABLE;
     assert_false(rb_rolling_is_convex(&rc));
@@ -41,10 +40,9 @@ TEST(what_is_worn_is_linear_between_its_points)
     rc.gap = RB_GAP_PARABOLA;
     rc.worn = (rb_rolling_table){3, x, y};
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
-        CHECK_ABS(rb_rolling_worn_depth(&rc, at[k][0]), at[k][1], 1e-15, "x = %g",
-                  at[k][0]);
-        CHECK_REL(rb_rolling_initial_gap(&rc, at[k][0]),
-                  gsl_pow_2(at[k][0]) / 100.0 + at[k][1], 1e-14, "gap");
+        CHECK_ABS(rb_rolling_worn_depth(&rc, at[k][0]), at[k][1], 1e-15, "x = %g", at[k][0]);
+        CHECK_REL(rb_rolling_initial_gap(&rc, at[k][0]), gsl_pow_2(at[k][0]) / 100.0 + at[k][1],
+                  1e-14, "gap");
     }
     assert_false(rb_rolling_is_convex(&rc));
     rc.worn.n = 1; /* at a point alone */
@@ -104,14 +102,12 @@ TEST(fitted_elements_reach_as_far_as_asked)
     rb_rolling_span span = {.from = -1.0, .to = 1.0, .margin_left = 2.5 * step};
     rb_rolling_mesh mesh;
     span.margin_right = step * (pow(1.5, 9) - 1.0) / 0.5 * 1.0001;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 10); /* nine do not reach it */
     rb_rolling_mesh_free(&mesh);
 
     span = (rb_rolling_span){.from = -1e-9, .to = 1e-9, .margin_right = 10.0};
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL), RB_OK);
     assert_int_equal(mesh.n, 60 + 6 + 64);
     rb_rolling_mesh_free(&mesh);
 
@@ -159,11 +155,9 @@ TEST(patches_share_the_elements_by_their_width)
         const rb_rolling_span span[2] = {{.from = 0.0, .to = rows[k].to[0]},
                                          {.from = 4.0, .to = rows[k].to[1]}};
         OWNED(rb_rolling_mesh) mesh;
-        CHECK_STATUS(
-            rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         for (int i = 0; i < 2; i++) {
-            assert_int_equal(count_between(&mesh, span[i].from, span[i].to),
-                             rows[k].across[i]);
+            assert_int_equal(count_between(&mesh, span[i].from, span[i].to), rows[k].across[i]);
             assert_true(has_end(&mesh, span[i].from) && has_end(&mesh, span[i].to));
         }
     }
@@ -177,12 +171,10 @@ TEST(elements_between_patches_meet)
     const rb_rolling_case rc = half_plane(RB_STATIC, 60);
     for (size_t k = 0; k < sizeof edges / sizeof *edges; k++) {
         const double e = edges[k];
-        const rb_rolling_span span[2] = {{.from = -1.0 - e, .to = -e},
-                                         {.from = e, .to = 1.0 + e}};
+        const rb_rolling_span span[2] = {{.from = -1.0 - e, .to = -e}, {.from = e, .to = 1.0 + e}};
         const double step = gsl_pow_2(sin(0.5 * M_PI / 30.0));
         OWNED(rb_rolling_mesh) mesh;
-        CHECK_STATUS(
-            rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
         const int n = count_between(&mesh, -e, e), first = 6 + 30;
         int side = 0; /* so many elements of either side, unstretched, are no longer */
         while (2.0 * step * (pow(1.5, side + 1) - 1.0) / 0.5 <= 2.0 * e)
@@ -193,12 +185,11 @@ TEST(elements_between_patches_meet)
             CHECK_REL(length(&mesh, first + i), length(&mesh, first + n - 1 - i), 1e-9,
                       "edge %g, element %d: symmetric", e, i);
             if (i > 0 && 2 * i < n - 1)
-                CHECK_REL(length(&mesh, first + i), 1.5 * length(&mesh, first + i - 1),
-                          1e-9, "edge %g, element %d: grows", e, i);
+                CHECK_REL(length(&mesh, first + i), 1.5 * length(&mesh, first + i - 1), 1e-9,
+                          "edge %g, element %d: grows", e, i);
         }
         if (n > 1) /* stretched by less than another element of either side would need */
-            assert_true(length(&mesh, first) > 0.999 * step &&
-                        length(&mesh, first) < 2.5 * step);
+            assert_true(length(&mesh, first) > 0.999 * step && length(&mesh, first) < 2.5 * step);
     }
 }
 
@@ -208,8 +199,7 @@ TEST(patches_far_apart_have_64_elements_between_them)
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
                                      {.from = 19.9999, .to = 20.0}};
     OWNED(rb_rolling_mesh) mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
     const int n = count_between(&mesh, -19.9999, 19.9999);
     assert_in_range(n, 60, 64);
     for (int i = 0; i < mesh.n; i++)
@@ -222,14 +212,12 @@ TEST(unequal_elements_grow_until_they_are_alike)
     const rb_rolling_case rc = half_plane(RB_STATIC, 60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
     OWNED(rb_rolling_mesh) mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
     const int n = count_between(&mesh, 0.0, 1.0), first = 6 + 15;
     assert_in_range(n, 6, 24);
     CHECK_REL(length(&mesh, first + 1), 1.5 * length(&mesh, first), 1e-9, "on the left");
     CHECK_REL(length(&mesh, first + n - 1) / length(&mesh, first),
-              8.0 * gsl_pow_2(sin(0.5 * M_PI / 59.0)) /
-                  (0.1 * gsl_pow_2(sin(0.5 * M_PI / 15.0))),
+              8.0 * gsl_pow_2(sin(0.5 * M_PI / 59.0)) / (0.1 * gsl_pow_2(sin(0.5 * M_PI / 15.0))),
               1e-9, "as the elements beside them");
 }
 
@@ -259,12 +247,10 @@ TEST(smoothed_splines_have_as_many_points)
             CHECK_ABS(to, 4.0, 0.0, "to");
             const double end = rb_rolling_profile_gap(profile, 4.0);
             CHECK_ABS(rb_rolling_profile_gap(profile, 6.0) - end,
-                      2.0 * (rb_rolling_profile_gap(profile, 5.0) - end), 1e-12,
-                      "straight on");
+                      2.0 * (rb_rolling_profile_gap(profile, 5.0) - end), 1e-12, "straight on");
             for (int i = 0; i < rows && smooth; i += 1 + rows / 50)
                 CHECK_ABS(rb_rolling_profile_gap(profile, at[i]),
-                          0.5 * (at[i] - 0.3) * (at[i] - 0.3), 1e-8, "parabola at %g",
-                          at[i]);
+                          0.5 * (at[i] - 0.3) * (at[i] - 0.3), 1e-8, "parabola at %g", at[i]);
             rb_rolling_profile_free(profile);
         }
     }
@@ -325,8 +311,7 @@ TEST(a_bump_overlaps_where_the_surface_has_not_sunk)
      * the half-plane: -2 P/(pi E') ln(r) up to the same datum */
     const double E = 94500.0 / 0.99, P = rb_rolling_model_load(&model);
     double w[2 * 41];
-    CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w), RB_OK);
     const double far = w[0] - 2.0 * P / (M_PI * E) * log(4.0 / fabs(model.bodies.f.x[0]));
     const double limit = model.state.delta - far; /* gaps below it overlap */
     rb_rolling_model_free(&model);
@@ -355,9 +340,8 @@ TEST(a_wheel_sinks_as_its_elements_tell)
         t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
         t->rc.contact_elements = WIDE;
         rb_rolling_model model = solved_between(&t->rc, -0.5, 6.5);
-        CHECK_STATUS(
-            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+                     RB_OK);
         const int at = (int)(6.5 / 7.0 * WIDE);
         CHECK_ABS(model.bodies.f.x[at], 6.0, 0.05, "there");
         height[1] = (model.state.delta - w[at]) * (k % 2 ? 1.05 : 0.95);
@@ -398,11 +382,9 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
         double w[2 * 41], limit = NAN;
         t->rc.a.support = RB_BEM_HUB;
         OWNED(rb_rolling_model) near = solved_between(&t->rc, -0.5, 0.5);
-        rb_rolling_model model =
-            solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
-        CHECK_STATUS(
-            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-            RB_OK);
+        rb_rolling_model model = solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
+        CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+                     RB_OK);
         for (int i = 0; i + 1 < model.mesh.n; i++)
             if (model.bodies.f.x[i] <= x[1] && model.bodies.f.x[i + 1] > x[1])
                 limit = near.state.delta - w[i];

@@ -19,10 +19,9 @@ TEST(bars_are_three_or_five_times_the_spread)
         {1.0, 1.0 - 2e-16, 2.0}}; /* the last turns by rounding alone */
     static const double wanted[] = {5.0 * 0.2, 3.0 * 2.0, 3.0 * 1.0, 0.0, 3.0 * 1.0};
     for (int k = 0; k < 5; k++) {
-        CHECK_ABS(rb_rolling_contact_error(runs[k], runs[k][2]), wanted[k], 1e-14,
-                  "contact %d", k);
-        CHECK_ABS(rb_rolling_boundary_error(3, runs[k], 4.0), 2.0 * (4.0 - runs[k][2]),
-                  1e-14, "boundary %d", k);
+        CHECK_ABS(rb_rolling_contact_error(runs[k], runs[k][2]), wanted[k], 1e-14, "contact %d", k);
+        CHECK_ABS(rb_rolling_boundary_error(3, runs[k], 4.0), 2.0 * (4.0 - runs[k][2]), 1e-14,
+                  "boundary %d", k);
         CHECK_ABS(rb_rolling_boundary_error(2, runs[k], 4.0), 0.0, 0.0, "no boundary");
     }
     const double gone[] = {NAN, 1.0, 1.0};
@@ -81,8 +80,8 @@ TEST(too_few_elements_cannot_be_halved)
 TEST(the_power_of_an_edge_is_that_of_a_root)
 {
     rb_rolling_case rc = carter_case(40);
-    CHECK_REL(rb_rolling_edge_power(&rc, 500.0, -0.01, 2.0, 0.25),
-              0.3 * 500.0 * 0.01 * 0.125, 1e-12, "similar bodies");
+    CHECK_REL(rb_rolling_edge_power(&rc, 500.0, -0.01, 2.0, 0.25), 0.3 * 500.0 * 0.01 * 0.125,
+              1e-12, "similar bodies");
     rc.elastic_b = 0;
     const double beta = rb_rolling_derive(&rc).dundurs;
     CHECK_REL(rb_rolling_edge_power(&rc, 500.0, 0.01, 2.0, 0.04),
@@ -117,8 +116,7 @@ static void check_bars(const rb_rolling_case *rc)
         {RB_SCALE_CREEPAGE, rounding * fmax(rc->mu * a / R, fabs(own.creepage))},
         {RB_SCALE_WIDTH, rounding * a},
         {RB_SCALE_PRESSURE, rounding * own.max_pressure},
-        {RB_SCALE_POWER,
-         rb_rolling_edge_power(rc, P, own.creepage, a, h / (2.0 * own.half_width))},
+        {RB_SCALE_POWER, rb_rolling_edge_power(rc, P, own.creepage, a, h / (2.0 * own.half_width))},
         {RB_SCALE_MOMENT, rounding * P * a},
         {RB_SCALE_STRAIN, rounding * a / R},
         {RB_SCALE_WORK, rounding * P * a / R},
@@ -158,8 +156,7 @@ TEST(a_history_has_bars_of_its_steps)
 {
     const double distance[] = {0.0, 0.0, 0.6}, load[] = {300.0, 500.0, 500.0},
                  force[] = {0.0, -50.0, -60.0};
-    const rb_rolling_program program = {
-        .n = 3, .distance = distance, .load = load, .force = force};
+    const rb_rolling_program program = {.n = 3, .distance = distance, .load = load, .force = force};
     rb_rolling_case rc = carter_case(24);
     rb_rolling_model model;
     rb_rolling_history h, run[2];
@@ -174,22 +171,20 @@ TEST(a_history_has_bars_of_its_steps)
     assert_int_equal(h.errors->n, h.n);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(&rc, k);
-        CHECK_STATUS(
-            rb_rolling_history_run(&coarser, &program, NULL, &model, &run[k], &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&coarser, &program, NULL, &model, &run[k], &why),
+                     RB_OK);
         rb_rolling_model_free(&model);
     }
     for (int i = 0; i < 2; i++) { /* at rest: the same steps */
         const double at[] = {run[0].approach[i], run[1].approach[i]};
-        CHECK_ABS(h.errors->approach[i], rb_rolling_contact_error(at, h.approach[i]),
-                  1e-14, "approach of step %d", i);
+        CHECK_ABS(h.errors->approach[i], rb_rolling_contact_error(at, h.approach[i]), 1e-14,
+                  "approach of step %d", i);
     }
     /* the last one ends where theirs ends; its bar is no less than its own and its
      * neighbour's */
     const int last = h.n - 1;
     const double end[] = {run[0].approach[run[0].n - 1], run[1].approach[run[1].n - 1]};
-    assert_true(h.errors->approach[last] >=
-                rb_rolling_contact_error(end, h.approach[last]));
+    assert_true(h.errors->approach[last] >= rb_rolling_contact_error(end, h.approach[last]));
     assert_true(h.errors->approach[last] >= 0.0);
     for (int i = 2; i < h.n; i++)
         assert_true(h.errors->creepage[i] >= 0.0 && h.errors->dissipation[i] > 0.0);
@@ -222,13 +217,12 @@ TEST(nothing_is_halved_below_its_least)
     CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_EINVAL);
     CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &why), RB_EINVAL);
     assert_true(isnan(errors.scalar.normal_load));
-    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2},
-                                              NULL, NULL, &curve, &bars, &why),
+    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2}, NULL, NULL,
+                                              &curve, &bars, &why),
                  RB_EINVAL);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &why), RB_EINVAL);
 }
 
 /* ---- Starts from coarse solutions -------------------------------------------------- */
@@ -271,10 +265,8 @@ TEST(tractions_are_linear_between_midpoints)
     for (int i = 0; i < FINE; i++) {
         const int j = i / 3, other = i % 3 == 0 ? j - 1 : i % 3 == 2 ? j + 1 : j;
         const int to = other < 0 || other == COARSE ? j : other;
-        CHECK_REL(fine.p[i], coarse.p[j] + (coarse.p[to] - coarse.p[j]) / 3.0, 1e-14,
-                  "p of %d", i);
-        CHECK_REL(fine.q[i], coarse.q[j] + (coarse.q[to] - coarse.q[j]) / 3.0, 1e-14,
-                  "q of %d", i);
+        CHECK_REL(fine.p[i], coarse.p[j] + (coarse.p[to] - coarse.p[j]) / 3.0, 1e-14, "p of %d", i);
+        CHECK_REL(fine.q[i], coarse.q[j] + (coarse.q[to] - coarse.q[j]) / 3.0, 1e-14, "q of %d", i);
     }
     CHECK_ABS(fine.state.delta, 0.4, 0.0, "approach");
     CHECK_ABS(fine.state.xi, 0.05, 0.0, "creepage");
@@ -282,8 +274,8 @@ TEST(tractions_are_linear_between_midpoints)
 
 /* A coarse contact of elements first ... last, whose p^2 falls linearly to the edges,
  * slips left of x = 12 and sticks right of it; a fine line for its start. */
-static void make_contact(line *coarse, line *fine, int first, int last,
-                         const double edge[2], int slip)
+static void make_contact(line *coarse, line *fine, int first, int last, const double edge[2],
+                         int slip)
 {
     make(coarse, COARSE, 3.0);
     make(fine, FINE, 1.0);
@@ -374,8 +366,7 @@ TEST(a_quarter_of_the_elements_or_40_start)
 {
     assert_int_equal(rb_rolling_coarse_elements(0), 40);
     assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS - 1), 40);
-    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS),
-                     RB_ROLLING_TRANSFORMS);
+    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_TRANSFORMS), RB_ROLLING_TRANSFORMS);
     assert_int_equal(rb_rolling_coarse_elements(40000), 10000);
 }
 

@@ -25,8 +25,8 @@ TEST(bounds_are_of_differences_or_ratios)
     int failed = 0;
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        (all[k].relative ? rb_verify_relative : rb_verify_absolute)(
-            &v, all[k].got, all[k].wanted, all[k].bound, "case %zu", k);
+        (all[k].relative ? rb_verify_relative : rb_verify_absolute)(&v, all[k].got, all[k].wanted,
+                                                                    all[k].bound, "case %zu", k);
         char what[20];
         snprintf(what, sizeof what, "case %zu", k);
         assert_string_equal(check.what, what);
@@ -74,8 +74,7 @@ static void count(const rb_verify_check *check, void *context)
     c->failed += !check->holds;
     c->held += strncmp(check->what, "held approach", 13) == 0;
     if (check->holds || !check->why)
-        print_error("%s: got %g, %s\n", check->what, check->got,
-                    check->why ? check->why : "holds");
+        print_error("%s: got %g, %s\n", check->what, check->got, check->why ? check->why : "holds");
     assert_false(check->holds);
     assert_non_null(check->why);
 }

@@ -31,15 +31,13 @@ static const char PLAIN[] = "2 # n\n1 2\n2 1\n-1 -2e5\n";
 static const char DENSE[] = "2\n0\n2\n2\n2\t2\n2 0\n1 3\n-5 -6\nMurty (1988), page 1";
 static const char BLOCK[] = "2\n1\n2 2\n3\n2\n2\n1 2\n1 2\n3\n3\n0 2 3\n0 1 1\n"
                             "0\n2\n1\n1\n2\n3\n-5 -6 ";
-static const char TRIPLET[] =
-    "2\n2\n2\n2\n1\nCSparse Version 3.2.0, 2017\n"
-    "triplet: 2-by-2, nzmax: 9 nnz: 4\n    0 0 : 2\n    0 1 : 0.5\n"
-    "    1 1 : 3\n    0 1 : 0.5\n-5 -6";
-static const char COLUMN[] =
-    "2\n2\n2\n2\n2\nCSparse Version 3.2.0, 2017\n"
-    "2-by-2, nzmax: 3 nnz: 3, 1-norm: 4\n"
-    "    col 0 : locations 0 to 0\n      0 : 2\n"
-    "    col 1 : locations 1 to 2\n      0 : 1\n      1 : 3\n-5 -6";
+static const char TRIPLET[] = "2\n2\n2\n2\n1\nCSparse Version 3.2.0, 2017\n"
+                              "triplet: 2-by-2, nzmax: 9 nnz: 4\n    0 0 : 2\n    0 1 : 0.5\n"
+                              "    1 1 : 3\n    0 1 : 0.5\n-5 -6";
+static const char COLUMN[] = "2\n2\n2\n2\n2\nCSparse Version 3.2.0, 2017\n"
+                             "2-by-2, nzmax: 3 nnz: 3, 1-norm: 4\n"
+                             "    col 0 : locations 0 to 0\n      0 : 2\n"
+                             "    col 1 : locations 1 to 2\n      0 : 1\n      1 : 3\n-5 -6";
 static const char FRICTION[] = "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 1";
 static const char SOCLCP[] = "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 1 2 0.5 0.25";
 
@@ -126,8 +124,7 @@ TEST(kinds_are_told_by_their_sizes)
         rb_io_siconos_kind kind = RB_IO_SICONOS_LCP;
         put(all[k].head);
         const rb_status s = rb_io_siconos_guess(path, &kind, NULL);
-        if (s != (all[k].kind < 0 ? RB_EFORMAT : RB_OK) ||
-            (s == RB_OK && (int)kind != all[k].kind))
+        if (s != (all[k].kind < 0 ? RB_EFORMAT : RB_OK) || (s == RB_OK && (int)kind != all[k].kind))
             fail_msg("%s: status %d, kind %d", all[k].head, s, (int)kind);
     }
 }
@@ -259,13 +256,10 @@ TEST(what_is_wrong_is_named_with_its_line)
     check_refused(read_lcp, "-3", "got '-3'");
     check_refused(read_lcp, "99999999999999999999", "got '99999999999999999999'");
     check_refused(read_lcp, "2.5", "got '2.5'");
-    check_refused(read_global, "2 1 0 3 4",
-                  ":1: columns of the matrix: expected 3, got '4'");
+    check_refused(read_global, "2 1 0 3 4", ":1: columns of the matrix: expected 3, got '4'");
     check_refused(read_global, "2 1 0 1 1 1 1 5\n0 1 3", ":2: columns of the matrix");
-    check_refused(read_global, "2 1 0 1 1 1 1 5\n0 1 2 1 2 1 0\n3\n0 0",
-                  ":4: mu: expected 1");
-    check_refused(read_lcp, "2\n\n7",
-                  ":3: storage of the matrix: expected an integer from 0 to 2");
+    check_refused(read_global, "2 1 0 1 1 1 1 5\n0 1 2 1 2 1 0\n3\n0 0", ":4: mu: expected 1");
+    check_refused(read_lcp, "2\n\n7", ":3: storage of the matrix: expected an integer from 0 to 2");
     check_refused(read_lcp, "2 0 2 3", "columns of the matrix: expected 2, got '3'");
     check_refused(read_lcp, "2 0 2 2 2 1", "columns of the dense matrix");
     check_refused(read_lcp, "2 0 2 2 2 2\n1 2\n3 x\n5 6",
@@ -284,15 +278,11 @@ TEST(what_is_wrong_is_named_with_its_line)
     check_refused(read_friction, "3 715827882 0",
                   "rows of the matrix: expected 2147483646, the file ends");
     check_refused(read_friction, "4 1", "dimension: expected an integer from 2 to 3");
-    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 2",
-                  "after the last number");
-    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 1 1",
-                  "end of the file");
+    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 2", "after the last number");
+    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 1 1", "end of the file");
     check_refused(read_soclcp, "2 3", "number of cones: expected an integer from 1 to 2");
-    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 2 2 0.5 0.25",
-                  "start of the cones");
-    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 1 1 2 0.5 0.25",
-                  "start of the cones");
+    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 2 2 0.5 0.25", "start of the cones");
+    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 1 1 2 0.5 0.25", "start of the cones");
     check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 1 2 0.5 0.25 7",
                   "after the last number: expected an integer from 0 to 1, got '7'");
     check_refused(guess, "5 5 5 5 5", "no known kind");
@@ -307,16 +297,13 @@ TEST(blocks_and_columns_must_fit)
                   "expected the last to be 2");
     check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 3 1 0 1 0", "length of the first index");
     check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 2 0 0 1 2 3 4 -5 -6", "first index");
-    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 1 1 0 1 2 3 4 -5 -6",
-                  "second index");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 1 1 0 1 2 3 4 -5 -6", "second index");
     check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 1 0 1 1 2 3 4 -5 -6",
                   "number of the block: expected 0, got '1'");
     check_refused(read_lcp, "2 2 2 2 3", "origin");
-    check_refused(read_lcp,
-                  "2 2 2 2 1\nCSparse\ntriplet: 3-by-2, nzmax: 1 nnz: 1\n0 0 : 1\n1 1",
+    check_refused(read_lcp, "2 2 2 2 1\nCSparse\ntriplet: 3-by-2, nzmax: 1 nnz: 1\n0 0 : 1\n1 1",
                   "expected 2-by-2,");
-    check_refused(read_lcp,
-                  "2 2 2 2 1\nCSparse\ntriplet: 2-by-2, nzmax: 1 nnz: 1\n0 2 : 1\n1 1",
+    check_refused(read_lcp, "2 2 2 2 1\nCSparse\ntriplet: 2-by-2, nzmax: 1 nnz: 1\n0 2 : 1\n1 1",
                   ":4: column: expected an integer from 0 to 1, got '2'");
     check_refused(read_lcp,
                   "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 1,\n"
@@ -344,8 +331,7 @@ TEST(absurd_sizes_are_refused)
                   ":2: a matrix of 2147483647 by 0 has no entries");
     check_refused(read_market, "%%MatrixMarket matrix array real general\n0 2147483647\n",
                   "a matrix of 0 by 2147483647 has no entries");
-    check_refused(read_lcp,
-                  "2147483647 1 2147483647 2147483647 1 2147483647 2147483647 1",
+    check_refused(read_lcp, "2147483647 1 2147483647 2147483647 1 2147483647 2147483647 1",
                   "room for");
     check_refused(read_soclcp,
                   "2147483647 2147483647 2 2147483647 2147483647 1\nCSparse\n"
@@ -398,8 +384,7 @@ TEST(missing_files_and_folders)
 
 TEST(short_memory_is_reported)
 {
-    static const char ARRAY[] =
-        "%%MatrixMarket matrix array real symmetric\n2 2\n1 2 3\n",
+    static const char ARRAY[] = "%%MatrixMarket matrix array real symmetric\n2 2\n1 2 3\n",
                       ENTRIES[] = "%%MatrixMarket matrix coordinate real general\n"
                                   "2 2 2\n1 1 1\n2 2 3\n",
                       COLUMN_Q[] = "%%MatrixMarket matrix coordinate real general\n"
@@ -434,9 +419,8 @@ TEST(market_gives_back_the_same_numbers)
 {
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
     OWNED(rb_io_matrix) m;
-    CHECK_STATUS(
-        rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &why),
-        RB_OK);
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &why),
+                 RB_OK);
     CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
     assert_int_equal(m.rows, 3);
     assert_int_equal(m.cols, 2);
@@ -470,29 +454,23 @@ TEST(market_refusals)
 {
     const double x[4] = {0.0};
     check_refused(read_market, "", "MatrixMarket");
-    check_refused(read_market,
-                  "%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n",
+    check_refused(read_market, "%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n",
                   "array|coordinate real|integer general|symmetric");
-    check_refused(read_market,
-                  "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n",
+    check_refused(read_market, "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n",
                   ":3: row: expected an integer from 1 to 2, got '3'");
-    check_refused(
-        read_market,
-        "%%MatrixMarket matrix coordinate real general\n2 2 2000000000\n1 1 1\n",
-        "entries: expected");
+    check_refused(read_market,
+                  "%%MatrixMarket matrix coordinate real general\n2 2 2000000000\n1 1 1\n",
+                  "entries: expected");
     check_refused(read_market, "%%MatrixMarket matrix array real symmetric\n2 3\n1 1 1\n",
                   "symmetric matrix of 2 by 3");
     check_refused(read_market, "%%MatrixMarket matrix array real general\n% c\n2 x\n",
                   ":3: columns");
-    check_refused(read_market, "%%matrixmarket matrix array real general\n1 4\n5\n",
-                  "room for 2");
+    check_refused(read_market, "%%matrixmarket matrix array real general\n1 4\n5\n", "room for 2");
     check_refused(read_market, "%%matrixmarket matrix array real general\n1 1\n5\n6\n",
                   "end of the file");
-    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 1, x, 2}, NULL, &why),
-                 RB_EINVAL);
-    CHECK_STATUS(
-        rb_io_matrix_market_write("/nowhere/m", (rb_io_dense){2, 1, x, 2}, NULL, &why),
-        RB_EWRITE);
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 1, x, 2}, NULL, &why), RB_EINVAL);
+    CHECK_STATUS(rb_io_matrix_market_write("/nowhere/m", (rb_io_dense){2, 1, x, 2}, NULL, &why),
+                 RB_EWRITE);
 }
 
 static void check_content(const char *wanted)
@@ -508,20 +486,16 @@ static void check_content(const char *wanted)
 TEST(market_files_are_written_by_columns)
 {
     const double x[] = {1.0, 2.0, NAN, 3.0, 4.0, NAN};
-    static const rb_io_dense bad[] = {
-        {-1, 1, NULL, 2}, {1, -1, NULL, 2}, {3, 1, NULL, 2}};
-    CHECK_STATUS(
-        rb_io_matrix_market_write(path, (rb_io_dense){2, 2, x, 3}, "words", NULL), RB_OK);
+    static const rb_io_dense bad[] = {{-1, 1, NULL, 2}, {1, -1, NULL, 2}, {3, 1, NULL, 2}};
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){2, 2, x, 3}, "words", NULL), RB_OK);
     check_content("%%MatrixMarket matrix array real general\n% words\n2 2\n1\n2\n3\n4\n");
-    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){1, 2, x, 1}, NULL, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){1, 2, x, 1}, NULL, NULL), RB_OK);
     check_content("%%MatrixMarket matrix array real general\n1 2\n1\n2\n");
     for (int k = 0; k < 3; k++) {
         CHECK_STATUS(rb_io_matrix_market_write(path, bad[k], NULL, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "with leading dimension 2"));
     }
-    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){0, 0, x, 0}, NULL, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){0, 0, x, 0}, NULL, NULL), RB_OK);
     check_content("%%MatrixMarket matrix array real general\n0 0\n");
 }
 
@@ -530,32 +504,30 @@ TEST(market_heads_are_taken_word_by_word)
 {
     static const struct {
         const char *text, *words;
-    } bad[] = {
-        {"%%MatrixMarket vector array real general\n1 1\n1\n", ":1: expected the line"},
-        {"%%MatrixMarket matrix heap real general\n1 1\n1\n", ":1: expected the line"},
-        {"%%MatrixMarket matrix array complex general\n1 1\n1\n",
-         ":1: expected the line"},
-        {"%%MatrixMarket matrix array real hermitian\n1 1\n1\n", ":1: expected the line"},
-        {"%%MatrixMarket matrix array real general\n-1 1\n1\n",
-         ":2: rows: expected an integer >= 0, got '-1'"},
-        {"%%MatrixMarket matrix coordinate real general\n1 1 -1\n",
-         "number of entries: expected an integer >= 0, got '-1'"},
-        {"%%MatrixMarket matrix coordinate real symmetric\n1 1 2147483647\n1 1 1",
-         "number of entries: expected an integer from 0 to 1073741823"},
-        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n1 4 1\n",
-         ":4: column: expected an integer from 1 to 3, got '4'"},
-        {"%%MatrixMarket matrix coordinate real general\n2 3 1\n0 1 1\n",
-         ":3: row: expected an integer from 1 to 2, got '0'"},
-        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1.000\n1 1",
-         "value: expected a finite number, the file ends"},
-        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n",
-         "entries: expected 6 numbers, the rest of the file has room for"},
-        {"%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n2",
-         ":4: expected the end of the file"},
-        {"%%MatrixMarket matrix array real symmetric\n3 3\n1 2 3 4 5 x\n",
-         ":3: column of the triangle, number 1: expected a finite number, got 'x'"},
-        {"%%MatrixMarket matrix array real symmetric\n30 30\n1 2 3 4 5 x\n",
-         "matrix: expected 450 numbers"}};
+    } bad[] = {{"%%MatrixMarket vector array real general\n1 1\n1\n", ":1: expected the line"},
+               {"%%MatrixMarket matrix heap real general\n1 1\n1\n", ":1: expected the line"},
+               {"%%MatrixMarket matrix array complex general\n1 1\n1\n", ":1: expected the line"},
+               {"%%MatrixMarket matrix array real hermitian\n1 1\n1\n", ":1: expected the line"},
+               {"%%MatrixMarket matrix array real general\n-1 1\n1\n",
+                ":2: rows: expected an integer >= 0, got '-1'"},
+               {"%%MatrixMarket matrix coordinate real general\n1 1 -1\n",
+                "number of entries: expected an integer >= 0, got '-1'"},
+               {"%%MatrixMarket matrix coordinate real symmetric\n1 1 2147483647\n1 1 1",
+                "number of entries: expected an integer from 0 to 1073741823"},
+               {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n1 4 1\n",
+                ":4: column: expected an integer from 1 to 3, got '4'"},
+               {"%%MatrixMarket matrix coordinate real general\n2 3 1\n0 1 1\n",
+                ":3: row: expected an integer from 1 to 2, got '0'"},
+               {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1.000\n1 1",
+                "value: expected a finite number, the file ends"},
+               {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n",
+                "entries: expected 6 numbers, the rest of the file has room for"},
+               {"%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n2",
+                ":4: expected the end of the file"},
+               {"%%MatrixMarket matrix array real symmetric\n3 3\n1 2 3 4 5 x\n",
+                ":3: column of the triangle, number 1: expected a finite number, got 'x'"},
+               {"%%MatrixMarket matrix array real symmetric\n30 30\n1 2 3 4 5 x\n",
+                "matrix: expected 450 numbers"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         check_refused(read_market, bad[k].text, bad[k].words);
     OWNED(rb_io_matrix) m;
@@ -614,8 +586,7 @@ TEST(kinds_of_lcp_are_told_apart)
     static const char M[] = "%%MatrixMarket matrix array real general\n2 2\n1 2 3 4\n",
                       WIDE[] = "%%MatrixMarket matrix array real general\n1 2\n1 2\n";
     static const char *const q[] = {
-        "5 -6", "# q\n5 # first\n-6",
-        "%%MatrixMarket matrix array real general\n2 1\n5\n-6\n",
+        "5 -6", "# q\n5 # first\n-6", "%%MatrixMarket matrix array real general\n2 1\n5\n-6\n",
         "%%MatrixMarket matrix coordinate real general\n2 1 2\n2 1 -6\n1 1 5\n"};
     for (int k = 0; k < 4; k++) {
         put(M);
@@ -748,8 +719,7 @@ TEST(texts_are_told_from_what_is_none)
 
 /* ---- The public collection --------------------------------------------------------- */
 
-static void check_collection(const char *folder, rb_io_siconos_kind kind, reader *read,
-                             int least)
+static void check_collection(const char *folder, rb_io_siconos_kind kind, reader *read, int least)
 {
     char name[1400];
     int files = 0;

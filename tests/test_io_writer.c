@@ -247,11 +247,10 @@ TEST_WITH(make_folder, remove_folder, short_memory_is_reported_on_every_way)
         for (int i = 0, refused = 1; refused; i++) {
             rb_message why = {""};
             alloc_fail_after(i);
-            const rb_status s = k < 2 ? rb_io_writer_check(names[k], &why)
-                                      : rb_io_folder_check(names[k], &why);
+            const rb_status s =
+                k < 2 ? rb_io_writer_check(names[k], &why) : rb_io_folder_check(names[k], &why);
             rb_io_writer w = {0};
-            const rb_status opened =
-                k == 1 ? rb_io_writer_open(names[k], &w, &why) : RB_OK;
+            const rb_status opened = k == 1 ? rb_io_writer_open(names[k], &w, &why) : RB_OK;
             refused = alloc_failed();
             alloc_succeed();
             rb_io_writer_abandon(&w);
@@ -308,10 +307,8 @@ TEST_WITH(make_folder, remove_folder, files_are_written_without_the_help_of_the_
     static const struct {
         const char *call;
         int error;
-    } all[] = {{"O_TMPFILE", EOPNOTSUPP},
-               {"O_TMPFILE", EISDIR},
-               {"O_TMPFILE", EINVAL},
-               {"linkat", EPERM}};
+    } all[] = {
+        {"O_TMPFILE", EOPNOTSUPP}, {"O_TMPFILE", EISDIR}, {"O_TMPFILE", EINVAL}, {"linkat", EPERM}};
     enum { LONG = 100000 }; /* several buffers */
     static char text[LONG + 1], got[LONG + 1];
     struct stat st;
@@ -338,8 +335,7 @@ TEST_WITH(make_folder, remove_folder, names_in_use_are_passed_over)
 {
     char used[2][160];
     for (int k = 0; k < 2; k++) {
-        snprintf(used[k], sizeof used[k], "%s/.rollbem-%ld-%d", folder, (long)getpid(),
-                 k);
+        snprintf(used[k], sizeof used[k], "%s/.rollbem-%ld-%d", folder, (long)getpid(), k);
         FILE *f = fopen(used[k], "w");
         fputs("of another", f);
         fclose(f);

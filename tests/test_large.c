@@ -82,12 +82,10 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     } else
         assert_int_equal(model.bodies.transforms.n, rc->contact_elements);
     dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
-    CHECK_STATUS(rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, &why), RB_OK);
     assert_non_null(bodies.F);
-    CHECK_STATUS(
-        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &why),
+                 RB_OK);
     CHECK_REL(model.problem.gap_length, problem.gap_length, 1e-12, "scale of gaps");
     CHECK_REL(model.problem.slip_length, problem.slip_length, 1e-3, "scale of slips");
     assert_int_equal(rb_contact_operator_response(model.problem.op).coupled,
@@ -221,8 +219,7 @@ typedef struct {
     double *room;
 } watched;
 
-static void watched_apply(void *context, const double *r, const double **gap,
-                          const double **slip)
+static void watched_apply(void *context, const double *r, const double **gap, const double **slip)
 {
     watched *of = context;
     const int n = of->n;
@@ -230,10 +227,9 @@ static void watched_apply(void *context, const double *r, const double **gap,
     of->count++;
     *gap = of->room;
     *slip = of->room + n;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.F, of->K.ldf, r, 1, 0.0,
-                of->room, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.S, n, r, 1, 0.0,
-                of->room + n, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.F, of->K.ldf, r, 1, 0.0, of->room,
+                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.S, n, r, 1, 0.0, of->room + n, 1);
     for (int i = 0; i < 2 * n && of->lie; i++)
         of->room[i] = NAN;
 }
@@ -257,8 +253,8 @@ static void watch(rb_contact_problem *p, watched *by)
 
     *by = (watched){.K = rb_contact_operator_matrix(p->op), .n = p->n};
     by->room = rb_alloc((size_t)p->n, 2);
-    const rb_contact_products products = {watched_apply, watched_precondition,
-                                          watched_free, by, NULL};
+    const rb_contact_products products = {watched_apply, watched_precondition, watched_free, by,
+                                          NULL};
     CHECK_STATUS(rb_contact_operator_products(p->n, &products, &op), RB_OK);
     rb_contact_operator_add_products(p->op, op);
 }
@@ -294,8 +290,8 @@ TEST(the_matrix_stands_in_for_products)
 /* ---- Residual from the solution alone ---------------------------------------------- */
 
 /* Displacement of the pair at two points, strip by strip, without transforms. */
-static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                         const double x[2], double w_N[2], double w_T[2])
+static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s, const double x[2],
+                         double w_N[2], double w_T[2])
 {
     const rb_rolling_body *body[2] = {&rc->a, &rc->b};
 
@@ -306,8 +302,7 @@ static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s
             const double sign = b ? -1.0 : 1.0;
             double W[8];
             const rb_bem_surface plane = rb_bem_halfplane(
-                rb_bem_material_from_young(body[b]->young, body[b]->poisson),
-                2.0 * 500.0 / M_E);
+                rb_bem_material_from_young(body[b]->young, body[b]->poisson), 2.0 * 500.0 / M_E);
             rb_bem_surface_displacement(&plane, 1, ends, 2, x, W);
             for (int k = 0; k < 2; k++) {
                 w_N[k] += W[k] * s->p[j] + sign * W[4 + k] * s->q[j];
@@ -331,10 +326,10 @@ static void check_rows(const rb_rolling_case *rc, const rb_rolling_solution *s)
         CHECK_ABS(fmin(gap / s->approach, s->p[i] / s->max_pressure), 0.0, 1e-9,
                   "complementarity of %d", i);
         assert_true(fabs(s->q[i]) <= limit * (1.0 + 1e-12));
-        CHECK_ABS(fmin(fmax(slip, 0.0) / s->h[i], (limit + s->q[i]) / s->max_pressure),
-                  0.0, 1e-9, "slip forwards of %d", i);
-        CHECK_ABS(fmin(fmax(-slip, 0.0) / s->h[i], (limit - s->q[i]) / s->max_pressure),
-                  0.0, 1e-9, "slip backwards of %d", i);
+        CHECK_ABS(fmin(fmax(slip, 0.0) / s->h[i], (limit + s->q[i]) / s->max_pressure), 0.0, 1e-9,
+                  "slip forwards of %d", i);
+        CHECK_ABS(fmin(fmax(-slip, 0.0) / s->h[i], (limit - s->q[i]) / s->max_pressure), 0.0, 1e-9,
+                  "slip backwards of %d", i);
     }
 }
 
@@ -378,8 +373,7 @@ TEST(carter)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_REL(-s.force_ratio, 0.64, 1.5 / n, "n = %d", n);
         CHECK_REL(s.half_width, 1.0, 0.5 / n, "n = %d", n);
-        CHECK_REL(s.max_pressure, 210000.0 / (1 - 0.28 * 0.28) / 2 / 1000.0, 0.5 / n,
-                  "n = %d", n);
+        CHECK_REL(s.max_pressure, 210000.0 / (1 - 0.28 * 0.28) / 2 / 1000.0, 0.5 / n, "n = %d", n);
         CHECK_REL(s.stick_from, -0.2, 15.0 / n, "n = %d", n);
         CHECK_ABS(s.free_creepage, 0.0, 0.0, "n = %d", n);
         assert_int_equal(s.slip_violations, 0);
@@ -478,8 +472,7 @@ TEST(without_a_matrix_some_refuse)
 
     CHECK_STATUS(rb_rolling_model_lcp(&model, &lcp, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "1500 contact elements are too many"));
-    CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &why), RB_EINVAL);
 }
 
 TEST(failing_allocations)
@@ -489,8 +482,7 @@ TEST(failing_allocations)
         rb_rolling_model model;
         rb_rolling_mesh mesh;
         CHECK_STATUS(rb_rolling_model_begin(&given, NULL, &model, NULL), RB_OK);
-        CHECK_STATUS(rb_rolling_mesh_uniform(&given, NULL, -1.3, 1.3, &mesh, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&given, NULL, -1.3, 1.3, &mesh, NULL), RB_OK);
         alloc_fail_after(k);
         const rb_status s = rb_rolling_model_build(&model, &mesh, NULL);
         refused = alloc_failed();

@@ -23,11 +23,10 @@ static void set_traction(traction *t)
     t->load = (rb_bem_edge_load){NODES, t->x, t->p, t->q};
 }
 
-static rb_bem_surface layer(double thickness, double young, double poisson,
-                            double base_young, double base_poisson)
+static rb_bem_surface layer(double thickness, double young, double poisson, double base_young,
+                            double base_poisson)
 {
-    rb_bem_surface s =
-        rb_bem_halfplane(rb_bem_material_from_young(young, poisson), 100.0);
+    rb_bem_surface s = rb_bem_halfplane(rb_bem_material_from_young(young, poisson), 100.0);
     s.thickness = thickness;
     s.elastic_base = base_young > 0.0;
     if (s.elastic_base)
@@ -42,8 +41,7 @@ static void stress_in(const rb_bem_surface *body, double x, double y, double s[3
     rb_bem_layer_field *field;
     const double xy[2] = {x, y};
     set_traction(&t);
-    CHECK_STATUS(rb_bem_halfplane_stress_linear(&t.load, (rb_bem_points){1, xy}, s),
-                 RB_OK);
+    CHECK_STATUS(rb_bem_halfplane_stress_linear(&t.load, (rb_bem_points){1, xy}, s), RB_OK);
     if (body->thickness == 0.0)
         return;
     CHECK_STATUS(rb_bem_layer_field_create(body, &t.load, &field, NULL), RB_OK);
@@ -68,9 +66,8 @@ TEST(a_layer_of_its_base_is_a_halfplane)
                 stress_in(&body, places[i][0], places[i][1], got);
                 stress_in(&half, places[i][0], places[i][1], want);
                 for (int c = 0; c < 3; c++)
-                    CHECK_ABS(got[c], want[c], 1e-10,
-                              "nu = %g, d = %g, point %d, component %d", nu[m],
-                              thickness[k], i, c);
+                    CHECK_ABS(got[c], want[c], 1e-10, "nu = %g, d = %g, point %d, component %d",
+                              nu[m], thickness[k], i, c);
             }
 }
 
@@ -103,8 +100,7 @@ TEST(the_bond_holds)
             CHECK_ABS(in[1], below[1], 1e-11, "syy, base %d, x = %g", k, x);
             CHECK_ABS(in[2], below[2], 1e-11, "sxy, base %d, x = %g", k, x);
             CHECK_ABS(((1.0 - nu) * in[0] - nu * in[1]) / body.material.shear,
-                      ((1.0 - base[k][1]) * below[0] - base[k][1] * below[1]) /
-                          body.base.shear,
+                      ((1.0 - base[k][1]) * below[0] - base[k][1] * below[1]) / body.base.shear,
                       1e-10, "strain, base %d, x = %g", k, x);
         }
 }
@@ -121,10 +117,8 @@ TEST(the_field_is_in_equilibrium)
         stress_in(&body, x - h, y, west);
         stress_in(&body, x, y + h, down);
         stress_in(&body, x, y - h, up);
-        CHECK_ABS(east[0] - west[0] + down[2] - up[2], 0.0, 2.0 * h * 2e-4, "x, point %d",
-                  i);
-        CHECK_ABS(east[2] - west[2] + down[1] - up[1], 0.0, 2.0 * h * 2e-4, "y, point %d",
-                  i);
+        CHECK_ABS(east[0] - west[0] + down[2] - up[2], 0.0, 2.0 * h * 2e-4, "x, point %d", i);
+        CHECK_ABS(east[2] - west[2] + down[1] - up[1], 0.0, 2.0 * h * 2e-4, "y, point %d", i);
     }
 }
 
@@ -193,8 +187,8 @@ TEST(a_relaxing_layer_lies_between_two_elastic_ones)
             stress_in(&body, places[i][0], places[i][1], got);
             stress_in(&elastic, places[i][0], places[i][1], want);
             for (int c = 0; c < 3; c++)
-                CHECK_ABS(got[c], want[c], 1e-5, "%s, point %d, component %d",
-                          k ? "slow" : "fast", i, c);
+                CHECK_ABS(got[c], want[c], 1e-5, "%s, point %d, component %d", k ? "slow" : "fast",
+                          i, c);
         }
     }
 }
@@ -210,12 +204,10 @@ TEST(bad_input)
     set_traction(&t);
     CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &why), RB_OK);
     for (int k = 0; k < 3; k++)
-        CHECK_STATUS(
-            rb_bem_layer_field_add(field, (rb_bem_points){1, outside[k]}, s, &why),
-            RB_EINVAL);
+        CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, outside[k]}, s, &why),
+                     RB_EINVAL);
     const double far[2] = {1e4, 0.1};
-    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, far}, s, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, far}, s, &why), RB_EINVAL);
     rb_bem_layer_field_free(field);
     rb_bem_layer_field_free(NULL);
     body.thickness = 0.0;

@@ -15,8 +15,7 @@ static double uniform(void)
 }
 
 /* max |min(z, M z + q)|, written out independently of the library. */
-static double natural_residual(int n, const double *M, int ldm, const double *q,
-                               const double *z)
+static double natural_residual(int n, const double *M, int ldm, const double *q, const double *z)
 {
     double worst = 0.0;
     for (int i = 0; i < n; i++) {
@@ -86,8 +85,7 @@ TEST(a_secondary_ray_names_its_variable)
 typedef enum { P_MATRIX, COPOSITIVE_PLUS, NONSYMMETRIC, DEGENERATE, KINDS } kind;
 enum { LARGEST = 200 };
 
-static double M_[LARGEST * (LARGEST + 3)], B_[LARGEST * LARGEST], q_[LARGEST],
-    z_[LARGEST];
+static double M_[LARGEST * (LARGEST + 3)], B_[LARGEST * LARGEST], q_[LARGEST], z_[LARGEST];
 
 static void gram(int n, int rank, int ldm, double *M)
 {
@@ -171,18 +169,13 @@ TEST(planted_problems_are_solved)
 {
     for (int k = 0; k < 1000; k++) {
         const kind which = (kind)(k % KINDS);
-        const int n = k % 50 == 49  ? LARGEST
-                      : k % 10 == 9 ? 60
-                                    : 1 + k % 23,
-                  ldm = n + k % 3;
+        const int n = k % 50 == 49 ? LARGEST : k % 10 == 9 ? 60 : 1 + k % 23, ldm = n + k % 3;
         rb_lcp_info info;
         make_matrix(which, n, ldm, M_);
         plant(n, ldm, M_, which == DEGENERATE, q_);
-        const rb_status s =
-            rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, NULL, z_, &info);
+        const rb_status s = rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, NULL, z_, &info);
         if (s != RB_OK)
-            print_error("problem %d, kind %d, n = %d: %s\n", k, (int)which, n,
-                        info.msg.text);
+            print_error("problem %d, kind %d, n = %d: %s\n", k, (int)which, n, info.msg.text);
         CHECK_STATUS(s, RB_OK);
         CHECK_MAX(natural_residual(n, M_, ldm, q_, z_), 1e-12 * size_of(n, q_),
                   "problem %d, kind %d, n = %d, %d pivots", k, (int)which, n, info.iters);
@@ -204,8 +197,7 @@ TEST(the_residual_is_that_of_z)
     const double want = natural_residual(n, M_, ldm, q_, z_);
     CHECK_REL(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, NULL), want, 1e-13,
               "without w");
-    CHECK_REL(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, w), want, 1e-13,
-              "with w");
+    CHECK_REL(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, w), want, 1e-13, "with w");
     double last = q_[n - 1];
     for (int j = 0; j < n; j++)
         last += M_[n - 1 + j * ldm] * z_[j];
@@ -235,8 +227,7 @@ static void keep_basis(const rb_lcp_pivot *seen, void *context)
  * tie, comes back to the same basis every six pivots. */
 TEST(kostreva_cycles_only_without_the_lexicographic_rule)
 {
-    const double M[] = {1.0, 0.0, 2.0, 2.0, 1.0, 0.0, 0.0, 2.0, 1.0},
-                 q[] = {-1.0, -1.0, -1.0};
+    const double M[] = {1.0, 0.0, 2.0, 2.0, 1.0, 0.0, 0.0, 2.0, 1.0}, q[] = {-1.0, -1.0, -1.0};
     bases b = {0};
     double z[3];
     rb_lcp_info info;
@@ -270,14 +261,12 @@ TEST(integer_problems_do_not_cycle)
             M_[i] = floor(2 * (k & 1) + 2.5 * uniform());
         for (int i = 0; i < n; i++)
             q_[i] = uniform() > 0.6 ? 0.0 : -1.0;
-        const rb_status s =
-            rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info);
+        const rb_status s = rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info);
         assert_true(s == RB_OK || s == RB_RAY);
         solved += s == RB_OK;
         rays += s == RB_RAY;
         if (s == RB_OK)
-            CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d, n = %d", k,
-                      n);
+            CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d, n = %d", k, n);
     }
     assert_true(solved > 500 && rays > 500);
 }
@@ -312,8 +301,7 @@ TEST(rounding_errors_are_no_pivots)
         rb_lcp_info info;
         seed = start[k];
         make_copositive(n);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info),
-                     RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info), RB_OK);
         CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d", k);
     }
     seed = before;
@@ -410,8 +398,7 @@ TEST(the_iteration_limit_keeps_the_last_point)
     make_matrix(P_MATRIX, n, n, M_);
     plant(n, n, M_, 0, q_);
     opt.max_iters = 5;
-    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, &opt, z_, &info),
-                 RB_MAXITER);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, &opt, z_, &info), RB_MAXITER);
     assert_int_equal(info.iters, 5);
     assert_int_equal(info.ray_variable, -1);
     for (int i = 0; i < n; i++)
@@ -460,8 +447,7 @@ TEST(bad_input_is_refused)
  */
 TEST(odd_input_is_taken)
 {
-    const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0},
-                 cover[] = {0.0, 0.0};
+    const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0}, cover[] = {0.0, 0.0};
     rb_lcp_options opt = rb_lcp_defaults();
     double z[2];
     opt.cover = cover;
@@ -534,11 +520,10 @@ TEST(the_collection_is_solved)
             fail_msg("%s", why.text);
         CHECK_STATUS(rb_io_matrix_to_dense(&p.M), RB_OK);
         assert_int_equal(p.n, files[k].n);
-        CHECK_STATUS(
-            rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M.dense, p.n, p.q}, NULL, z, &info),
-            RB_OK);
-        CHECK_MAX(natural_residual(p.n, p.M.dense, p.n, p.q, z),
-                  1e-13 * size_of(p.n, p.q), "%s", files[k].file);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M.dense, p.n, p.q}, NULL, z, &info),
+                     RB_OK);
+        CHECK_MAX(natural_residual(p.n, p.M.dense, p.n, p.q, z), 1e-13 * size_of(p.n, p.q), "%s",
+                  files[k].file);
         assert_int_equal(info.iters, files[k].pivots + 1); /* z0's entry is one */
     }
 }
@@ -585,13 +570,11 @@ TEST(plane_friction_problems_are_solved)
         CHECK_STATUS(rb_io_siconos_read_friction(outside_data(name), &p, NULL), RB_OK);
         CHECK_STATUS(rb_io_matrix_to_dense(&p.W), RB_OK);
         const int n = 3 * p.contacts;
-        SCRATCH double *M = calloc((size_t)(n * n), sizeof *M),
-                       *q = calloc((size_t)n, sizeof *q);
+        SCRATCH double *M = calloc((size_t)(n * n), sizeof *M), *q = calloc((size_t)n, sizeof *q);
         SCRATCH double *z = calloc((size_t)n, sizeof *z);
         friction_matrix(&p, M, q);
         CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, &info), RB_OK);
-        CHECK_MAX(natural_residual(n, M, n, q, z), 1e-12 * size_of(n, q), "%s",
-                  files[k].file);
+        CHECK_MAX(natural_residual(n, M, n, q, z), 1e-12 * size_of(n, q), "%s", files[k].file);
         assert_true(info.iters <= files[k].pivots + 1);
     }
 }

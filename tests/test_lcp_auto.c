@@ -9,20 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CHECK_TRUE(condition, ...)                                                       \
-    do {                                                                                 \
-        if (!(condition)) {                                                              \
-            print_error(__VA_ARGS__);                                                    \
-            fail();                                                                      \
-        }                                                                                \
+#define CHECK_TRUE(condition, ...)                                                                 \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            print_error(__VA_ARGS__);                                                              \
+            fail();                                                                                \
+        }                                                                                          \
     } while (0)
 
 /* The largest |min(z, M z + q)|, in the units before scaling, as a part of its row's
  * terms or of a thousandth of the largest ones. */
 static double judge(const lcp_family *f, const double *z, const double *column)
 {
-    long double *w = calloc((size_t)f->n, sizeof *w),
-                *terms = calloc((size_t)f->n, sizeof *terms), most = 0.0L, worst = 0.0L;
+    long double *w = calloc((size_t)f->n, sizeof *w), *terms = calloc((size_t)f->n, sizeof *terms),
+                most = 0.0L, worst = 0.0L;
     for (int i = 0; i < f->n; i++) {
         w[i] = f->q[i];
         terms[i] = fabs(f->q[i]);
@@ -63,12 +63,10 @@ TEST(every_claim_is_true)
                 for (int s = 0; s < count; s++) {
                     const rb_lcp_mixed_problem p = {.M = &scaled.M, .q = scaled.q};
                     rb_lcp_info info;
-                    const rb_status got =
-                        rb_lcp_solve(solvers[s].name, &p, NULL, z, &info);
+                    const rb_status got = rb_lcp_solve(solvers[s].name, &p, NULL, z, &info);
                     if (s == 0)
-                        CHECK_TRUE(got == RB_OK, "%s, order %d, 2^%g: %s",
-                                   lcp_families[kind].name, f.n, scales[e],
-                                   info.msg.text);
+                        CHECK_TRUE(got == RB_OK, "%s, order %d, 2^%g: %s", lcp_families[kind].name,
+                                   f.n, scales[e], info.msg.text);
                     if (got == RB_OK)
                         CHECK_MAX(judge(&f, z, column), 1e-8, "%s by %s, order %d, 2^%g",
                                   lcp_families[kind].name, info.solver, f.n, scales[e]);
@@ -94,9 +92,9 @@ TEST(the_solver_is_said)
         assert_int_equal(lcp_family_create(cases[k].kind, cases[k].n, &f), RB_OK);
         SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
         rb_lcp_info info;
-        CHECK_STATUS(rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q},
-                                  NULL, z, &info),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q}, NULL, z, &info),
+            RB_OK);
         assert_string_equal(info.solver, cases[k].solver);
         lcp_family_free(&f);
     }
@@ -119,8 +117,8 @@ TEST(coarser_problems_come_first)
         CHECK_STATUS(rb_lcp_newton(&f.M, f.q, NULL, z, &info), RB_OK);
         opt.start = ones; /* no coarser problem */
         CHECK_STATUS(rb_lcp_newton(&f.M, f.q, &opt, same, &plain), RB_OK);
-        CHECK_TRUE(2 * info.iters < plain.iters,
-                   "%d systems, %d without coarser problems", info.iters, plain.iters);
+        CHECK_TRUE(2 * info.iters < plain.iters, "%d systems, %d without coarser problems",
+                   info.iters, plain.iters);
         for (int i = 0; i < f.n; i++)
             CHECK_ABS(z[i], same[i], 1e-11 * rb_norm_inf((size_t)f.n, same), "z(%d)", i);
         lcp_family_free(&f);

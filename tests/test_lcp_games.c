@@ -167,8 +167,7 @@ TEST(regrets_are_those_of_the_definition)
         }
         for (int i = 0; i < m + n; i++)
             worst = fmax(worst, fmin(z[i], best[i >= m] - of[i]));
-        CHECK_REL(rb_lcp_bimatrix_regret(&game, z, regret, payoff), worst, 1e-12,
-                  "worst");
+        CHECK_REL(rb_lcp_bimatrix_regret(&game, z, regret, payoff), worst, 1e-12, "worst");
         for (int i = 0; i < 2; i++)
             CHECK_REL(payoff[i], best[i], 1e-12, "payoff of player %d", i);
         for (int i = 0; i < m + n; i++)
@@ -228,15 +227,13 @@ TEST(one_variable_by_hand)
 {
     const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
     rb_lcp_solutions all;
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL), RB_OK);
     assert_int_equal(all.count, 2);
     assert_int_equal(all.bases, 2);
     assert_int_equal(all.singular, 0);
     CHECK_ABS(all.z[0] + all.z[1], 1.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, low, high, &all, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, low, high, &all, NULL), RB_OK);
     assert_int_equal(all.count, 3);
     CHECK_ABS(all.z[0] + all.z[1] + all.z[2], 4.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
@@ -250,8 +247,7 @@ TEST(a_bound_may_change_the_sign_of_a_row)
     const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
     const double q[] = {1.0 / 3.0, -1e-8, 1e8};
     OWNED(rb_lcp_solutions) all;
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL), RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], (1e8 - 1.0 / 3.0) / 24.75, 1e-13, "z1");
     CHECK_ABS(all.z[1], 0.0, 0.0, "z2");
@@ -279,9 +275,8 @@ TEST(boxes_of_every_kind_are_enumerated)
         const double low[] = {all[a].low, all[b].low}, q[] = {all[a].q, all[b].q};
         const double high[] = {all[a].high, all[b].high};
         rb_lcp_solutions found;
-        CHECK_STATUS(
-            rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, low, high, &found, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, low, high, &found, NULL),
+                     RB_OK);
         assert_int_equal(found.count, 1);
         CHECK_ABS(found.z[0], all[a].z, 0.0, "z(1), boxes %d and %d", a, b);
         CHECK_ABS(found.z[1], all[b].z, 0.0, "z(2), boxes %d and %d", a, b);
@@ -296,15 +291,12 @@ TEST(solutions_are_listed_once)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
     rb_lcp_solutions all;
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, zero}, NULL, NULL, &all, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, zero}, NULL, NULL, &all, NULL), RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_ABS(all.z[0] + all.z[1], 0.0, 0.0, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){1, zero, 1, zero}, NULL, NULL, &all, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, zero, 1, zero}, NULL, NULL, &all, NULL),
+                 RB_OK);
     assert_int_equal(all.count, 1);
     assert_int_equal(all.singular, 1);
     rb_lcp_solutions_free(&all);
@@ -323,9 +315,8 @@ TEST(too_many_bases_are_refused)
         low[i] = -1.0;
         high[i] = 1.0;
     }
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, &all, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, &all, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "4.78e+06 complementary bases"));
 }
 
@@ -343,9 +334,8 @@ TEST(what_lemke_finds_is_listed)
             q[i] = uniform();
         if (rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, NULL) != RB_OK)
             continue;
-        CHECK_STATUS(
-            rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, NULL),
+                     RB_OK);
         for (int s = 0; s < all.count; s++) {
             double apart = 0.0;
             for (int i = 0; i < n; i++)
@@ -368,17 +358,13 @@ TEST(bad_input_is_named)
     const double low[] = {1.0, 0.0}, high[] = {0.0, 1.0}, zero[] = {0.0, 0.0};
     static const double big[23 * 23];
     battle_of_the_sexes();
-    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){0, 2, A, B, LD}, 0, NULL, z, &info),
-                 RB_EINVAL);
-    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 2, A, B, 1}, 0, NULL, z, &info),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){0, 2, A, B, LD}, 0, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 2, A, B, 1}, 0, NULL, z, &info), RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&two, 4, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
     CHECK_STATUS(rb_lcp_bimatrix(&two, -1, NULL, z, &info), RB_EINVAL);
-    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info),
-                 RB_EINVAL);
-    CHECK_STATUS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, &all, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, &all, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "a game of 2 by 0"));
     const double right = A[LD];
     A[LD] = -INFINITY;
@@ -391,17 +377,14 @@ TEST(bad_input_is_named)
     B[1] = NAN;
     CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "B(2, 1)"));
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, &all, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, &all, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "bounds 1 are [1, 0]"));
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, &all, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, &all, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "order 22"));
-    CHECK_STATUS(
-        rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, &all, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, &all, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "M(2, 1) = nan"));
 }
 
@@ -410,8 +393,7 @@ TEST(points_beyond_the_largest_number_are_no_solutions)
 {
     const double M[] = {1e-300}, q[] = {-1e300};
     OWNED(rb_lcp_solutions) all;
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL), RB_OK);
     assert_int_equal(all.count, 0);
 }
 

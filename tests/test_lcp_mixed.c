@@ -39,8 +39,7 @@ static double natural_residual(const problem *p, const double *z)
     return worst;
 }
 
-static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z,
-                       rb_lcp_info *info)
+static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z, rb_lcp_info *info)
 {
     OWNED(rb_sparse) M;
     CHECK_STATUS(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M), RB_OK);
@@ -94,8 +93,7 @@ TEST(without_boxes_it_is_the_lcp)
     rb_lcp_info info;
     for (int k = 0; k < 300; k++) {
         positive_definite(1 + k % N, &p);
-        CHECK_STATUS(
-            rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL), RB_OK);
         CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
         const double size = 1.0 + rb_norm_inf((size_t)p.n, want);
         CHECK_MAX(natural_residual(&p, z), 1e-12 * size, "problem %d", k);
@@ -112,9 +110,8 @@ TEST(the_floor_is_of_magnitudes)
     double room[2];
     OWNED(rb_sparse) sparse;
     CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &sparse), RB_OK);
-    CHECK_REL(
-        rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
-        14e-14, 1e-12, "|3 (-2)| + |2| + 6");
+    CHECK_REL(rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
+              14e-14, 1e-12, "|3 (-2)| + |2| + 6");
 }
 
 TEST(boxes_of_all_kinds_are_solved)
@@ -386,11 +383,11 @@ TEST(a_cover_is_that_of_both_halves_of_a_free_z)
             cover[i] = i != 2, p.q[i] = i == 2 ? 0.5 * sign : 1.0;
         p.lower[0] = p.lower[2] = -INFINITY;
         CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
-        assert_string_equal(
-            info.msg.text, sign > 0 ? "lcp: cover(3) = 0: expected a number > 0, because "
-                                      "w(3) = 0.5 at the start has the wrong sign"
-                                    : "lcp: cover(3) = 0: expected a number > 0, because "
-                                      "w(3) = -0.5 at the start has the wrong sign");
+        assert_string_equal(info.msg.text,
+                            sign > 0 ? "lcp: cover(3) = 0: expected a number > 0, because "
+                                       "w(3) = 0.5 at the start has the wrong sign"
+                                     : "lcp: cover(3) = 0: expected a number > 0, because "
+                                       "w(3) = -0.5 at the start has the wrong sign");
     }
 }
 
@@ -514,8 +511,7 @@ TEST(programs_with_equations_are_solved)
             p.q[n + i] = 0.0;
             p.lower[n + i] = -INFINITY;
             for (int j = 0; j < n; j++) {
-                const double a = uniform(),
-                             x = j % 2 ? 0.0 : 1.0; /* A x = b has x >= 0 */
+                const double a = uniform(), x = j % 2 ? 0.0 : 1.0; /* A x = b has x >= 0 */
                 p.M[n + i + j * p.n] = a;
                 p.M[j + (n + i) * p.n] = -a;
                 p.q[n + i] -= a * x;
@@ -695,8 +691,8 @@ static void obstacle(int m, rb_sparse *M, double *q)
     const double h = 1.0 / (m + 1);
     for (int k = 0; k < m * m; k++) {
         const int i = k % m, j = k / m;
-        const int next[5] = {k, i > 0 ? k - 1 : -1, i + 1 < m ? k + 1 : -1,
-                             j > 0 ? k - m : -1, j + 1 < m ? k + m : -1};
+        const int next[5] = {k, i > 0 ? k - 1 : -1, i + 1 < m ? k + 1 : -1, j > 0 ? k - m : -1,
+                             j + 1 < m ? k + m : -1};
         q[k] = h * h;
         for (int s = 0; s < 5; s++) {
             if (next[s] < 0)
@@ -716,8 +712,7 @@ TEST(a_large_obstacle_is_solved_as_by_newton)
     rb_lcp_info info;
     obstacle(SIDE, &M, q);
     CHECK_STATUS(rb_lcp_newton(&M, q, NULL, want, &info), RB_OK);
-    CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
     assert_true(info.iters < SIDE * SIDE);
     CHECK_MAX(info.res, 1e-15, "residual");
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -790,9 +785,8 @@ TEST(bad_input_is_named)
     assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
     rb_sparse wide, empty = {.rows = 0};
     CHECK_STATUS(rb_sparse_from_dense(1, 2, endless, 1, &wide), RB_OK);
-    CHECK_STATUS(
-        rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &wide, .q = p.q}, NULL, z, &info),
-        RB_EINVAL);
+    CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &wide, .q = p.q}, NULL, z, &info),
+                 RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M is 1 by 2"));
     CHECK_STATUS(rb_lcp_newton(&empty, p.q, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M is 0 by 0"));
@@ -801,10 +795,8 @@ TEST(bad_input_is_named)
     const double one[] = {1.0}, no[] = {NAN};
     OWNED(rb_sparse) M;
     CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 1, &M), RB_OK);
-    assert_true(
-        isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = one}, no, z)));
-    assert_true(
-        isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = no}, one, z)));
+    assert_true(isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = one}, no, z)));
+    assert_true(isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = no}, one, z)));
     assert_true(isnan(rb_lcp_residual(&(rb_lcp_problem){1, one, 1, no}, one, z)));
 }
 
@@ -824,8 +816,8 @@ TEST(short_memory_is_reported)
     for (int i = 0;; i++) {
         double z[N];
         alloc_fail_after(i);
-        const rb_status s = rb_lcp_mixed(
-            &(rb_lcp_mixed_problem){&M, p.q, p.lower, p.upper}, NULL, z, NULL);
+        const rb_status s =
+            rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p.q, p.lower, p.upper}, NULL, z, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
@@ -848,14 +840,12 @@ TEST(a_large_row_hides_no_wrong_one)
     rb_lcp_info info;
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 2, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
-            &M),
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 4, .row = row, .col = col, .x = x}, &M),
         RB_OK);
-    assert_int_not_equal(
-        rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
-    assert_int_not_equal(
-        rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, q, lower, upper}, NULL, z, &info),
-        RB_OK);
+    assert_int_not_equal(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info),
+                         RB_OK);
+    assert_int_not_equal(rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, q, lower, upper}, NULL, z, &info),
+                         RB_OK);
 }
 
 RUN_TESTS(NULL, NULL)

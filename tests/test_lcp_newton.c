@@ -53,8 +53,7 @@ TEST(p_matrices_are_solved_as_by_lemke)
         rb_lcp_info info;
         random_problem(n, M, q);
         CHECK_STATUS(rb_sparse_from_dense(n, n, M, n, &a), RB_OK);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, want, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, want, NULL), RB_OK);
         CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_OK);
         CHECK_MAX(natural_residual(n, M, q, z), 1e-12 * (1.0 + rb_norm_inf((size_t)n, z)),
                   "problem %d", k);
@@ -139,9 +138,9 @@ TEST(a_large_row_hides_no_small_one)
     const double wrong[] = {1e16, 0.0, 1.1};
     double scaled;
     int row;
-    CHECK_STATUS(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &a, .q = q}, wrong,
-                                        &scaled, &row),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &a, .q = q}, wrong, &scaled, &row),
+        RB_OK);
     CHECK_REL(scaled, 0.1 / 2.1, 1e-9, "residual of row 3 as a part of its terms");
     assert_int_equal(row, 2);
 }

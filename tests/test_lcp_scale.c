@@ -97,8 +97,7 @@ static int solve(const problem *p, int k)
                             : solver == 1 ? rb_lcp_newton(&M, p->scaled_q, NULL, z, &info)
                                           : rb_lcp_mixed(&sparse, NULL, z, &info);
         if (s != RB_OK) {
-            print_error("problem %d, n = %d, solver %d: %s\n", k, n, solver,
-                        info.msg.text);
+            print_error("problem %d, n = %d, solver %d: %s\n", k, n, solver, info.msg.text);
             continue;
         }
         double scaled;
@@ -119,8 +118,7 @@ TEST(claims_of_scaled_problems_are_right)
         make(&p, k % KINDS, k % 50 == 49 ? LARGEST : 1 + k % 17, 40.0);
         solved += solve(&p, k);
     }
-    print_message("%d problems: %d of %d claims, none wrong\n", problems, solved,
-                  3 * problems);
+    print_message("%d problems: %d of %d claims, none wrong\n", problems, solved, 3 * problems);
     assert_int_equal(solved, 3 * problems);
 }
 
@@ -128,8 +126,7 @@ TEST(claims_of_scaled_problems_are_right)
  */
 TEST(rows_in_other_units_change_nothing)
 {
-    const double base[] = {2.0, 1.0, 0.0, 1.0, 3.0, 1.0, 0.0, 1.0, 2.0},
-                 q0[] = {-4, -7, 1};
+    const double base[] = {2.0, 1.0, 0.0, 1.0, 3.0, 1.0, 0.0, 1.0, 2.0}, q0[] = {-4, -7, 1};
     const double row[] = {1e6, 1e-6, 1.0};
     double M[9], q[3], z[3];
     rb_lcp_info info;
@@ -143,8 +140,7 @@ TEST(rows_in_other_units_change_nothing)
     CHECK_REL(z[1], 2.0, 1e-14, "z(2)");
     CHECK_ABS(z[2], 0.0, 0.0, "z(3)");
     OWNED(rb_lcp_solutions) all;
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL), RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], 1.0, 1e-14, "enumerated z(1)");
     CHECK_REL(all.z[1], 2.0, 1e-14, "enumerated z(2)");
@@ -161,20 +157,18 @@ TEST(the_scaled_residual_has_no_units)
         double plain, scaled;
         int row;
         make(&p, 1, n, 40.0);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, z, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, z, NULL), RB_OK);
         z[k % n] += 1e-3;
         for (int i = 0; i < n; i++)
             scaled_z[i] = z[i] / p.col[i];
         CHECK_STATUS(rb_sparse_from_dense(n, n, p.M, n, &M), RB_OK);
         CHECK_STATUS(rb_sparse_from_dense(n, n, p.scaled, n, &S), RB_OK);
-        CHECK_STATUS(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &M, .q = p.q}, z,
-                                            &plain, NULL),
-                     RB_OK);
         CHECK_STATUS(
-            rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &S, .q = p.scaled_q},
-                                   scaled_z, &scaled, &row),
+            rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &M, .q = p.q}, z, &plain, NULL),
             RB_OK);
+        CHECK_STATUS(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &S, .q = p.scaled_q},
+                                            scaled_z, &scaled, &row),
+                     RB_OK);
         assert_true(plain > 1e-5 && scaled > 1e-5);
         assert_true(scaled < 8.0 * plain && plain < 8.0 * scaled);
         assert_in_range(row, 0, n - 1);
@@ -212,8 +206,8 @@ static void follow(const rb_lcp_pivot *seen, void *context)
         }
         /* r + d_i z0 = 0: d_i is a power of two, the scale of the row */
         cover = -r / x[2 * n];
-        f->worst = fmax(f->worst, fabs(log2(cover) - round(log2(cover))) *
-                                      fabs(cover * x[2 * n]) / size);
+        f->worst =
+            fmax(f->worst, fabs(log2(cover) - round(log2(cover))) * fabs(cover * x[2 * n]) / size);
     }
 }
 
@@ -228,8 +222,7 @@ TEST(the_trace_keeps_the_units_of_the_caller)
         opt.trace_context = &f;
         opt.trace_tableau = 1;
         make(&p, k % 2, 2 + k % 13, 40.0);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.scaled, p.n, p.scaled_q}, &opt,
-                                  z, NULL),
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.scaled, p.n, p.scaled_q}, &opt, z, NULL),
                      RB_OK);
         CHECK_MAX(f.worst, 1e-12, "problem %d, %d pivots", k, f.pivots);
     }
@@ -240,8 +233,8 @@ static rb_status solve_anew(void *context)
     const problem *p = context;
     double z[LARGEST], scaled;
     OWNED(rb_sparse) M = {0};
-    rb_status s = rb_lcp_lemke(&(rb_lcp_problem){p->n, p->scaled, p->n, p->scaled_q},
-                               NULL, z, NULL);
+    rb_status s =
+        rb_lcp_lemke(&(rb_lcp_problem){p->n, p->scaled, p->n, p->scaled_q}, NULL, z, NULL);
     if (s == RB_OK)
         s = rb_sparse_from_dense(p->n, p->n, p->scaled, p->n, &M);
     const rb_lcp_mixed_problem sparse = {.M = &M, .q = p->scaled_q};

@@ -25,8 +25,8 @@ static int have_commas(void)
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)
             if (setlocale(LC_ALL, names[k]))
                 return localeconv()->decimal_point[0] == ',';
-        snprintf(line, sizeof line,
-                 "localedef -c -i de_DE -f UTF-8 %s/de_DE.UTF-8 >/dev/null 2>&1", folder);
+        snprintf(line, sizeof line, "localedef -c -i de_DE -f UTF-8 %s/de_DE.UTF-8 >/dev/null 2>&1",
+                 folder);
         setenv("LOCPATH", folder, 1);
         if (round == 0 && system(line) != 0)
             return 0;
@@ -80,8 +80,7 @@ static void write_all(char *text, size_t size)
         {"contact-elements", "12"},       {"relaxation-time", "0.01,0.1"},
         {"relaxation-ratio", "0.5,0.25"}, {"speed", "12.5"}};
     for (size_t k = 0; k < sizeof given / sizeof *given; k++)
-        CHECK_STATUS(
-            rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
+        CHECK_STATUS(rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_set_number(words, "load", 123.456, &why), RB_OK);
     CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
     const rb_resolved_case *c = rb_case_resolved(words);

@@ -55,8 +55,7 @@ static const struct {
     {"section.ini", "belongs to section"},
     {"--gap one.txt --load 10", "one.txt:1: expected 2 numbers, got 1"},
     {"--example rial", "did you mean 'rail'"},
-    {"--example rail good.ini",
-     "--example rail and the case file 'good.ini': one of them"},
+    {"--example rail good.ini", "--example rail and the case file 'good.ini': one of them"},
     {"curve --creep 0.001", "the curve varies it from --from"},
     {"curve --from 1 --to 1", "expected two different values"},
     {"sweep", "a study needs --vary-1 or --cases"},
@@ -80,8 +79,8 @@ TEST(forty_mistakes_get_a_line_that_helps)
         const int code = rollbem(mistakes[k].arguments);
         snprintf(first, sizeof first, "%.*s", (int)strcspn(wanted, "|"), wanted);
         const size_t n = strlen(err);
-        if ((!strstr(err, first) && !(other && strstr(err, other + 1))) || code < 64 ||
-            n == 0 || strchr(err, '\n') != err + n - 1 || out[0]) {
+        if ((!strstr(err, first) && !(other && strstr(err, other + 1))) || code < 64 || n == 0 ||
+            strchr(err, '\n') != err + n - 1 || out[0]) {
             print_error("rollbem %s (%d): %s", mistakes[k].arguments, code, err);
             wrong++;
         }
@@ -98,16 +97,14 @@ TEST(refusals_have_their_code_and_reason)
     } all[] = {
         {64, "b.ini --relaxation-time 0.1,1 --relaxation-ratio 1 --speed 10",
          "equally many numbers, got 2 and 1"},
-        {64,
-         "b.ini --friction-law exponential --mu-fall 0.1,0.2 --slip-scale 1 --speed 1",
+        {64, "b.ini --friction-law exponential --mu-fall 0.1,0.2 --slip-scale 1 --speed 1",
          "equally many numbers, got 2 and 1"},
         {64,
          "b.ini --friction-law exponential --mu-fall 0.1 --slip-scale 1 --speed 1 "
          "--memory 1,2,3",
          "--memory: expected 1 or 2 numbers, got 3"},
         {64, "b.ini --friction-law exponential", "needs --mu-fall and --slip-scale"},
-        {64, "b.ini --mu-fall 0.1 --slip-scale 1",
-         "only for velocity-dependent friction"},
+        {64, "b.ini --mu-fall 0.1 --slip-scale 1", "only for velocity-dependent friction"},
         {64, "b.ini --mu-heat 0.1,2", "--mu-heat: expected 3 numbers, got 2"},
         {66, "b.ini --friction-law nothing.txt", "nothing.txt: No such file"},
         {64, "b.ini --relaxation-time 1s,2 --relaxation-ratio 1,1 --speed 1",
@@ -116,12 +113,10 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini --contact-elements 1", "expected a whole number >= 3, got '1'"},
         {64, "b.ini --contact-elements 3.5", "got '3.5'"},
         {64, "b.ini --plot-script p.gp", "got 0"},
-        {65, "size.ini",
-         "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
+        {65, "size.ini", "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
         {65, "arc.ini", "arc.ini:2: arc: of the support arc only"},
         {64, "help --nothing", "nothing about '--nothing'"},
-        {64,
-         "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",
+        {64, "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",
          "--mu-fall: expected 1 or 2 numbers, got 3"},
         {64, "sweep s.ini --results nothing,contact", "no result 'nothing'"},
         {73, "sweep s.ini --quiet --output /dev/full", "/dev/full: No space left"},
@@ -130,8 +125,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "sweep w.ini --vary-1 'creep-ratio 0.1 0.2'",
          "w.ini:4: creep and creep-ratio exclude each other"},
         {65, "every.ini", "every.ini:2: every: for --formulation transient, --history"},
-        {65, "script.ini",
-         "script.ini:3: plot-script: expected one picture (such as --plot FILE)"},
+        {65, "script.ini", "script.ini:3: plot-script: expected one picture (such as --plot FILE)"},
         {66, "''", ": No such file"},
         {64, "--an-option-of-a-name-that-is-longer-than-any-other-name 3",
          "--an-option-of-a-name-that-is-longer-than"},
@@ -140,8 +134,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini s.ini", "one case file at a time, got 'b.ini' and 's.ini'"},
         {66, "compare nothing.dat", "nothing.dat: No such file"},
         {64, "help friction lcp", "nothing about 'friction lcp'"},
-        {64,
-         "sweep s.ini --results a_result_of_a_name_that_is_longer_than_any_heading_is",
+        {64, "sweep s.ini --results a_result_of_a_name_that_is_longer_than_any_heading_is",
          "--results: no result 'a_result_of_a_name"},
         {64, "sweep s.ini --map p.svg --vary-2 'mu 0.1'",
          "a map needs two options with two values or more"},
@@ -198,10 +191,8 @@ TEST(refusals_have_their_code_and_reason)
          "--dump, --fclib and --trace: not together with error bars"},
         {64, "b.ini --shift 0.001 --error --trace",
          "--dump, --fclib and --trace: not together with error bars"},
-        {64, "b.ini --shift 0.001 --accuracy 0.1 --trace",
-         "not together with error bars"},
-        {64, "b.ini --shift 0.001 --trace --solver newton",
-         "--trace: only --solver lemke pivots"},
+        {64, "b.ini --shift 0.001 --accuracy 0.1 --trace", "not together with error bars"},
+        {64, "b.ini --shift 0.001 --trace --solver newton", "--trace: only --solver lemke pivots"},
         {64, "b.ini --formulation transient --distance 0.3 --steps 2 --states",
          "--states: with --json and in mm, N, MPa only"},
         {64,
@@ -214,16 +205,14 @@ TEST(refusals_have_their_code_and_reason)
          "b.ini: cannot write: Not a directory"},
         {73, "b.ini --plot /nothing/p.svg", "/nothing/p.svg: cannot write"},
         {73, "b.ini --fclib /nothing/f.hdf5", "/nothing/f.hdf5: cannot write"},
-        {64, "--describe=nothing",
-         "expected man, markdown, results or schema, got 'nothing'"},
+        {64, "--describe=nothing", "expected man, markdown, results or schema, got 'nothing'"},
         {64, "--completion=tcsh", "expected bash, zsh or fish, got 'tcsh'"},
         {64, "help xyzzy", "help: nothing about 'xyzzy'"},
         {64, "examples more", "examples: unexpected 'more'"},
         {64, "verify more", "verify: unexpected 'more'"},
         {66, "check nothing", "nothing: No such file"},
         {64, "check", "expected a file that"},
-        {65, "check b.ini",
-         "expected the JSON of a result, or a table with its comments"},
+        {65, "check b.ini", "expected the JSON of a result, or a table with its comments"},
         {65, "check list.json", "no object"},
         {65, "check cut.json", "cut.json:2: expected the JSON of a result"},
         {64, "curve b.ini --mu 0 --plot p.svg", "--plot: no curve to draw at mu = 0"},
@@ -245,8 +234,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "stress b.ini --grid 1x3", "expected two numbers >= 2 such as 61x41"},
         {64, "stress b.ini --grid 3x3x3", "expected two numbers >= 2 such as 61x41"},
         {64, "stress b.ini --grid 3", "expected two numbers >= 2 such as 61x41, got '3'"},
-        {64, "stress b.ini --grid 3x3 --points at.txt",
-         "--grid and --points exclude each other"},
+        {64, "stress b.ini --grid 3x3 --points at.txt", "--grid and --points exclude each other"},
         {64, "stress b.ini --grid 3x3 --vtk v.txt",
          "expected a name ending in .vti or .vtu, got 'v.txt'"},
         {64, "stress b.ini --points at.txt --vtk v.vti",
@@ -254,22 +242,17 @@ TEST(refusals_have_their_code_and_reason)
         {64, "stress --grid 3x3 --load 100 --contact-elements 8 --vtk v.vti",
          "that of a wheel follows its surface"},
         {65, "stress b.ini --points one.txt", "one.txt:1: expected 2 numbers, got 1"},
-        {65, "stress b.ini --points below.txt",
-         "the point (0, -0.1) mm lies outside body A"},
+        {65, "stress b.ini --points below.txt", "the point (0, -0.1) mm lies outside body A"},
         {64, "sweep b.ini", "a study needs --vary-1 or --cases"},
-        {64, "sweep b.ini --show load --vary-1 'load 100 200'",
-         "--show: there is no picture"},
-        {64, "sweep b.ini --over load --vary-1 'load 100 200'",
-         "--over: there is no picture"},
-        {64, "sweep b.ini --family load --vary-1 'load 100 200'",
-         "--family: there is no picture"},
+        {64, "sweep b.ini --show load --vary-1 'load 100 200'", "--show: there is no picture"},
+        {64, "sweep b.ini --over load --vary-1 'load 100 200'", "--over: there is no picture"},
+        {64, "sweep b.ini --family load --vary-1 'load 100 200'", "--family: there is no picture"},
         {64, "sweep s.ini --show nothing --plot p.svg", "--show: no result 'nothing'"},
         {64, "sweep s.ini --show load --plot p.svg", "load varies; expected a result"},
         {64, "sweep s.ini --results nothing", "--results: no result 'nothing'"},
         {64, "sweep s.ini --results error_tangential_load",
          "'error_tangential_load' needs --error"},
-        {64, "sweep s.ini --error --results error_iterations",
-         "iterations has no error bar"},
+        {64, "sweep s.ini --error --results error_iterations", "iterations has no error bar"},
         {64, "sweep s.ini --plot p.svg --over young",
          "expected an option that varies, got 'young'"},
         {64, "sweep s.ini --plot p.svg --over load --family load",
@@ -282,8 +265,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "sweep b.ini --map p.svg --cases holes.txt",
          "those with load = 200 are others than those with load = 100"},
         {64, "sweep b.ini --vary-1 'shape 1 2'", "'shape' is not an option of a case"},
-        {64, "sweep b.ini --vary-1 'load 1 2' --vary-2 'load 3 4'",
-         "'load' varies already"},
+        {64, "sweep b.ini --vary-1 'load 1 2' --vary-2 'load 3 4'", "'load' varies already"},
         {64, "sweep b.ini --vary-1 load",
          "expected an option and numbers, or first:last:count, got 'load'"},
         {64, "sweep b.ini --vary-1 'load 1:2:x'", "expected"},
@@ -319,8 +301,7 @@ TEST(refusals_have_their_code_and_reason)
         {65, "sweep b.ini --cases one.txt", "expected a line that names the columns"},
         {73, "sweep s.ini --output /nothing/w.tsv", "/nothing/w.tsv: cannot write"},
         {73, "sweep s.ini --output .", ".: cannot write: Is a directory"},
-        {65, "page b.ini --page b.ini --output p.html",
-         "expected the page of `make page`"},
+        {65, "page b.ini --page b.ini --output p.html", "expected the page of `make page`"},
         {66, "page b.ini --page nothing.html --output p.html", "nothing.html"},
         {64, "lcp game.txt --q game.txt --game", "--q"},
         {66, "lcp nothing.txt --output t.tsv", "nothing.txt: No such file"},
@@ -328,8 +309,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp one.txt one.txt --q one.txt", "lcp: --q goes with one FILE, got 2"},
         {64, "lcp one.txt --solver newton --trace", "not with --solver newton"},
         {64, "lcp one.txt --solver newton --cover one.txt", "not with --solver newton"},
-        {64, "lcp one.txt --solver newton --rule first-index",
-         "not with --solver newton"},
+        {64, "lcp one.txt --solver newton --rule first-index", "not with --solver newton"},
         {64, "lcp one.txt --solver newton --lower one.txt", "--lower and --upper need"},
         {64, "lcp one.txt --solver newton --upper one.txt", "--lower and --upper need"},
         {64, "lcp one.txt --trace --solution", "are two tables: one of them"},
@@ -346,32 +326,24 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp game.txt --game --rule first-index", "--game reads A and B alone"},
         {64, "lcp game.txt --label 1", "only with --game and without --all"},
         {64, "lcp game.txt --game --all --label 1", "only with --game and without --all"},
-        {65, "lcp colour.txt --output t.tsv",
-         "colour.txt:1: n: expected an integer >= 1"},
-        {64, "compare --solvers nothing one.txt",
-         "no friction solver is called 'nothing'"},
+        {65, "lcp colour.txt --output t.tsv", "colour.txt:1: n: expected an integer >= 1"},
+        {64, "compare --solvers nothing one.txt", "no friction solver is called 'nothing'"},
         {65, "friction one.txt --output t.tsv",
          "one.txt:4: size at the head: expected an integer >= 0"},
-        {64, "friction one.txt --solver nothing",
-         "no friction solver is called 'nothing'"},
+        {64, "friction one.txt --solver nothing", "no friction solver is called 'nothing'"},
         {65, "contact b.ini", "no line such as '3 MODULE': not an input file of CONTACT"},
         {66, "contact nothing.inp", "nothing.inp: No such file"},
         {64, "example tower", "a name that `rollbem examples` lists, got 'tower'"},
         {64, "example truss --plot p.xyz",
          "expected a name ending in .png, .svg or .pdf, got 'p.xyz'"},
-        {64, "example truss --nodes 2 --solver lemke",
-         "lemke solves problems in 2D only"},
-        {73, "example wall --mesh coarse --output b.ini",
-         "b.ini: cannot write: Not a directory"},
-        {73, "example truss --nodes 2 --output /nothing/t.tsv",
-         "/nothing/t.tsv: cannot write"},
+        {64, "example truss --nodes 2 --solver lemke", "lemke solves problems in 2D only"},
+        {73, "example wall --mesh coarse --output b.ini", "b.ini: cannot write: Not a directory"},
+        {73, "example truss --nodes 2 --output /nothing/t.tsv", "/nothing/t.tsv: cannot write"},
     };
-    write_file("b.ini",
-               "support = halfplane\nload = 100\ncontact-elements = 8\nzone = 1\n");
-    write_file("s.ini",
-               "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
-               "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
-               "vary-2 = creep-ratio 0 0.5\n");
+    write_file("b.ini", "support = halfplane\nload = 100\ncontact-elements = 8\nzone = 1\n");
+    write_file("s.ini", "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
+                        "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
+                        "vary-2 = creep-ratio 0 0.5\n");
     write_file("arc.ini", "support = halfplane\narc = 30\nload = 100\n");
     write_file("v.ini", "formulation = steady\nsupport = halfplane\nload = 100\n"
                         "creep-ratio = 0.1\n");
@@ -448,8 +420,7 @@ TEST(examples_are_at_hand)
     assert_non_null(strstr(out, "--example rail "));
     assert_non_null(strstr(out, "--example paper "));
     json_t *root = run_json("--example rail --creep-ratio 0.4");
-    CHECK_REL(number_in(json_object_get(root, "summary"), "force_ratio"), -0.64, 1e-4,
-              "Carter");
+    CHECK_REL(number_in(json_object_get(root, "summary"), "force_ratio"), -0.64, 1e-4, "Carter");
     json_decref(root);
     root = run_json("curve --example rail --points 3");
     json_decref(root);
@@ -466,8 +437,7 @@ TEST(terminals_get_a_short_table)
 {
     if (shell("command -v script") != 0)
         skip();
-    assert_int_equal(
-        shell("script -qec \"'$R' --example rail --creep-ratio 0.4\" typescript"), 0);
+    assert_int_equal(shell("script -qec \"'$R' --example rail --creep-ratio 0.4\" typescript"), 0);
     const char *summary = strstr(out, "  load "), *table = strstr(out, "  zone");
     assert_non_null(summary);
     assert_non_null(table);
@@ -477,8 +447,7 @@ TEST(terminals_get_a_short_table)
     for (const char *c = out; *c; c++)
         lines += *c == '\n';
     assert_true(lines <= 24);
-    assert_int_equal(shell("script -qec \"'$R' --example rail --format tsv\" typescript"),
-                     0);
+    assert_int_equal(shell("script -qec \"'$R' --example rail --format tsv\" typescript"), 0);
     assert_non_null(strstr(out, "# rollbem"));
 }
 
@@ -532,8 +501,7 @@ TEST(no_command_is_wider_than_a_terminal)
         {"--example rail --creep-ratio 0.4", 24},
         {"curve --half-width 0.05 --support halfplane --poisson 0.5 --points 30", 24},
         {"stress --example rail --creep-ratio 0.4", 30},
-        {"wear --support halfplane --half-width 0.5 --slide 1e6 --wear-coefficient 1e-10",
-         24},
+        {"wear --support halfplane --half-width 0.5 --slide 1e6 --wear-coefficient 1e-10", 24},
         {"crack --similar --support halfplane --half-width 1 --mu 0", 24},
         {"sweep --example rail --vary-1 'mu 0.1 0.2 0.3'", 24},
         {"example truss", 24},
@@ -555,15 +523,14 @@ TEST(no_command_is_wider_than_a_terminal)
         assert_int_equal(shell(line), 0);
         int lines = 0;
         for (const char *at = out, *end; (end = strchr(at, '\n')) != NULL; at = end + 1) {
-            CHECK_MAX((double)characters(at, (size_t)(end - at)), 80.0,
-                      "rollbem %s: %.*s", cases[k].command, (int)(end - at), at);
+            CHECK_MAX((double)characters(at, (size_t)(end - at)), 80.0, "rollbem %s: %.*s",
+                      cases[k].command, (int)(end - at), at);
             lines++;
         }
         if (lines < 3)
             fail_msg("rollbem %s: %s", cases[k].command, out);
         if (cases[k].lines)
-            CHECK_MAX((double)lines, (double)cases[k].lines, "rollbem %s",
-                      cases[k].command);
+            CHECK_MAX((double)lines, (double)cases[k].lines, "rollbem %s", cases[k].command);
     }
     assert_int_equal(shell("NO_COLOR=1 script -qec \"'$R'\" typescript"), 0);
     assert_null(strchr(out, '\033'));

@@ -111,9 +111,7 @@ static const struct {
       {"force-ratio", ""},
       {"free-axle", "--free-axle"},
       {"shift", ""}}},
-    {"gap",
-     "gap",
-     {{"file", "--gap gap.txt"}, {"smoothed", "--gap gap.txt --gap-smoothing 1e-5"}}},
+    {"gap", "gap", {{"file", "--gap gap.txt"}, {"smoothed", "--gap gap.txt --gap-smoothing 1e-5"}}},
     {"irregularity", NULL, {{"none", ""}, {"flat", "--irregularity flat.txt"}}},
     {"worn", NULL, {{"none", ""}, {"scar", "--worn worn.txt"}}},
     {"interlayer",
@@ -132,8 +130,7 @@ static const struct {
       {"file", "--friction-law mu.txt"},
       {"exponential",
        "--friction-law exponential --mu-fall 0.1,0.05 --slip-scale 40,4 --speed 3000"},
-      {"rational",
-       "--friction-law rational --mu-fall 0.1,0.05 --slip-scale 20,5 --speed 3000"},
+      {"rational", "--friction-law rational --mu-fall 0.1,0.05 --slip-scale 20,5 --speed 3000"},
       {"linear", "--friction-law linear --mu-fall 0.1 --slip-scale 50 --speed 3000"},
       {"memory", "--friction-law exponential --mu-fall 0.1 --slip-scale 20 --speed 3000 "
                  "--memory 0.01,2"},
@@ -317,20 +314,14 @@ static const conflict conflicts[] = {
     {{"regime=transient*", "tangential=shift"}, "rolling is driven by"},
     {{"regime=steps", "tangential=shift"}, "rolling is driven by"},
     {{"regime=steady", "tangential=shift"}, "rolling is driven by"},
-    {{"regime=transient*", "mesh=fitted"},
-     "a computation with steps needs equal elements"},
-    {{"regime=transient*", "mesh=aligned"},
-     "a computation with steps needs equal elements"},
+    {{"regime=transient*", "mesh=fitted"}, "a computation with steps needs equal elements"},
+    {{"regime=transient*", "mesh=aligned"}, "a computation with steps needs equal elements"},
     {{"regime=steps", "mesh=fitted"}, "a computation with steps needs equal elements"},
     {{"regime=steps", "mesh=aligned"}, "a computation with steps needs equal elements"},
-    {{"regime=increments", "mesh=fitted"},
-     "a computation with steps needs equal elements"},
-    {{"regime=increments", "mesh=aligned"},
-     "a computation with steps needs equal elements"},
-    {{"regime=static-history", "mesh=fitted"},
-     "a computation with steps needs equal elements"},
-    {{"regime=static-history", "mesh=aligned"},
-     "a computation with steps needs equal elements"},
+    {{"regime=increments", "mesh=fitted"}, "a computation with steps needs equal elements"},
+    {{"regime=increments", "mesh=aligned"}, "a computation with steps needs equal elements"},
+    {{"regime=static-history", "mesh=fitted"}, "a computation with steps needs equal elements"},
+    {{"regime=static-history", "mesh=aligned"}, "a computation with steps needs equal elements"},
     {{"slip=second", "regime!steady"}, "only for steady rolling"},
     {{"slip=second", "mesh=fitted"}, "only for equal elements"},
     {{"surface=layer", "support!halfplane"}, "for the support halfplane only"},
@@ -340,19 +331,15 @@ static const conflict conflicts[] = {
      "for the support halfplane only"},
     {{"surface=b-relaxing", "support!halfplane", "regime=transient*"},
      "for the support halfplane only"},
-    {{"surface=relaxing", "body-b=hub", "regime=transient*"},
-     "for the support halfplane only"},
-    {{"surface=relaxing", "body-b=arc", "regime=transient*"},
-     "for the support halfplane only"},
+    {{"surface=relaxing", "body-b=hub", "regime=transient*"}, "for the support halfplane only"},
+    {{"surface=relaxing", "body-b=arc", "regime=transient*"}, "for the support halfplane only"},
     {{"surface=relaxing", "regime=static"}, "needs --history"},
     {{"surface=relaxing", "regime=increments"}, "needs --history"},
     {{"surface=relaxing", "regime=steps"}, "by one element in each step"},
-    {{"surface=relaxing", "regime=transient*", "gap=file"},
-     "needs a parabola or circle as gap"},
+    {{"surface=relaxing", "regime=transient*", "gap=file"}, "needs a parabola or circle as gap"},
     {{"surface=relaxing", "regime=transient*", "gap=smoothed"},
      "needs a parabola or circle as gap"},
-    {{"surface=relaxing", "regime=transient*", "worn=scar"},
-     "needs a parabola or circle as gap"},
+    {{"surface=relaxing", "regime=transient*", "worn=scar"}, "needs a parabola or circle as gap"},
     {{"surface=relaxing", "regime=static-history", "gap=file"},
      "needs a parabola or circle as gap"},
     {{"surface=relaxing", "regime=static-history", "gap=smoothed"},
@@ -364,12 +351,10 @@ static const conflict conflicts[] = {
     {{"surface=b-relaxing", "regime=static"}, "needs --history"},
     {{"surface=b-relaxing", "regime=increments"}, "needs --history"},
     {{"surface=b-relaxing", "regime=steps"}, "by one element in each step"},
-    {{"surface=b-relaxing", "regime=transient*", "gap=file"},
-     "needs a parabola or circle as gap"},
+    {{"surface=b-relaxing", "regime=transient*", "gap=file"}, "needs a parabola or circle as gap"},
     {{"surface=b-relaxing", "regime=transient*", "gap=smoothed"},
      "needs a parabola or circle as gap"},
-    {{"surface=b-relaxing", "regime=transient*", "worn=scar"},
-     "needs a parabola or circle as gap"},
+    {{"surface=b-relaxing", "regime=transient*", "worn=scar"}, "needs a parabola or circle as gap"},
     {{"surface=b-relaxing", "regime=static-history", "gap=file"},
      "needs a parabola or circle as gap"},
     {{"surface=b-relaxing", "regime=static-history", "gap=smoothed"},
@@ -381,11 +366,9 @@ static const conflict conflicts[] = {
     {{"surface=b*", "body-b=rigid"}, "body B is rigid"},
     {{"surface=b-layer", "body-b=hub"}, "for the support halfplane only"},
     {{"surface=b-layer", "body-b=arc"}, "for the support halfplane only"},
-    {{"surface=b-relaxing", "body-b=hub", "regime=transient*"},
-     "for the support halfplane only"},
+    {{"surface=b-relaxing", "body-b=hub", "regime=transient*"}, "for the support halfplane only"},
     {{"surface=b-relaxing", "body-b=arc", "regime=steady"}, "cannot turn"},
-    {{"surface=b-relaxing", "body-b=arc", "regime=transient*"},
-     "for the support halfplane only"},
+    {{"surface=b-relaxing", "body-b=arc", "regime=transient*"}, "for the support halfplane only"},
     {{"surface=b-cover", "body-b=similar"}, "its core holds the wheel"},
     {{"surface=b-cover", "body-b=dissimilar"}, "its core holds the wheel"},
     {{"surface=b-cover", "body-b=cylinder"}, "its core holds the wheel"},
@@ -411,8 +394,7 @@ static const conflict conflicts[] = {
     {{"output=curve-plot", "mu=0"}, "no curve to draw at mu = 0"},
     {{"law=file", "mu=3"}, "the table of --friction-law has the coefficients"},
     {{"law=file", "mu=way", "regime=static-history"}, "a column mu cannot be combined"},
-    {{"law=file", "mu=way", "regime=transient-history"},
-     "a column mu cannot be combined"},
+    {{"law=file", "mu=way", "regime=transient-history"}, "a column mu cannot be combined"},
     {{"law=heat", "heat=none", "regime=steady"}, "needs temperatures"},
     {{"law=heat", "heat=none", "regime=transient*"}, "needs temperatures"},
     {{"law=heat", "heat=none", "regime=steps"}, "needs temperatures"},
@@ -455,8 +437,7 @@ static const conflict conflicts[] = {
     {{"output=accuracy", "regime=transient*"}, "static and steady cases without steps"},
     {{"output=accuracy", "regime=steps"}, "static and steady cases without steps"},
     {{"output=accuracy", "regime=increments"}, "static and steady cases without steps"},
-    {{"output=accuracy", "regime=static-history"},
-     "static and steady cases without steps"},
+    {{"output=accuracy", "regime=static-history"}, "static and steady cases without steps"},
     {{"output=trace", "solver=newton"}, "only --solver lemke pivots"},
     {{"output=trace", "solver=cone"}, "only --solver lemke pivots"},
     {{"output=dump-trace", "solver=newton"}, "only --solver lemke pivots"},
@@ -546,8 +527,8 @@ static condition parse(const char *value)
         condition c = {f, 0};
         for (int v = 0; v < level_n[f]; v++) {
             const char *name = levels[f][v].name;
-            const int same = start < length ? strncmp(name, wanted, start) == 0
-                                            : strcmp(name, wanted) == 0;
+            const int same =
+                start < length ? strncmp(name, wanted, start) == 0 : strcmp(name, wanted) == 0;
             if (same == (value[n] == '='))
                 c.levels |= UINT64_C(1) << v;
         }
@@ -561,8 +542,8 @@ static void parse_conflicts(void)
 {
     for (int k = 0; k < CONFLICTS; k++)
         for (int j = 0; j < 3; j++)
-            parsed[k][j] = conflicts[k].value[j] ? parse(conflicts[k].value[j])
-                                                 : (condition){.factor = -1};
+            parsed[k][j] =
+                conflicts[k].value[j] ? parse(conflicts[k].value[j]) : (condition){.factor = -1};
 }
 
 static int holds(const condition *c, const int *row)
@@ -608,8 +589,7 @@ enum { COSTLY = sizeof costly / sizeof costly[0] };
 static int rare(int factor, int value)
 {
     for (int k = 0; k < COSTLY; k++)
-        if (factor == costly[k].factor &&
-            strcmp(levels[factor][value].name, costly[k].name) == 0)
+        if (factor == costly[k].factor && strcmp(levels[factor][value].name, costly[k].name) == 0)
             return 1;
     return 0;
 }
@@ -619,8 +599,8 @@ static int spared(const int *row)
     int others = 0;
     for (int k = 0; k < COSTLY; k++)
         for (int f = 0; f < FACTORS && is(row, costly[k].factor, costly[k].name); f++)
-            others += row[f] != COVERING_OPEN && f != costly[k].factor &&
-                      f != costly[k].meets[0] && f != costly[k].meets[1];
+            others += row[f] != COVERING_OPEN && f != costly[k].factor && f != costly[k].meets[0] &&
+                      f != costly[k].meets[1];
     return others > 0;
 }
 
@@ -740,18 +720,16 @@ static void add_shape(const int *row, char *text, size_t size)
 {
     if (!is(row, SHAPE, "other"))
         return;
-    snprintf(
-        text + strlen(text), size - strlen(text), " --poisson 0.4%s --tol 1e-9%s%s%s",
-        is(row, SUPPORT, "arc")   ? " --arc 60"
-        : is(row, SUPPORT, "hub") ? " --hub-ratio 0.5"
-                                  : " --datum 70",
-        is(row, BODY_B, "hub")     ? " --hub-ratio-b 0.4"
-        : is(row, BODY_B, "arc")   ? " --arc-b 45"
-        : is(row, BODY_B, "rigid") ? ""
-                                   : " --datum-b 60",
-        is(row, BODY_B, "hub") ? " --poisson-b 0.2" : "",
-        is(row, SIZE, "odd") && !is(row, SUPPORT, "halfplane") ? " --outer-elements 50"
-                                                               : "");
+    snprintf(text + strlen(text), size - strlen(text), " --poisson 0.4%s --tol 1e-9%s%s%s",
+             is(row, SUPPORT, "arc")   ? " --arc 60"
+             : is(row, SUPPORT, "hub") ? " --hub-ratio 0.5"
+                                       : " --datum 70",
+             is(row, BODY_B, "hub")     ? " --hub-ratio-b 0.4"
+             : is(row, BODY_B, "arc")   ? " --arc-b 45"
+             : is(row, BODY_B, "rigid") ? ""
+                                        : " --datum-b 60",
+             is(row, BODY_B, "hub") ? " --poisson-b 0.2" : "",
+             is(row, SIZE, "odd") && !is(row, SUPPORT, "halfplane") ? " --outer-elements 50" : "");
 }
 
 static int rows; /* begun so far */
@@ -774,20 +752,17 @@ static void case_arguments(const int *row, char *text, size_t size)
     text[0] = '\0';
     for (int f = 0; f < OUTPUT; f++)
         if (levels[f][row[f]].arguments[0])
-            snprintf(text + strlen(text), size - strlen(text), " %s",
-                     levels[f][row[f]].arguments);
+            snprintf(text + strlen(text), size - strlen(text), " %s", levels[f][row[f]].arguments);
     add_size(row, text, size);
     add_shape(row, text, size);
     if (relaxes(row))
         snprintf(text + strlen(text), size - strlen(text), " %s",
                  is(row, REGIME, "static-history") ? "--time-step 0.008" : "--speed 100");
     if (is(row, SOLVER, "cone"))
-        snprintf(text + strlen(text), size - strlen(text), " --solver %s",
-                 cone_solver_of_row());
+        snprintf(text + strlen(text), size - strlen(text), " --solver %s", cone_solver_of_row());
     if (starts(row, OUTPUT, "curve"))
         snprintf(text + strlen(text), size - strlen(text),
-                 is(row, MU, "0") ? " --points 4 --over creep --from 0 --to 4e-3"
-                                  : " --points 4");
+                 is(row, MU, "0") ? " --points 4 --over creep --from 0 --to 4e-3" : " --points 4");
     const size_t at = strlen(text);
     if (has_history(row)) {
         write_controls(row);
@@ -851,8 +826,7 @@ static int words(char *line, char **word, int room)
 
 /* Program and words; its streams go to files.  The exit code, 128 + the signal.  What
  * counts is time of the processor, which others may want as well. */
-static int run(const char *file, const char *arguments, const char *to,
-               const char *errors)
+static int run(const char *file, const char *arguments, const char *to, const char *errors)
 {
     enum { SECONDS = 300 };
     char line[2500], *word[100];
@@ -918,9 +892,8 @@ static void check_whole(const char *path)
         return;
     }
     const size_t head_n = fread(head, 1, sizeof head, file);
-    size_t tail_n = fseek(file, -(long)sizeof tail, SEEK_END) == 0
-                        ? fread(tail, 1, sizeof tail, file)
-                        : 0;
+    size_t tail_n =
+        fseek(file, -(long)sizeof tail, SEEK_END) == 0 ? fread(tail, 1, sizeof tail, file) : 0;
     fclose(file);
     while (tail_n > 0 && tail[tail_n - 1] == '\n')
         tail_n--;
@@ -935,10 +908,10 @@ static void check_whole(const char *path)
 
 static int is_known(const char *name, const int *row)
 {
-    static const char *const ours[] = {
-        "json",        "json.err",   "out.table", "table.err",    "verdict",
-        "verdict.err", "flat.txt",   "worn.txt",  "controls.txt", "gap.txt",
-        "mu.txt",      "points.txt", "again",     "again.err"};
+    static const char *const ours[] = {"json",         "json.err",    "out.table", "table.err",
+                                       "verdict",      "verdict.err", "flat.txt",  "worn.txt",
+                                       "controls.txt", "gap.txt",     "mu.txt",    "points.txt",
+                                       "again",        "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;
@@ -982,8 +955,7 @@ static void check_written(const int *row)
 }
 
 /* A starting `rm` would take longer than many a case. */
-static int remove_below(const char *path, const struct stat *st, int type,
-                        struct FTW *where)
+static int remove_below(const char *path, const struct stat *st, int type, struct FTW *where)
 {
     (void)st;
     (void)type;
@@ -1030,8 +1002,7 @@ static void check_certificate(void)
     static const char *const reasons[] = {"error bars take solutions on other meshes",
                                           "its last state depends on the steps before it",
                                           "depends on the slip or the temperature",
-                                          "interface that yields",
-                                          "results with 'curve'"};
+                                          "interface that yields", "results with 'curve'"};
     const int code = run(program, "check json", "verdict", "verdict.err");
     slurp("verdict", out, sizeof out);
     slurp("verdict.err", err, sizeof err);
@@ -1046,9 +1017,9 @@ static void check_certificate(void)
  * steps; a history whose unit is found; elements that yield and slide at once. */
 static int has_no_derivatives(const char *errors)
 {
-    static const char *const reasons[] = {
-        "needs matrices", "not for friction that depends", "give a load",
-        "the interface yields while the surfaces slide"};
+    static const char *const reasons[] = {"needs matrices", "not for friction that depends",
+                                          "give a load",
+                                          "the interface yields while the surfaces slide"};
     for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++)
         if (strstr(errors, reasons[k]))
             return 1;
@@ -1110,8 +1081,7 @@ static int outgrows_zone(const int *row, const char *errors)
         return 0;
     if (is(row, OUTPUT, "sweep"))
         return all_unsolved_are(RB_ZONE, "out.table");
-    return (starts(row, OUTPUT, "curve") || is(row, MU, "3") ||
-            is(row, BODY_B, "bore")) &&
+    return (starts(row, OUTPUT, "curve") || is(row, MU, "3") || is(row, BODY_B, "bore")) &&
            (strstr(errors, "zone: the contact is not within the potential contact") ||
             strstr(errors, "the contact reaches the end of the potential contact"));
 }
@@ -1123,8 +1093,7 @@ static void check_failure(const int *row, int code, const char *errors)
     for (const char *next = line; next; next = strstr(next + 1, "\nrollbem: "))
         line = next;
     if (code != 1 || !(may_fail(row) || outgrows_zone(row, err)))
-        complain("exit code %d: ...%s", code,
-                 err + (strlen(err) > 400) * (strlen(err) - 400));
+        complain("exit code %d: ...%s", code, err + (strlen(err) > 400) * (strlen(err) - 400));
     else if (!line && !strstr(err, "; not solved: ")) /* a study counts them */
         complain("exit code 1 without a reason: %s", err);
     failed_solves++;
@@ -1144,8 +1113,7 @@ static void check_row(const int *row)
                                                              : "";
     empty_folder();
     case_arguments(row, the_case, sizeof the_case);
-    snprintf(line_of_row, sizeof line_of_row, "rollbem %s%s %s", command, the_case,
-             output);
+    snprintf(line_of_row, sizeof line_of_row, "rollbem %s%s %s", command, the_case, output);
     snprintf(arguments, sizeof arguments, "%s%s %s", command, the_case, output);
     const int code = run(program, arguments, "out.table", "table.err");
     if (is(row, OUTPUT, "derivatives") && code == CODE_LINE &&
@@ -1167,8 +1135,8 @@ static void check_row(const int *row)
         check_certificate();
         return;
     }
-    snprintf(arguments, sizeof arguments, "%s%s %s%s --json --quiet", command, the_case,
-             behind, has_steps(row) && !command[0] ? " --states" : "");
+    snprintf(arguments, sizeof arguments, "%s%s %s%s --json --quiet", command, the_case, behind,
+             has_steps(row) && !command[0] ? " --states" : "");
     const int again = run(program, arguments, "json", "json.err");
     if (again != 0)
         check_failure(row, again, "json.err");
@@ -1214,8 +1182,7 @@ TEST(test_every_option_is_a_factor)
         int known = options[i].kind == RB_OPTION_GROUP;
         for (int f = 0; f < FACTORS; f++)
             known |= factors[f].option && strcmp(factors[f].option, options[i].name) == 0;
-        for (size_t k = 0; k < sizeof options_elsewhere / sizeof options_elsewhere[0];
-             k++)
+        for (size_t k = 0; k < sizeof options_elsewhere / sizeof options_elsewhere[0]; k++)
             known |= strcmp(options_elsewhere[k], options[i].name) == 0;
         if (!known)
             print_error("--%s is in no factor\n", options[i].name);
@@ -1257,10 +1224,9 @@ TEST(test_every_conflict_is_refused)
                  levels[OUTPUT][row[OUTPUT]].arguments);
         snprintf(line_of_row, sizeof line_of_row, "rollbem %.1900s", arguments);
         const int code = run(program, arguments, "out.table", "table.err");
-        if (!is_refusal("out.table", "table.err") ||
-            (code != CODE_LINE && code != CODE_FILE) || !strstr(err, conflicts[k].reason))
-            complain("exit code %d, want a line with '%s': %s", code, conflicts[k].reason,
-                     err);
+        if (!is_refusal("out.table", "table.err") || (code != CODE_LINE && code != CODE_FILE) ||
+            !strstr(err, conflicts[k].reason))
+            complain("exit code %d, want a line with '%s': %s", code, conflicts[k].reason, err);
         check_files(".", row);
     }
     free(c.covered);
@@ -1295,8 +1261,8 @@ TEST(test_every_combination)
     int ends[2], status;
 
     assert_int_equal(pipe(ends), 0);
-    rows_taken = mmap(NULL, sizeof *rows_taken, PROT_READ | PROT_WRITE,
-                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    rows_taken =
+        mmap(NULL, sizeof *rows_taken, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     assert_true(rows_taken != MAP_FAILED);
     workers = (int)fmin(fmax(1.0, (double)sysconf(_SC_NPROCESSORS_ONLN)), 16.0);
     for (worker = 0; worker < workers; worker++)
@@ -1307,14 +1273,12 @@ TEST(test_every_combination)
         assert_true(wait(&status) > 0);
         assert_int_equal(status, 0);
         assert_int_equal(read(ends[0], &found, sizeof found), sizeof found);
-        all = (findings){found.rows, found.tuples, found.unreachable,
-                         all.failures + found.failures,
+        all = (findings){found.rows, found.tuples, found.unreachable, all.failures + found.failures,
                          all.failed_solves + found.failed_solves};
     }
-    print_message(
-        "%d rows cover %d %s; %d contain a conflict; %d rows ended with exit code 1\n",
-        all.rows, all.tuples, triples() ? "triples" : "pairs", all.unreachable,
-        all.failed_solves);
+    print_message("%d rows cover %d %s; %d contain a conflict; %d rows ended with exit code 1\n",
+                  all.rows, all.tuples, triples() ? "triples" : "pairs", all.unreachable,
+                  all.failed_solves);
     assert_int_equal(all.failures, 0);
 }
 
@@ -1322,10 +1286,9 @@ static int enter(void **state)
 {
     const int entered = enter_folder(state);
     const char *slash = strrchr(program, '/');
-    snprintf(checker, sizeof checker, "%.*s/tests/checker", (int)(slash - program),
+    snprintf(checker, sizeof checker, "%.*s/tests/checker", (int)(slash - program), program);
+    snprintf(differences, sizeof differences, "%.*s/tests/differences", (int)(slash - program),
              program);
-    snprintf(differences, sizeof differences, "%.*s/tests/differences",
-             (int)(slash - program), program);
     set_levels();
     parse_conflicts();
     return entered;

@@ -11,29 +11,28 @@ static int set_up(void **state)
         return -1;
     write_file("two.txt", "2\n2 1  1 2  -5 -6\n");
     write_file("ray.txt", "1\n-1\n-1\n");
-    return shell(
-        "\"$R\" --contact-elements 24 --quiet >tractions.tsv; "
-        "\"$R\" --similar --support halfplane --load 500 --formulation transient "
-        "--creep-ratio .5 --distance 1 --contact-elements 24 --error --quiet "
-        "--history-table history.tsv >/dev/null; "
-        "\"$R\" curve --points 3 --mu 0.1,0.3 --quiet >curve.tsv; "
-        "\"$R\" stress --support halfplane --load 500 --grid 5x4 --quiet >stress.tsv; "
-        "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
-        ">study.tsv; "
-        "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
-        "--format csv >study.csv; "
-        "\"$R\" --contact-elements 24 --fclib problem.hdf5 --quiet --format csv "
-        ">tractions.csv; "
-        "\"$R\" lcp two.txt ray.txt >files.tsv; "
-        "\"$R\" lcp --solution two.txt >unknowns.tsv; "
-        "\"$R\" lcp --trace two.txt >pivots.tsv; "
-        "\"$R\" friction --facts problem.hdf5 >friction.tsv; "
-        "\"$R\" friction --trace problem.hdf5 >friction-trace.tsv; "
-        "\"$R\" friction --solution problem.hdf5 >reactions.tsv; "
-        "\"$R\" compare --solvers nsn-ac,lemke problem.hdf5 --profiles profiles.tsv "
-        ">compare.tsv; "
-        "\"$R\" example truss --nodes 4 >truss.tsv; "
-        "cp tractions.tsv table.tsv; ls *.tsv *.csv | wc -l");
+    return shell("\"$R\" --contact-elements 24 --quiet >tractions.tsv; "
+                 "\"$R\" --similar --support halfplane --load 500 --formulation transient "
+                 "--creep-ratio .5 --distance 1 --contact-elements 24 --error --quiet "
+                 "--history-table history.tsv >/dev/null; "
+                 "\"$R\" curve --points 3 --mu 0.1,0.3 --quiet >curve.tsv; "
+                 "\"$R\" stress --support halfplane --load 500 --grid 5x4 --quiet >stress.tsv; "
+                 "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
+                 ">study.tsv; "
+                 "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
+                 "--format csv >study.csv; "
+                 "\"$R\" --contact-elements 24 --fclib problem.hdf5 --quiet --format csv "
+                 ">tractions.csv; "
+                 "\"$R\" lcp two.txt ray.txt >files.tsv; "
+                 "\"$R\" lcp --solution two.txt >unknowns.tsv; "
+                 "\"$R\" lcp --trace two.txt >pivots.tsv; "
+                 "\"$R\" friction --facts problem.hdf5 >friction.tsv; "
+                 "\"$R\" friction --trace problem.hdf5 >friction-trace.tsv; "
+                 "\"$R\" friction --solution problem.hdf5 >reactions.tsv; "
+                 "\"$R\" compare --solvers nsn-ac,lemke problem.hdf5 --profiles profiles.tsv "
+                 ">compare.tsv; "
+                 "\"$R\" example truss --nodes 4 >truss.tsv; "
+                 "cp tractions.tsv table.tsv; ls *.tsv *.csv | wc -l");
 }
 
 /* The lines of the k-th block of docs/tables.md in that language. */
@@ -54,8 +53,7 @@ static const char *block_of(const char *language, int k)
 
 static double largest_pressure(void)
 {
-    assert_int_equal(shell("cut -f4 tractions.tsv | grep '^[0-9]' | sort -g | tail -1"),
-                     0);
+    assert_int_equal(shell("cut -f4 tractions.tsv | grep '^[0-9]' | sort -g | tail -1"), 0);
     return strtod(out, NULL);
 }
 
@@ -78,12 +76,11 @@ static void check_tables(const char *command, const char *script)
     if (shell(command) != 0)
         print_error("%s: %s\n%s\n", command, out, err);
     assert_int_equal(shell(command), 0);
-    assert_int_equal(
-        shell("grep -c . seen >/dev/null && for f in *.tsv; do "
-              "n=$(grep -v '^#' $f | tail -n +2 | wc -l); "
-              "m=$(head -1 $f | awk -F '\\t' '{print NF}'); "
-              "grep -qx \"$f $n $m\" seen || { echo \"$f $n $m\"; exit 1; }; done"),
-        0);
+    assert_int_equal(shell("grep -c . seen >/dev/null && for f in *.tsv; do "
+                           "n=$(grep -v '^#' $f | tail -n +2 | wc -l); "
+                           "m=$(head -1 $f | awk -F '\\t' '{print NF}'); "
+                           "grep -qx \"$f $n $m\" seen || { echo \"$f $n $m\"; exit 1; }; done"),
+                     0);
 }
 
 static void skip_without(const char *probe, const char *program_name)
@@ -137,11 +134,10 @@ TEST(octave_opens_all)
 {
     skip_without("octave-cli --version", "Octave");
     check_lines("octave-cli --no-init-file --quiet lines", "octave", 0);
-    write_file(
-        "script",
-        "t = importdata('history.tsv', \"\\t\"); u = importdata('curve.tsv', \"\\t\");\n"
-        "printf('%d %d %d', columns(t.data), columns(u.data), "
-        "rows(u.data));\n");
+    write_file("script",
+               "t = importdata('history.tsv', \"\\t\"); u = importdata('curve.tsv', \"\\t\");\n"
+               "printf('%d %d %d', columns(t.data), columns(u.data), "
+               "rows(u.data));\n");
     if (shell("octave-cli --no-init-file --quiet script") != 0)
         print_error("%s\n", err);
     int seen[3] = {0}, wanted[2] = {0};
@@ -158,8 +154,8 @@ TEST(octave_opens_all)
 TEST(gnuplot_opens_all)
 {
     skip_without("gnuplot --version", "gnuplot");
-    check_lines("{ echo 'set terminal unknown'; cat lines; } | gnuplot 2>&1 | tail -1",
-                "gnuplot", 0);
+    check_lines("{ echo 'set terminal unknown'; cat lines; } | gnuplot 2>&1 | tail -1", "gnuplot",
+                0);
     assert_int_equal(shell("echo \"set terminal unknown; set key autotitle columnhead; "
                            "plot 'study.tsv' using 'mu':'max_pressure_MPa'\" | gnuplot"),
                      0);
@@ -168,13 +164,12 @@ TEST(gnuplot_opens_all)
 /* One form: names first, as many cells in every row, no NaN but "NaN". */
 TEST(all_have_one_form)
 {
-    assert_int_equal(
-        shell("for f in *.tsv; do awk -F '\\t' -v f=$f '/^#/ {next} !n {n = NF} "
-              "NF != n {print f \": \" $0; bad = 1} "
-              "FNR == 1 && /^#/ {bad = 1} END {exit bad}' $f || exit 1; done; "
-              "! grep -w -e nan -e inf *.tsv; grep -q 'secondary-ray' files.tsv && "
-              "test $(ls *.tsv | wc -l) = 15 && ! grep -q '^#' *.csv"),
-        0);
+    assert_int_equal(shell("for f in *.tsv; do awk -F '\\t' -v f=$f '/^#/ {next} !n {n = NF} "
+                           "NF != n {print f \": \" $0; bad = 1} "
+                           "FNR == 1 && /^#/ {bad = 1} END {exit bad}' $f || exit 1; done; "
+                           "! grep -w -e nan -e inf *.tsv; grep -q 'secondary-ray' files.tsv && "
+                           "test $(ls *.tsv | wc -l) = 15 && ! grep -q '^#' *.csv"),
+                     0);
 }
 
 RUN_TESTS(set_up, leave_folder)

@@ -27,10 +27,9 @@ static int at_number(const char *text, const char *s)
 static int is_of_this_run(const char *line, const char *next)
 {
     static const char *const words[] = {
-        "  computed  in ", " cases in ",     "\"seconds\": ",    "\"integrals\": ",
-        "\"openblas\": ",  "\"assembly\": ", "\"factor\": ",     "\"condense\": ",
-        "\"lcp\": ",       "\"total\": ",    "\"input_hash\": ", "# study ",
-        " points in "};
+        "  computed  in ",  " cases in ",   "\"seconds\": ",  "\"integrals\": ", "\"openblas\": ",
+        "\"assembly\": ",   "\"factor\": ", "\"condense\": ", "\"lcp\": ",       "\"total\": ",
+        "\"input_hash\": ", "# study ",     " points in "};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
         const char *at = strstr(line, words[k]);
         if (at && at < next)
@@ -114,8 +113,7 @@ static void record_is_met(void **state)
     keep(err);
     keep(out);
     round_numbers(out);
-    snprintf(got, sizeof got, "%s\nexit %d\n%s%s%s", line, code, err,
-             *err ? "----\n" : "", out);
+    snprintf(got, sizeof got, "%s\nexit %d\n%s%s%s", line, code, err, *err ? "----\n" : "", out);
     if (getenv("ROLLBEM_RECORD")) {
         write_file(path, got);
         return;
@@ -125,8 +123,7 @@ static void record_is_met(void **state)
         int row = 1;
         for (const char *s = wanted; s < at; s++)
             row += *s == '\n';
-        fail_msg("tests/recorded/%s, line %d: wanted '%.60s'; now: %s", name, row, at,
-                 line);
+        fail_msg("tests/recorded/%s, line %d: wanted '%.60s'; now: %s", name, row, at, line);
     }
 }
 
@@ -153,6 +150,5 @@ int main(void)
         closedir(dir);
     if (n == 0)
         return 1;
-    return _cmocka_run_group_tests("records", tests, (size_t)n, enter_folder,
-                                   leave_folder);
+    return _cmocka_run_group_tests("records", tests, (size_t)n, enter_folder, leave_folder);
 }

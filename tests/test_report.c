@@ -80,14 +80,13 @@ TEST(table_reads_back_exactly)
     rewind(file);
     char line[400];
     assert_non_null(fgets(line, sizeof line, file));
-    assert_string_equal(
-        line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\tslip\tzone\n");
+    assert_string_equal(line,
+                        "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\tslip\tzone\n");
     for (int i = 0; i < N; i++) {
         double v[9];
         int zone;
-        assert_int_equal(fscanf(file, "%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%d\n",
-                                &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7],
-                                &v[8], &zone),
+        assert_int_equal(fscanf(file, "%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%d\n", &v[0],
+                                &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7], &v[8], &zone),
                          10);
         for (int j = 0; j < 9; j++)
             CHECK_ABS(v[j], arrays[j][i], 0.0, "row %d, column %d", i, j);
@@ -139,23 +138,19 @@ TEST(json_holds_the_same_numbers)
     root = json_loadf(file, 0, NULL);
     assert_non_null(root);
     assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
-    assert_string_equal(json_string_value(json_object_get(root, "command")),
-                        "rollbem 'a b'");
+    assert_string_equal(json_string_value(json_object_get(root, "command")), "rollbem 'a b'");
     const json_t *table = json_object_get(root, "table");
     for (int i = 0; i < N; i++) {
-        CHECK_ABS(json_number_value(json_array_get(json_object_get(table, "q_MPa"), i)),
-                  s.q[i], 0.0, "q[%d]", i);
-        assert_int_equal(
-            json_integer_value(json_array_get(json_object_get(table, "zone"), i)),
-            zones[i]);
+        CHECK_ABS(json_number_value(json_array_get(json_object_get(table, "q_MPa"), i)), s.q[i],
+                  0.0, "q[%d]", i);
+        assert_int_equal(json_integer_value(json_array_get(json_object_get(table, "zone"), i)),
+                         zones[i]);
     }
     const json_t *summary = json_object_get(root, "summary");
     assert_true(json_is_null(json_object_get(summary, "load_error")));
     assert_true(json_is_null(json_object_get(summary, "datum"))); /* no half-plane */
-    assert_string_equal(json_string_value(json_object_get(summary, "formulation")),
-                        "steady");
-    CHECK_ABS(json_number_value(json_object_get(summary, "force_ratio")), -0.75, 0.0,
-              "ratio");
+    assert_string_equal(json_string_value(json_object_get(summary, "formulation")), "steady");
+    CHECK_ABS(json_number_value(json_object_get(summary, "force_ratio")), -0.75, 0.0, "ratio");
     assert_int_equal(json_integer_value(json_object_get(summary, "iterations")), 21);
     json_decref(root);
     fclose(file);
@@ -175,8 +170,7 @@ TEST(no_number_is_null)
 TEST(command_that_is_not_utf8)
 {
     json_t *root = rb_report_json_start("rollbem \xff");
-    assert_string_equal(json_string_value(json_object_get(root, "command")),
-                        "rollbem \\xff");
+    assert_string_equal(json_string_value(json_object_get(root, "command")), "rollbem \\xff");
     json_decref(root);
 }
 
@@ -203,8 +197,7 @@ TEST(summary_fits_the_terminal)
         FILE *file = tmpfile();
         rb_report_summary(file, &s, width);
         const char *text = content(file);
-        assert_non_null(
-            strstr(text, "steady: solved by Lemke (pivoted form), 21 pivots"));
+        assert_non_null(strstr(text, "steady: solved by Lemke (pivoted form), 21 pivots"));
         assert_non_null(strstr(text, "Q/(mu P) = -0.75"));
         assert_null(strstr(text, "nan"));
         assert_non_null(strstr(text, "\n  computed  in "));
@@ -228,8 +221,7 @@ TEST(summary_says_how_much_of_the_stick_zone_sticks)
 }
 
 /* A table as a terminal shows it, in a window of so many rows and columns. */
-static void show(const char *text, int rows, int columns, int colour, char *shown,
-                 size_t size)
+static void show(const char *text, int rows, int columns, int colour, char *shown, size_t size)
 {
     const rb_report_window window = {rows, columns, colour, " gap "};
     char copy[4000];
@@ -264,13 +256,12 @@ TEST(a_terminal_gets_what_fits)
     char text[4000] = "x_mm\tgap\tp\tq\tr\ts\n", shown[4000], *line = shown;
     int lines = 0;
     for (int i = 0; i < 100; i++)
-        snprintf(text + strlen(text), sizeof text - strlen(text),
-                 "%d\t%d.5\t%d\t%d\t%d\t%d\n", i, i, 2 * i, 3 * i, 4 * i, 12345 * i);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%d\t%d.5\t%d\t%d\t%d\t%d\n", i,
+                 i, 2 * i, 3 * i, 4 * i, 12345 * i);
     show(text, 20, 26, 0, shown, sizeof shown);
     assert_non_null(strstr(shown, "\n   0  "));
     assert_non_null(strstr(shown, "\n  99  "));
-    assert_non_null(
-        strstr(shown, "\nnot shown: 7 in 8 rows,\n  gap, s;\n  all: rollbem"));
+    assert_non_null(strstr(shown, "\nnot shown: 7 in 8 rows,\n  gap, s;\n  all: rollbem"));
     for (char *end; (end = strchr(line, '\n')) != NULL; line = end + 1, lines++)
         assert_true(end - line <= 26);
     assert_in_range(lines, 15, 20);
@@ -293,9 +284,8 @@ TEST(a_terminal_gets_words_whole)
 TEST(lines_are_broken_between_words)
 {
     FILE *file = tmpfile();
-    const char *text =
-        "  load      P = 1 N/mm, Q = 2 N/mm\n\033[33mnote:\033[0m µ µ µ µ\n"
-        "\n    unbreakable-word\n";
+    const char *text = "  load      P = 1 N/mm, Q = 2 N/mm\n\033[33mnote:\033[0m µ µ µ µ\n"
+                       "\n    unbreakable-word\n";
     assert_int_equal(rb_report_wrapped(file, text, 20), 6);
     assert_string_equal(content(file),
                         "  load      P = 1\n            N/mm, Q\n            = 2 N/mm\n"
@@ -319,8 +309,7 @@ TEST(a_terminal_shows_zones_in_colour)
 /* JSON, sentences, a table of commas, nothing at all. */
 TEST(a_terminal_gets_other_text_as_it_is)
 {
-    static const char *const texts[] = {"{\n \"a\": 1\n}\n", "x,y\n1,2\n", "one line", "",
-                                        "\n"};
+    static const char *const texts[] = {"{\n \"a\": 1\n}\n", "x,y\n1,2\n", "one line", "", "\n"};
     char shown[4000];
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         show(texts[k], 24, 80, 0, shown, sizeof shown);
@@ -367,9 +356,8 @@ TEST(pictures_of_three_kinds)
         rb_message why = {""};
         FILE *file = tmpfile();
         assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &why), RB_OK);
-        assert_int_equal(
-            rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &why),
-            RB_OK);
+        assert_int_equal(rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &why),
+                         RB_OK);
         assert_int_equal(strncmp(content(file), starts[k], strlen(starts[k])), 0);
         fclose(file);
     }
@@ -391,8 +379,7 @@ TEST(pictures_need_something_to_draw)
     const rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution none = carter(), pressed = carter();
     const rb_rolling_history no_steps = {0};
-    const rb_report_curves curves = {
-        .n = 1, .mu = {0.3}, .curve = {{.n = 1, .rising = 1}}};
+    const rb_report_curves curves = {.n = 1, .mu = {0.3}, .curve = {{.n = 1, .rising = 1}}};
     const rb_report_wear no_wear = {0};
     const rb_rolling_shakedown shakedown = {0};
     rb_report_stress row = {.nx = 5, .ny = 1, .s = &pressed, .rc = &rc};
@@ -418,18 +405,17 @@ TEST(pictures_need_something_to_draw)
         rb_report_shakedown_map(out, canvas, &no_load, &why[8]),
         rb_report_study_picture(out, canvas, &study, 0, &why[9]),
         rb_report_study_picture(out, canvas, &study, 1, &why[10])};
-    static const char *const wanted[PICTURES] = {
-        "nothing to draw",
-        "no steps to draw",
-        "no curve to draw at mu = 0.3",
-        "nothing to draw",
-        "a picture of the stress needs a grid",
-        "a picture of the stress needs a grid",
-        "a picture of the stress needs a grid",
-        "no contact to draw",
-        "no contact to draw",
-        "no case has a force_ratio",
-        "a map needs two options with two values or more"};
+    static const char *const wanted[PICTURES] = {"nothing to draw",
+                                                 "no steps to draw",
+                                                 "no curve to draw at mu = 0.3",
+                                                 "nothing to draw",
+                                                 "a picture of the stress needs a grid",
+                                                 "a picture of the stress needs a grid",
+                                                 "a picture of the stress needs a grid",
+                                                 "no contact to draw",
+                                                 "no contact to draw",
+                                                 "no case has a force_ratio",
+                                                 "a map needs two options with two values or more"};
     for (int k = 0; k < PICTURES; k++) {
         CHECK_STATUS(status[k], RB_EINVAL);
         assert_string_equal(why[k].text, wanted[k]);
@@ -562,8 +548,7 @@ TEST(wear_keeps_some_profiles)
     enum { STEPS = 37 };
     double way[STEPS + 1], depth[STEPS + 1];
     const rb_rolling_solution s = carter();
-    const rb_rolling_wear_history h = {
-        .n = STEPS + 1, .slides = 1, .way = way, .max_depth = depth};
+    const rb_rolling_wear_history h = {.n = STEPS + 1, .slides = 1, .way = way, .max_depth = depth};
     rb_report_wear w = {.history = &h};
     for (int k = 0; k <= STEPS; k++) {
         way[k] = 10.0 * k;
@@ -602,23 +587,20 @@ TEST(wear_keeps_some_profiles)
 TEST(profiles_are_drawn)
 {
     static const char *const solver[] = {"auto", "lemke"};
-    static const double tau[] = {1.0, 2.0, 10.0},
-                        rho[] = {0.75, 0.75, 1.0, 0.25, 0.5, 0.5};
+    static const double tau[] = {1.0, 2.0, 10.0}, rho[] = {0.75, 0.75, 1.0, 0.25, 0.5, 0.5};
     for (int column = 0; column < 2; column++)
         for (int problems = 1; problems < 5; problems += 3) {
-            const rb_report_profiles profiles = {problems, 2,   3,  solver,
-                                                 "time",   tau, rho};
+            const rb_report_profiles profiles = {problems, 2, 3, solver, "time", tau, rho};
             const rb_report_canvas canvas = {.kind = RB_REPORT_SVG,
-                                             .size = column ? RB_REPORT_85MM
-                                                            : RB_REPORT_OWN_SIZE,
+                                             .size = column ? RB_REPORT_85MM : RB_REPORT_OWN_SIZE,
                                              .script = 1};
             rb_message why = {""};
             char title[100];
             FILE *out = tmpfile();
             CHECK_STATUS(rb_report_profiles_picture(out, canvas, &profiles, &why), RB_OK);
             const char *script = content(out);
-            snprintf(title, sizeof title, "Performance profiles}   %d problem%s'",
-                     problems, problems > 1 ? "s" : "");
+            snprintf(title, sizeof title, "Performance profiles}   %d problem%s'", problems,
+                     problems > 1 ? "s" : "");
             assert_int_equal(strstr(script, title) == NULL, column);
             assert_non_null(strstr(script, "\n$profiles << EOD\n1 0.75 0.25\n2 0.75 "
                                            "0.5\n10 1 0.5\nEOD\n"));
@@ -677,8 +659,7 @@ TEST(columns_are_read)
 {
     OWNED(rb_io_table) t;
     rb_message why = {""};
-    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why),
-                     RB_OK);
+    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why), RB_OK);
     assert_int_equal(t.rows, 3);
     CHECK_ABS(t.x[2], -0.5, 0.0, "x");
     CHECK_ABS(t.x[3 + 1], 4.0, 0.0, "gap");
@@ -686,8 +667,8 @@ TEST(columns_are_read)
 
 TEST(bad_columns_are_named)
 {
-    static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n",
-                                      "1 2\n3 nan\n", "1 2\n3 4x\n"};
+    static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n", "1 2\n3 nan\n",
+                                      "1 2\n3 4x\n"};
     rb_io_table t;
     for (int k = 0; k < 5; k++) {
         rb_message why = {""};

@@ -23,12 +23,8 @@ TEST(cells_are_quoted_where_needed)
 {
     static const struct {
         const char *text, *cell;
-    } cells[] = {{"plain", "plain"},
-                 {"", "\"\""},
-                 {"two words", "\"two words\""},
-                 {"a,b", "\"a,b\""},
-                 {"#1", "\"#1\""},
-                 {"say \"x\"", "\"say \"\"x\"\"\""},
+    } cells[] = {{"plain", "plain"},           {"", "\"\""},     {"two words", "\"two words\""},
+                 {"a,b", "\"a,b\""},           {"#1", "\"#1\""}, {"say \"x\"", "\"say \"\"x\"\"\""},
                  {"tab\there", "tab\\x09here"}};
     for (int csv = 0; csv < 2; csv++)
         for (size_t k = 0; k < sizeof cells / sizeof *cells; k++) {
@@ -80,11 +76,9 @@ TEST(notes_begin_where_they_should)
                       percent[] = "meant in per cent, write --creep 0.001%",
                       radians[] = "in radians, write --arc 1.99rad",
                       sliding[] = "The whole contact slides: the creepage is not unique",
-                      equal[] = "equal elements were used",
-                      edge[] = "uncertain by one element",
+                      equal[] = "equal elements were used", edge[] = "uncertain by one element",
                       yields[] = "The interface yields", falls[] = "(kappa = 0.96) that",
-                      still[] = "rolls at creepage 0",
-                      enters[] = "does not change the tractions",
+                      still[] = "rolls at creepage 0", enters[] = "does not change the tractions",
                       opposes[] = "points along the friction, not against it",
                       angle[] = "depends on the angle of the wheel";
     noted n;
@@ -278,8 +272,8 @@ TEST(notes_begin_where_they_should)
         }
         const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
         if (list.n != (want != NULL) || (want && !strstr(list.text[0], want)))
-            fail_msg("%d: %d notes: %s; wanted: %s", k, list.n,
-                     list.n ? list.text[0] : "", want ? want : "none");
+            fail_msg("%d: %d notes: %s; wanted: %s", k, list.n, list.n ? list.text[0] : "",
+                     want ? want : "none");
     }
 }
 
@@ -306,33 +300,30 @@ TEST(studies_that_make_no_picture_are_named)
 {
     static double room[3 * MOST];
     static const struct {
-        int nx, ny, with_y, map,
-            place; /* place: of the x that is changed to `to`; or -1 */
+        int nx, ny, with_y, map, place; /* place: of the x that is changed to `to`; or -1 */
         double to;
         const char *why; /* NULL: it can be drawn */
-    } studies[] = {
-        {3, 2, 1, 0, -1, 0.0, NULL},
-        {3, 2, 1, 1, -1, 0.0, NULL},
-        {3, 1, 0, 0, -1, 0.0, NULL},
-        {3, 2, 1, 0, 2, 2.0,
-         "cases 2 and 3 have the same load and mu: more options vary than the picture "
-         "shows"},
-        {3, 1, 0, 0, 2, 1.0,
-         "cases 1 and 3 have the same load: more options vary than the picture shows"},
-        {2, 17, 1, 0, -1, 0.0, "17 values of mu: at most 16 curves are drawn"},
-        {2, 16, 1, 0, -1, 0.0, NULL},
-        {1, 2, 1, 0, -1, 0.0, "a curve needs two values of load; mu = 10 has one"},
-        {1, 1, 0, 0, -1, 0.0, "a curve needs two values of load"},
-        {3, 1, 0, 1, -1, 0.0, "a map needs two options with two values or more"},
-        {3, 1, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
-        {1, 3, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
-        {3, 2, 1, 1, 5, 9.0,
-         "a map needs a case for every pair of load and mu; those with mu = 20 are "
-         "others "
-         "than those with mu = 10"}};
+    } studies[] = {{3, 2, 1, 0, -1, 0.0, NULL},
+                   {3, 2, 1, 1, -1, 0.0, NULL},
+                   {3, 1, 0, 0, -1, 0.0, NULL},
+                   {3, 2, 1, 0, 2, 2.0,
+                    "cases 2 and 3 have the same load and mu: more options vary than the picture "
+                    "shows"},
+                   {3, 1, 0, 0, 2, 1.0,
+                    "cases 1 and 3 have the same load: more options vary than the picture shows"},
+                   {2, 17, 1, 0, -1, 0.0, "17 values of mu: at most 16 curves are drawn"},
+                   {2, 16, 1, 0, -1, 0.0, NULL},
+                   {1, 2, 1, 0, -1, 0.0, "a curve needs two values of load; mu = 10 has one"},
+                   {1, 1, 0, 0, -1, 0.0, "a curve needs two values of load"},
+                   {3, 1, 0, 1, -1, 0.0, "a map needs two options with two values or more"},
+                   {3, 1, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
+                   {1, 3, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
+                   {3, 2, 1, 1, 5, 9.0,
+                    "a map needs a case for every pair of load and mu; those with mu = 20 are "
+                    "others "
+                    "than those with mu = 10"}};
     for (size_t k = 0; k < sizeof studies / sizeof *studies; k++) {
-        rb_report_study s =
-            study_of(studies[k].nx, studies[k].ny, studies[k].with_y, room);
+        rb_report_study s = study_of(studies[k].nx, studies[k].ny, studies[k].with_y, room);
         rb_message why = {""};
         if (studies[k].place >= 0)
             room[studies[k].place] = studies[k].to;
@@ -374,8 +365,7 @@ TEST(maps_suit_the_number_of_cases)
     assert_non_null(strstr(script, "start 3 interval -1"));
     assert_non_null(strstr(script, "set cntrparam levels incremental"));
     assert_non_null(strstr(script, "labels boxed"));
-    assert_non_null(
-        strstr(script, "$map << EOD\n1 10 10\n2 10 20\n3 10 30\n\n1 20 20\n"));
+    assert_non_null(strstr(script, "$map << EOD\n1 10 10\n2 10 20\n3 10 30\n\n1 20 20\n"));
     s = study_of(90, 2, 1, room);
     script = drawn(&s, 1);
     assert_non_null(strstr(script, "interpolate 1,40\n"));

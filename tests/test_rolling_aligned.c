@@ -33,8 +33,8 @@ TEST(carters_law_has_second_order)
             rb_rolling_case rc = carter(n);
             rc.creep_ratio = ratio[k];
             OWNED(rb_rolling_solution) s = solved(&rc);
-            CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(ratio[k]),
-                      1.2 * error[k][j], "s = %g, n = %d", ratio[k], n);
+            CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(ratio[k]), 1.2 * error[k][j],
+                      "s = %g, n = %d", ratio[k], n);
             assert_int_equal(s.contact, n);
             CHECK_REL(s.half_width, 0.05, 1e-4, "half-width");
         }
@@ -80,8 +80,7 @@ TEST(dissipation_balances_the_creepage)
         rb_rolling_friction_power(&s, power);
         for (int i = 0; i < s.n; i++)
             sum += power[i] * s.h[i];
-        CHECK_REL(s.dissipation, -s.creepage * s.tangential_load, error[j], "n = %d",
-                  50 << j);
+        CHECK_REL(s.dissipation, -s.creepage * s.tangential_load, error[j], "n = %d", 50 << j);
         CHECK_REL(sum, s.dissipation, 1e-12, "power density, n = %d", 50 << j);
     }
 }

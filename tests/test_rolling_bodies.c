@@ -115,8 +115,7 @@ TEST(force_control_never_fails_on_wheels)
 {
     srand(5);
     for (int k = 0; k < 12; k++) {
-        rb_rolling_case rc =
-            steady_wheel(k % 2 ? RB_BEM_HUB : RB_BEM_ARC, between(0.0, 0.5));
+        rb_rolling_case rc = steady_wheel(k % 2 ? RB_BEM_HUB : RB_BEM_ARC, between(0.0, 0.5));
         const double ratio = log_uniform(1e-6, 0.1);
         rc.b = rc.a;
         rc.b.young *= log_uniform(0.1, 10.0);
@@ -148,9 +147,8 @@ TEST(at_rest_relaxing_bodies_need_steps_in_time)
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_EINVAL);
-    assert_string_equal(why.text,
-                        "relaxation: bodies that relax and do not roll steadily "
-                        "need a history of steps in time");
+    assert_string_equal(why.text, "relaxation: bodies that relax and do not roll steadily "
+                                  "need a history of steps in time");
 }
 
 TEST(absurd_sizes_are_refused)
@@ -165,12 +163,10 @@ TEST(absurd_sizes_are_refused)
     CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
     rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_EINVAL);
-    assert_non_null(
-        strstr(why.text, "a contact of 1000000 elements would need 1.92e+05"));
+    assert_non_null(strstr(why.text, "a contact of 1000000 elements would need 1.92e+05"));
     rc.a.support = RB_BEM_HUB;
     rc.contact.solver = RB_SOLVER_NEWTON;
-    CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300),
-              "a wheel");
+    CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300), "a wheel");
 }
 
 RUN_TESTS(NULL, NULL)

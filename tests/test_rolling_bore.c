@@ -49,11 +49,10 @@ TEST(a_conforming_arc_carries_the_load_of_its_closed_form)
         for (int k = 0; k < 4; k++) {
             rb_rolling_case rc = in_bore(wider[w], RB_GAP_EXACT);
             const double a = part[k] * rc.a.radius, E = modulus_of(&rc);
-            rc.load = rb_closed_circle_load(a, rc.a.radius, E) +
-                      rb_closed_circle_load(a, rc.b.radius, E);
+            rc.load =
+                rb_closed_circle_load(a, rc.a.radius, E) + rb_closed_circle_load(a, rc.b.radius, E);
             OWNED(rb_rolling_solution) s = solved(&rc);
-            CHECK_REL(s.half_width, a, 3e-4, "bore wider by %g, a/R = %g", wider[w],
-                      part[k]);
+            CHECK_REL(s.half_width, a, 3e-4, "bore wider by %g, a/R = %g", wider[w], part[k]);
         }
 }
 
@@ -65,10 +64,9 @@ TEST(a_journal_on_a_small_arc_is_hertzs)
     for (int k = 1; k <= 3; k++) {
         const double a = pow(10.0, -k) * A;
         const double P = rb_closed_circle_load(a, A, E) + rb_closed_circle_load(a, -B, E);
-        const double series =
-            1.0 + 0.375 * a * a * R * (1.0 / gsl_pow_3(A) - 1.0 / gsl_pow_3(B));
-        CHECK_REL(P / rb_closed_hertz_load(a, R, E), series, 1.2 * gsl_pow_4(a / A),
-                  "a/R = %g", a / A);
+        const double series = 1.0 + 0.375 * a * a * R * (1.0 / gsl_pow_3(A) - 1.0 / gsl_pow_3(B));
+        CHECK_REL(P / rb_closed_hertz_load(a, R, E), series, 1.2 * gsl_pow_4(a / A), "a/R = %g",
+                  a / A);
     }
 }
 
@@ -112,20 +110,17 @@ TEST(what_does_not_fit_is_refused)
 {
     ACCEPTED(PLANE, rc.elastic_b = 1, rc.b.radius = -50.001);
     ACCEPTED(HUB, rc.elastic_b = 1, rc.b.radius = -51.0);
-    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1,
-            rc.b.radius = -50.0);
-    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1,
-            rc.b.radius = -1.0);
-    REFUSED("a bore has no wheel's boundary", PLANE, rc.elastic_b = 1,
-            rc.b.radius = -60.0, rc.b.support = RB_BEM_HUB);
+    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1, rc.b.radius = -50.0);
+    REFUSED("a bore must be larger than body A", PLANE, rc.elastic_b = 1, rc.b.radius = -1.0);
+    REFUSED("a bore has no wheel's boundary", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0,
+            rc.b.support = RB_BEM_HUB);
     REFUSED("expected > 0, or < 0 of a bore", PLANE, rc.elastic_b = 1, rc.b.radius = 0.0);
     REFUSED("radius-b: expected a number or plane", PLANE, rc.elastic_b = 1,
             rc.b.radius = -INFINITY);
     REFUSED("radius: expected a number > 0, got -5", rc.a.radius = -5.0);
-    REFUSED("half-width: expected less than", PLANE, rc.elastic_b = 1,
-            rc.b.radius = -60.0, rc.half_width = 50.0);
-    REFUSED("wider than the radius", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0,
-            rc.zone = 55.0);
+    REFUSED("half-width: expected less than", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0,
+            rc.half_width = 50.0);
+    REFUSED("wider than the radius", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0, rc.zone = 55.0);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -98,8 +98,7 @@ TEST(each_range_of_the_table_holds_in_a_case)
             const double beyond[] = {below == 0.0 ? -1.0 : below, above};
             for (int j = 0; j < 2; j++) {
                 const int whole = o->kind == RB_OPTION_INTEGER;
-                if ((whole && isinf(beyond[j])) ||
-                    (o->word && beyond[j] == o->word_value))
+                if ((whole && isinf(beyond[j])) || (o->word && beyond[j] == o->word_value))
                     continue;
                 if (!is_refused(o, place, beyond[j], rc))
                     fail_msg("%s = %g is not refused", o->name, beyond[j]);
@@ -152,26 +151,23 @@ TEST(any_two_controls_are_refused)
         int n;
         size_t field[4];
         double value;
-    } lists[] = {{"exclude each other",
-                  RB_STATIC,
-                  3,
-                  {FIELD(approach), FIELD(load), FIELD(half_width)},
-                  1.0},
-                 {"exclude each other",
-                  RB_STATIC,
-                  3,
-                  {FIELD(shift), FIELD(force), FIELD(force_ratio)},
-                  0.1},
-                 {"exclude each other",
-                  RB_STEADY,
-                  4,
-                  {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
-                  0.1},
-                 {"exclude each other",
-                  RB_TRANSIENT,
-                  4,
-                  {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
-                  0.1}};
+    } lists[] = {
+        {"exclude each other",
+         RB_STATIC,
+         3,
+         {FIELD(approach), FIELD(load), FIELD(half_width)},
+         1.0},
+        {"exclude each other", RB_STATIC, 3, {FIELD(shift), FIELD(force), FIELD(force_ratio)}, 0.1},
+        {"exclude each other",
+         RB_STEADY,
+         4,
+         {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
+         0.1},
+        {"exclude each other",
+         RB_TRANSIENT,
+         4,
+         {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
+         0.1}};
     for (size_t l = 0; l < sizeof lists / sizeof *lists; l++)
         for (int given = 1; given < 1 << lists[l].n; given++) {
             rb_rolling_case rc = rb_rolling_case_defaults();
@@ -179,8 +175,7 @@ TEST(any_two_controls_are_refused)
             rc.formulation = lists[l].formulation;
             for (int i = 0; i < lists[l].n; i++)
                 if (given >> i & 1)
-                    memcpy((char *)&rc + lists[l].field[i], &lists[l].value,
-                           sizeof(double));
+                    memcpy((char *)&rc + lists[l].field[i], &lists[l].value, sizeof(double));
             if (given & (given - 1))
                 check_refused(&rc, lists[l].text, "");
             else if (rb_rolling_case_check(&rc, &why) != RB_OK)
@@ -213,8 +208,7 @@ TEST(ranges_of_the_bodies)
     REFUSED("young: expected a number > 0, got inf", rc.a.young = INFINITY);
     REFUSED("radius of body B", rc.elastic_b = 1; rc.b.radius = 0.0);
     REFUSED("support: there is no number 7", rc.a.support = (rb_bem_support)7);
-    REFUSED("support of body B: a plane has", rc.elastic_b = 1;
-            rc.b.support = RB_BEM_HUB);
+    REFUSED("support of body B: a plane has", rc.elastic_b = 1; rc.b.support = RB_BEM_HUB);
     ACCEPTED(rc.a.arc = 90.0);
     REFUSED("arc: expected a number in (0, 90]", rc.a.arc = 0.0);
     ACCEPTED(HUB; rc.a.hub_ratio = 0.999);
@@ -231,14 +225,13 @@ TEST(ranges_of_layers_and_covers)
     REFUSED("base-poisson: expected", PLANE; rc.a.layer = 1.0; rc.a.base_poisson = 9.0);
     ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = 0.5);
     REFUSED("layer-thickness: expected a number > 0 or none", PLANE; rc.a.layer = -1.0);
-    REFUSED("layer-thickness: expected a number > 0 or none", PLANE;
-            rc.a.layer = INFINITY);
+    REFUSED("layer-thickness: expected a number > 0 or none", PLANE; rc.a.layer = INFINITY);
     REFUSED("for the support halfplane only", HUB; rc.a.layer = 1.0);
     REFUSED("base-young: expected a number > 0 or rigid, got -1", PLANE; rc.a.layer = 1.0;
             rc.a.base_young = -1.0);
     REFUSED("base-young: expected", PLANE; rc.a.layer = 1.0; rc.a.base_young = INFINITY);
-    REFUSED("base-poisson: expected a number in (-1, 0.5], got -1", PLANE;
-            rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = -1.0);
+    REFUSED("base-poisson: expected a number in (-1, 0.5], got -1", PLANE; rc.a.layer = 1.0;
+            rc.a.base_young = 1.0; rc.a.base_poisson = -1.0);
     REFUSED("base-poisson: expected", PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0;
             rc.a.base_poisson = 0.51);
 
@@ -272,13 +265,13 @@ TEST(ranges_of_relaxation)
     REFUSED("relaxation-time: expected a number > 0", PLANE; rc.a.memory = late);
     REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = less);
     REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = endless);
-    REFUSED("steps: viscoelastic bodies", PLANE; rc.a.memory = one; TRANSIENT;
-            rc.steps = 3; rc.speed = 1.0);
+    REFUSED("steps: viscoelastic bodies", PLANE; rc.a.memory = one; TRANSIENT; rc.steps = 3;
+            rc.speed = 1.0);
     REFUSED("a clamped arc cannot turn", rc.a.memory = one; STEADY; rc.speed = 1.0);
-    REFUSED("in transient rolling for the support halfplane", HUB; rc.a.memory = one;
-            TRANSIENT; rc.speed = 1.0);
-    REFUSED("must be rigid, got an elastic one", PLANE; rc.a.memory = one;
-            rc.a.layer = 1.0; rc.a.base_young = 1.0);
+    REFUSED("in transient rolling for the support halfplane", HUB; rc.a.memory = one; TRANSIENT;
+            rc.speed = 1.0);
+    REFUSED("must be rigid, got an elastic one", PLANE; rc.a.memory = one; rc.a.layer = 1.0;
+            rc.a.base_young = 1.0);
     REFUSED("must be rigid, got an elastic one", HUB; rc.a.memory = one; rc.a.cover = 1.0;
             rc.a.core_young = 1.0);
     REFUSED("relaxation: needs the speed", PLANE; rc.a.memory = one; STEADY);
@@ -294,8 +287,7 @@ TEST(ranges_of_relaxation)
             rc.time_step = -1.0);
     REFUSED("time-step: expected a number > 0 or rows", PLANE; rc.a.memory = one;
             rc.time_step = INFINITY);
-    REFUSED("relaxation: needs the speed", PLANE; rc.elastic_b = 1; rc.b.memory = one;
-            STEADY);
+    REFUSED("relaxation: needs the speed", PLANE; rc.elastic_b = 1; rc.b.memory = one; STEADY);
     ACCEPTED(PLANE; rc.b.memory = one; STEADY); /* B is rigid */
 }
 
@@ -314,27 +306,22 @@ TEST(ranges_of_heat)
             rc.heat_a.conductivity = -1.0);
     REFUSED("conductivity: expected a number > 0 or none, got inf", WARM;
             rc.heat_a.conductivity = INFINITY);
-    REFUSED("conductivity-b: expected a number >= 0", WARM;
-            rc.heat_b.conductivity = -1.0);
-    REFUSED("conductivity-b: expected a number >= 0", WARM;
-            rc.heat_b.conductivity = INFINITY);
+    REFUSED("conductivity-b: expected a number >= 0", WARM; rc.heat_b.conductivity = -1.0);
+    REFUSED("conductivity-b: expected a number >= 0", WARM; rc.heat_b.conductivity = INFINITY);
     REFUSED("needs the heat capacity", WARM; rc.heat_a.heat_capacity = 0.0);
     REFUSED("needs the heat capacity", WARM; rc.heat_b.conductivity = 1.0;
             rc.heat_b.heat_capacity = 0.0);
-    REFUSED("temperature: expected a number, got inf", WARM;
-            rc.heat_a.temperature = INFINITY);
+    REFUSED("temperature: expected a number, got inf", WARM; rc.heat_a.temperature = INFINITY);
     REFUSED("temperature-b: expected a number, got", WARM; rc.heat_b.temperature = NAN);
     REFUSED("a layer or cover conducts differently", WARM; rc.a.layer = 1.0);
     REFUSED("a layer or cover conducts differently", WARM; rc.a.support = RB_BEM_HUB;
             rc.a.cover = 1.0);
-    REFUSED("a layer or cover conducts differently", WARM; rc.elastic_b = 1;
-            rc.b.layer = 1.0);
+    REFUSED("a layer or cover conducts differently", WARM; rc.elastic_b = 1; rc.b.layer = 1.0);
     REFUSED("a viscoelastic body is also heated inside", WARM;
             rc.a.memory = (rb_rolling_memory){.n = 1, .time = {1.0}, .ratio = {1.0}});
     REFUSED("both bodies must have the same temperature", WARM; TRANSIENT;
             rc.heat_b.temperature = 20.0);
-    REFUSED("at most 100000 contact elements, got 100001", WARM;
-            rc.contact_elements = 100001);
+    REFUSED("at most 100000 contact elements, got 100001", WARM; rc.contact_elements = 100001);
     for (int k = 0; k < 3; k++)
         REFUSED("at most 4000 contact elements of bodies that conduct differently", WARM;
                 rc.heat_b = rc.heat_a; rc.contact_elements = 4001;
@@ -347,20 +334,18 @@ TEST(ranges_of_the_interface)
 {
     ACCEPTED(rc.yield_stress = 1.0; rc.hardening = -1.0);
     REFUSED("interlayer-normal: expected a number >= 0", rc.interlayer_normal = -1.0);
-    REFUSED("interlayer-tangential: expected a number >= 0",
-            rc.interlayer_tangential = INFINITY);
+    REFUSED("interlayer-tangential: expected a number >= 0", rc.interlayer_tangential = INFINITY);
     REFUSED("yield-stress: expected a number > 0 or none", rc.yield_stress = -1.0);
     REFUSED("yield-stress: expected a number > 0 or none", rc.yield_stress = INFINITY);
-    REFUSED("hardening: expected a number, got", rc.yield_stress = 1.0;
-            rc.hardening = INFINITY);
+    REFUSED("hardening: expected a number, got", rc.yield_stress = 1.0; rc.hardening = INFINITY);
     REFUSED("hardening: only for an interface that yields", rc.hardening = 1.0);
     REFUSED("not with a law that follows slip or heat", WARM; rc.yield_stress = 1.0;
             rc.friction.heat = -0.1; rc.friction.heat_range = 100.0);
     REFUSED("not with a law that follows slip or heat", STEADY; rc.speed = 1.0;
-            rc.yield_stress = 1.0; rc.friction.law = RB_FRICTION_linear;
-            rc.friction.fall[0] = 0.1; rc.friction.slip_scale[0] = 1.0);
-    REFUSED("solves Coulomb's law only", rc.yield_stress = 1.0;
-            rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solver = "semismooth");
+            rc.yield_stress = 1.0; rc.friction.law = RB_FRICTION_linear; rc.friction.fall[0] = 0.1;
+            rc.friction.slip_scale[0] = 1.0);
+    REFUSED("solves Coulomb's law only", rc.yield_stress = 1.0; rc.contact.solver = RB_SOLVER_CONE;
+            rc.contact.cone_solver = "semismooth");
 }
 
 /* What friction can carry: mu P = 3. */
@@ -369,8 +354,7 @@ TEST(ranges_of_the_loading)
     ACCEPTED(rc.load = 10.0; rc.force = 3.0);
     ACCEPTED(rc.load = 10.0; rc.force = -3.0);
     REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0; rc.force = 3.00001);
-    REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0;
-            rc.force = -3.00001);
+    REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0; rc.force = -3.00001);
     ACCEPTED(rc.force = 1e9); /* the load is not known before */
     ACCEPTED(rc.force_ratio = -1.0);
     REFUSED("friction carries at most 1", rc.force_ratio = -1.01);
@@ -392,17 +376,16 @@ TEST(ranges_of_the_loading)
 
     ACCEPTED(rc.half_width = 49.9);
     REFUSED("less than the radius of either body, 50 mm", rc.half_width = 50.0);
-    REFUSED("less than the radius of either body, 20 mm", rc.elastic_b = 1;
-            rc.b.radius = 20.0; rc.half_width = 20.0);
+    REFUSED("less than the radius of either body, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0;
+            rc.half_width = 20.0);
     REFUSED("approach, load and half-width exclude", rc.half_width = rc.load = 1.0);
     REFUSED("approach: expected a number > 0", rc.approach = INFINITY);
 }
 
 TEST(ranges_of_tables)
 {
-    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
-                 gone[3] = {-1.0, NAN, 1.0}, dent[3] = {0.0, 0.1, 0.0},
-                 begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1};
+    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0}, gone[3] = {-1.0, NAN, 1.0},
+                 dent[3] = {0.0, 0.1, 0.0}, begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1};
 #define TABLE(x, y) ((rb_rolling_table){3, x, y})
     ACCEPTED(rc.irregularity = TABLE(x, dent));
     REFUSED("irregularity: row 1: expected gap 0", rc.irregularity = TABLE(x, begins));
@@ -410,8 +393,7 @@ TEST(ranges_of_tables)
     REFUSED("irregularity: row 3", rc.irregularity = TABLE(back, dent));
     REFUSED("irregularity: row 2", rc.irregularity = TABLE(gone, dent));
     REFUSED("irregularity: row 2", rc.irregularity = TABLE(x, gone));
-    REFUSED("irregularity: only for transient rolling", STEADY;
-            rc.irregularity = TABLE(x, dent));
+    REFUSED("irregularity: only for transient rolling", STEADY; rc.irregularity = TABLE(x, dent));
     ACCEPTED(rc.worn = TABLE(x, begins));
     REFUSED("worn: row 3", rc.worn = TABLE(back, dent));
     REFUSED("worn: row 2", rc.worn = TABLE(gone, dent));
@@ -448,34 +430,29 @@ TEST(ranges_of_the_mesh)
     REFUSED("steady rolling does not depend", STEADY; rc.increments = 2);
     ACCEPTED(rc.zone = 49.9);
     REFUSED("zone: expected a number > 0 or auto", rc.zone = INFINITY);
-    REFUSED("wider than the radius, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0;
-            rc.zone = 20.0);
+    REFUSED("wider than the radius, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0; rc.zone = 20.0);
     ACCEPTED(rc.mesh = RB_MESH_ALIGNED; rc.contact_elements = 12);
-    REFUSED("mesh aligned: expected 12", rc.mesh = RB_MESH_ALIGNED;
-            rc.contact_elements = 11);
+    REFUSED("mesh aligned: expected 12", rc.mesh = RB_MESH_ALIGNED; rc.contact_elements = 11);
     ACCEPTED(STEADY; rc.slip_operator = RB_SLIP_SECOND);
     REFUSED("slip operator second: only for steady", rc.slip_operator = RB_SLIP_SECOND);
-    REFUSED("slip operator second: only for equal", STEADY;
-            rc.slip_operator = RB_SLIP_SECOND; rc.mesh = RB_MESH_FITTED);
+    REFUSED("slip operator second: only for equal", STEADY; rc.slip_operator = RB_SLIP_SECOND;
+            rc.mesh = RB_MESH_FITTED);
     ACCEPTED(rc.normals = RB_BEM_NORMALS_SURFACE);
-    REFUSED("with a rigid plane only", rc.normals = RB_BEM_NORMALS_SURFACE;
-            rc.elastic_b = 1);
+    REFUSED("with a rigid plane only", rc.normals = RB_BEM_NORMALS_SURFACE; rc.elastic_b = 1);
     const rb_contact_cone_solvers by = {knows_newton, NULL};
     ACCEPTED(rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solvers = &by;
              rc.contact.cone_solver = "newton");
     REFUSED("got ''", rc.contact.solver = RB_SOLVER_CONE);
     REFUSED("got ''", rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solvers = &by);
-    REFUSED("got 'newton'", rc.contact.solver = RB_SOLVER_CONE;
-            rc.contact.cone_solver = "newton");
-    REFUSED("got 'sor'", rc.contact.solver = RB_SOLVER_CONE;
-            rc.contact.cone_solvers = &by; rc.contact.cone_solver = "sor");
+    REFUSED("got 'newton'", rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solver = "newton");
+    REFUSED("got 'sor'", rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solvers = &by;
+            rc.contact.cone_solver = "sor");
     REFUSED("tol: expected a number > 0", rc.contact.tol = INFINITY);
     ACCEPTED(rc.a.young = 1e-100);
     REFUSED("Young's modulus: expected a size", rc.a.young = 0.9e-100);
     ACCEPTED(rc.load = 1e100);
     REFUSED("load: expected a size", rc.load = 1.1e100);
-    REFUSED("Young's modulus of body B: expected a size", rc.elastic_b = 1;
-            rc.b.young = 1e101);
+    REFUSED("Young's modulus of body B: expected a size", rc.elastic_b = 1; rc.b.young = 1e101);
     REFUSED("radius of body B: expected a size", rc.elastic_b = 1; rc.b.radius = 1e101);
     ACCEPTED(PLANE; STEADY; rc.a.memory = relaxing(1e100); rc.speed = 1e-100);
     ACCEPTED(PLANE; STEADY; rc.a.memory = relaxing(1e-100); rc.speed = 1e100);
@@ -485,8 +462,8 @@ TEST(ranges_of_the_mesh)
             rc.speed = 1.1e100);
     REFUSED("relaxation time: expected a size", PLANE; STEADY; rc.speed = 1.0;
             rc.a.memory = relaxing(0.9e-100));
-    REFUSED("relaxation time: expected a size", PLANE; STEADY; rc.speed = 1.0;
-            rc.elastic_b = 1; rc.b.memory = relaxing(1.1e100));
+    REFUSED("relaxation time: expected a size", PLANE; STEADY; rc.speed = 1.0; rc.elastic_b = 1;
+            rc.b.memory = relaxing(1.1e100));
 }
 
 /* ---- What a case is ---------------------------------------------------------------- */
@@ -503,12 +480,12 @@ static rb_rolling_case similar_half_planes(void)
 }
 
 /* A wanted value of `function` for that case with these changes. */
-#define HOLDS(function, wanted, ...)                                                     \
-    do {                                                                                 \
-        rb_rolling_case rc = similar_half_planes();                                      \
-        __VA_ARGS__;                                                                     \
-        if ((function) != (wanted))                                                      \
-            fail_msg("%s of %s: not %d", #function, #__VA_ARGS__, wanted);               \
+#define HOLDS(function, wanted, ...)                                                               \
+    do {                                                                                           \
+        rb_rolling_case rc = similar_half_planes();                                                \
+        __VA_ARGS__;                                                                               \
+        if ((function) != (wanted))                                                                \
+            fail_msg("%s of %s: not %d", #function, #__VA_ARGS__, wanted);                         \
     } while (0)
 
 TEST(carters_law_is_for_similar_half_planes)
@@ -563,8 +540,7 @@ TEST(transforms_are_for_many_equal_elements_on_half_planes)
           rc.interlayer_tangential = 1e-6);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, HUB);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.b.support = RB_BEM_HUB);
-    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.b.support = RB_BEM_HUB;
-          rc.elastic_b = 0);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.b.support = RB_BEM_HUB; rc.elastic_b = 0);
 }
 
 TEST(the_list_of_bodies_has_an_end)
@@ -590,8 +566,7 @@ TEST(hertz_closes_the_circle)
     const double P = rb_rolling_hertz_load(&rc, 0.3);
     CHECK_REL(rb_rolling_hertz_half_width(&rc, P), 0.3, 1e-15, "half-width of its load");
     rc.elastic_b = 0;
-    CHECK_REL(rb_rolling_derive(&rc).dundurs, 0.8 / 1.8, 1e-14,
-              "beta on a rigid plane, nu = 0.1");
+    CHECK_REL(rb_rolling_derive(&rc).dundurs, 0.8 / 1.8, 1e-14, "beta on a rigid plane, nu = 0.1");
 }
 
 TEST(the_half_width_of_an_approach_inverts_the_compression)

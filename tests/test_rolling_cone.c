@@ -37,10 +37,10 @@ TEST(cone_solvers_agree_with_lemke)
             fail_msg("%s: %s", names[k], why.text);
         assert_int_equal(cone.solver, RB_SOLVER_CONE);
         for (int i = 0; i < cone.n; i++) {
-            CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress,
-                      "%s: p %d", names[k], i);
-            CHECK_ABS(cone.q[i], model.state.q[i], 1e-8 * model.problem.stress,
-                      "%s: q %d", names[k], i);
+            CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress, "%s: p %d",
+                      names[k], i);
+            CHECK_ABS(cone.q[i], model.state.q[i], 1e-8 * model.problem.stress, "%s: q %d",
+                      names[k], i);
         }
     }
 }
@@ -75,8 +75,8 @@ static int knows_any(const char *name)
 }
 
 /* The solution, with rounding where there is no contact. */
-static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, double tol,
-                               double *r, int *iterations, rb_message *why)
+static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, double tol, double *r,
+                               int *iterations, rb_message *why)
 {
     (void)name, (void)tol, (void)iterations, (void)why;
     for (int i = 0; i < cone->n; i++) {

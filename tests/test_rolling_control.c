@@ -27,14 +27,11 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
     rc.half_width = log_uniform(1e-6, 1e-2) * rc.a.radius;
     rc.mu = log_uniform(mu_from, mu_to);
     if (rand() % 2)
-        rc.force_ratio = rand() % 4   ? between(-0.999, 0.999)
-                         : rand() % 2 ? 0.999
-                                      : -0.999;
+        rc.force_ratio = rand() % 4 ? between(-0.999, 0.999) : rand() % 2 ? 0.999 : -0.999;
     else if (rc.formulation == RB_STEADY)
         rc.creep_ratio = between(-2.0, 2.0);
     else
-        rc.shift =
-            rc.mu * rc.half_width * rc.half_width / rc.a.radius * between(-3.0, 3.0);
+        rc.shift = rc.mu * rc.half_width * rc.half_width / rc.a.radius * between(-3.0, 3.0);
     rc.contact_elements = 15 + rand() % 45;
     return rc;
 }
@@ -52,8 +49,7 @@ TEST(lemke_and_newton_agree_on_500_cases)
             fail_msg("case %d: %s", k, why.text);
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &newton), RB_OK);
         rc.contact.solver = RB_SOLVER_NEWTON;
-        CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL), RB_OK);
         for (int i = 0; i < newton.n; i++) {
             CHECK_ABS(newton.p[i], model.state.p[i], 1e-8 * model.problem.stress,
                       "p, case %d element %d", k, i);
@@ -74,8 +70,7 @@ TEST(force_control_never_fails_on_the_halfplane)
         rc.creep_ratio = rc.shift = NAN;
         rc.force_ratio = k % 4 ? between(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
         if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
-            fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio,
-                     why.text);
+            fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio, why.text);
         CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
         CHECK_MAX(s.load_error, 1e-10, "case %d", k);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
@@ -225,9 +220,8 @@ TEST(a_failed_free_creepage_leaves_the_case_solved)
         CHECK_STATUS(s.status, RB_OK);
         unknown += isnan(s.free_creepage);
         rb_rolling_solution_free(&s);
-        CHECK_STATUS(
-            rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1}, &c, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1}, &c, NULL),
+                     RB_OK);
     }
     assert_true(unknown > 0);
 }

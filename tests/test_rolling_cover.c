@@ -34,14 +34,12 @@ static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, do
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &why), RB_OK);
     if (cylinder.cover > 0.0 && core.shear > 0.0) {
         CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &inner, &why), RB_OK);
-        CHECK_STATUS(
-            rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &why),
-            RB_OK);
+        CHECK_STATUS(rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &why),
+                     RB_OK);
     } else {
         CHECK_STATUS(rb_bem_system_create(&mesh, rubber, &system, &why), RB_OK);
     }
-    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
     rb_bem_system_free(system);
     return F;
@@ -129,8 +127,7 @@ TEST(a_thin_rim_has_few_elements)
     double *F[3];
 
     assert_in_range(elements_of(rim, 0.5), 300, 700);
-    assert_in_range(elements_of(rim, 30.0), 300,
-                    1200); /* those of the contact are long */
+    assert_in_range(elements_of(rim, 30.0), 300, 1200); /* those of the contact are long */
     for (int i = 0; i < 2; i++) {
         rim.refinement = 1 + i;
         F[i] = flexibility_of(rim, rigid, 0.5);
@@ -164,8 +161,7 @@ TEST(neighbours_are_nearly_as_long)
         CHECK_STATUS(rb_bem_mesh_core(&c, &mesh, &core, NULL), RB_OK);
         count[fine] = mesh.n;
         for (int j = 0; j < mesh.n; j++) {
-            if (mesh.x1[j] != mesh.x0[(j + 1) % mesh.n] ||
-                mesh.y1[j] != mesh.y0[(j + 1) % mesh.n])
+            if (mesh.x1[j] != mesh.x0[(j + 1) % mesh.n] || mesh.y1[j] != mesh.y0[(j + 1) % mesh.n])
                 continue; /* the end of a contour */
             const double a = rb_bem_mesh_length(&mesh, j),
                          b = rb_bem_mesh_length(&mesh, (j + 1) % mesh.n);
@@ -201,21 +197,18 @@ TEST(a_core_needs_its_cover)
 TEST(what_does_not_fit_is_refused)
 {
     const double ends[] = {-1.0, 0.0, 1.0, 2.0};
-    rb_bem_cylinder c = {
-        .radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.3, .cover = 5.0};
+    rb_bem_cylinder c = {.radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.3, .cover = 5.0};
     const rb_bem_material soft = {3.0, 0.3}, jelly = {3.0, 0.5};
     rb_bem_mesh mesh, core, other, none;
     rb_bem_system *system;
     rb_message why = {""};
     CHECK_STATUS(rb_bem_mesh_cylinder(&c, 2, ends, &mesh, &why), RB_OK);
     CHECK_STATUS(rb_bem_mesh_core(&c, &mesh, &core, &why), RB_OK);
-    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, jelly, &core, soft, &system, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, jelly, &core, soft, &system, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "below 1/2"));
     c.cover = 6.0;
     CHECK_STATUS(rb_bem_mesh_cylinder(&c, 2, ends, &other, &why), RB_OK);
-    CHECK_STATUS(rb_bem_system_create_bonded(&other, soft, &core, soft, &system, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_system_create_bonded(&other, soft, &core, soft, &system, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "bond"));
     c.hub_ratio = 0.94;
     CHECK_STATUS(rb_bem_mesh_core(&c, &other, &none, &why), RB_EINVAL);
@@ -289,8 +282,8 @@ TEST(a_thin_cover_is_the_layer)
             for (int i = 0; i < 2; i++) {
                 CHECK_ABS(deviation[i], 0.0, 0.52 * ratio, "kind %d, d/R = %g", k, ratio);
                 if (j > 0)
-                    CHECK_ABS(before[i] / deviation[i], 2.0, 0.2,
-                              "kind %d, d/R = %g: first order", k, ratio);
+                    CHECK_ABS(before[i] / deviation[i], 2.0, 0.2, "kind %d, d/R = %g: first order",
+                              k, ratio);
                 before[i] = deviation[i];
             }
             CHECK_REL(w.max_pressure, l.max_pressure, 0.05 * ratio, "kind %d: p0", k);
@@ -325,10 +318,9 @@ TEST(sixty_points_take_three_seconds)
     for (int try = 0; try < 3 && best > 3.0; try++) {
         OWNED(rb_rolling_curve) c;
         const clock_t start = clock();
-        CHECK_STATUS(
-            rb_rolling_curve_solve(
-                &rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.5, 60}, &c, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_curve_solve(
+                         &rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.5, 60}, &c, NULL),
+                     RB_OK);
         best = fmin(best, (double)(clock() - start) / CLOCKS_PER_SEC);
         assert_int_equal(c.n, 60);
         CHECK_ABS(c.force_ratio[59], -1.0, 1e-9, "full sliding");
@@ -397,8 +389,8 @@ TEST(the_bond_carries_the_load)
 
 TEST(bad_covers_are_refused)
 {
-    static const char *const word[5] = {"add --support hub", "less than the radius",
-                                        "compressible", "core", "hub of radius"};
+    static const char *const word[5] = {"add --support hub", "less than the radius", "compressible",
+                                        "core", "hub of radius"};
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc =
             roll(k == 1 ? 100.0 : 5.0, k == 2 ? 0.4995 : 0.4, k == 3 ? -1.0 : 1000.0);
@@ -438,8 +430,7 @@ TEST(a_cover_that_nothing_holds_is_singular)
     relaxing.formulation = RB_STEADY;
     relaxing.speed = 1.0;
     relaxing.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
-    CHECK_STATUS(rb_rolling_curve_solve(&relaxing,
-                                        &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2},
+    CHECK_STATUS(rb_rolling_curve_solve(&relaxing, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2},
                                         &curve, &why),
                  RB_SINGULAR);
     assert_int_equal(curve.n, 0);

@@ -22,11 +22,10 @@ static rb_rolling_case relaxing(void)
     return rc;
 }
 
-static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
-                            double from, double to, int points)
+static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over, double from,
+                            double to, int points)
 {
-    const rb_rolling_range range = {
-        .over = over, .from = from, .to = to, .points = points};
+    const rb_rolling_range range = {.over = over, .from = from, .to = to, .points = points};
     rb_rolling_curve c;
     rb_message why = {""};
     const double start = rb_seconds();
@@ -52,8 +51,8 @@ static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case 
     CHECK_REL(c->force_ratio[k], s.force_ratio, 1e-8, "point %d: Q/(mu P)", k);
     CHECK_REL(c->stick_ratio[k], stick / contact, 1e-9, "point %d: stick", k);
     CHECK_REL(c->dissipation[k], s.dissipation, 1e-7, "point %d: power", k);
-    CHECK_ABS(c->resistance_moment[k], s.resistance_moment,
-              1e-9 * s.normal_load * s.half_width, "point %d: M", k);
+    CHECK_ABS(c->resistance_moment[k], s.resistance_moment, 1e-9 * s.normal_load * s.half_width,
+              "point %d: M", k);
     CHECK_ABS(c->resistance_ratio[k], s.resistance_ratio, 1e-9, "point %d: M/(P R)", k);
     CHECK_ABS(c->hysteresis[k], s.hysteresis, 1e-9 * s.normal_load, "point %d: lost", k);
     CHECK_ABS(c->speed[k], rc->speed, 1e-9 * rc->speed, "point %d: speed", k);
@@ -66,8 +65,7 @@ TEST(every_point_is_its_case)
         rb_rolling_case rc = carter(40);
         const double scale = over == RB_OVER_CREEP_RATIO ? 1.0 : 0.01;
         rc.force_ratio = 0.3; /* not read */
-        rb_rolling_curve c =
-            run(&rc, (rb_rolling_variable)over, -0.5 * scale, 1.5 * scale, 5);
+        rb_rolling_curve c = run(&rc, (rb_rolling_variable)over, -0.5 * scale, 1.5 * scale, 5);
         rc.force_ratio = NAN;
         rc.formulation = RB_STEADY;
         assert_int_equal(c.n, 5);
@@ -122,8 +120,7 @@ TEST(a_curve_without_contact_says_so)
     rb_rolling_case rc = relaxing();
     rb_message why = {""};
     OWNED(rb_rolling_curve) c;
-    const rb_rolling_range range = {
-        .over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
+    const rb_rolling_range range = {.over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
     rc.load = NAN;
     rc.approach = 1e-9;
     rc.zone = 1.0;
@@ -214,19 +211,16 @@ TEST(ranges_that_make_no_sense_are_refused)
     rb_rolling_case smooth = carter(20);
     smooth.mu = 0.0;
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3}, "finite numbers");
-    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3},
-            "finite numbers");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3}, "finite numbers");
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 0}, "points: exp");
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 1000001},
             "points: expected 1 ... 1000000");
     refused(smooth, (rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.0, 3},
             "has no meaning at mu = 0");
-    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3},
-            "expected from and to > 0");
+    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, "expected from and to > 0");
     refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 1.0, -1.0, 3},
             "expected from and to > 0");
-    refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3},
-            "no body is viscoelastic");
+    refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, "no body is viscoelastic");
     OWNED(rb_rolling_curve) c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
     assert_true(isnan(c.free_creepage));
     assert_true(isnan(c.creep_ratio[1]));
@@ -243,20 +237,18 @@ TEST(a_hundredth_of_the_half_width_is_followed)
         double from[2], to[2];
         rc.mesh = RB_MESH_FITTED;
         rc.formulation = RB_STEADY;
-        rc.contact.solver =
-            RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
+        rc.contact.solver = RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
         rc.elastic_b = 0;
         rc.a.poisson = 0.2;
         rc.creep_ratio = -1.0;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         for (int i = 0; i < 2; i++) {
-            rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i],
-                                     &to[i]);
+            rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i], &to[i]);
             case_of_model(&model)->creep_ratio = last;
             CHECK_STATUS(rb_rolling_model_control(&model, NULL), RB_OK);
         }
-        const double moved = fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) /
-                             (0.5 * (to[0] - from[0]));
+        const double moved =
+            fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) / (0.5 * (to[0] - from[0]));
         OWNED(rb_rolling_curve)
         one = run(&rc, RB_OVER_CREEP_RATIO, -1.0, -1.0, 1),
         two = run(&rc, RB_OVER_CREEP_RATIO, -1.0, last, 2);

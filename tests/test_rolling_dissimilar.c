@@ -53,8 +53,7 @@ typedef struct {
 
 static surface surface_of(const pair *b)
 {
-    return (surface){(1.0 - b->nu_a * b->nu_a) / b->E_a +
-                         (1.0 - b->nu_b * b->nu_b) / b->E_b,
+    return (surface){(1.0 - b->nu_a * b->nu_a) / b->E_a + (1.0 - b->nu_b * b->nu_b) / b->E_b,
                      (1.0 - 2.0 * b->nu_a) * (1.0 + b->nu_a) / b->E_a -
                          (1.0 - 2.0 * b->nu_b) * (1.0 + b->nu_b) / b->E_b};
 }
@@ -63,14 +62,12 @@ static surface surface_of(const pair *b)
  * it is k times the hat's integral: w_N of friction, less w_T of pressure. */
 static double displacement(surface s, double u, double h)
 {
-    return -2.0 * s.compliance / M_PI / h *
-           (log_2(u + h) - 2.0 * log_2(u) + log_2(u - h));
+    return -2.0 * s.compliance / M_PI / h * (log_2(u + h) - 2.0 * log_2(u) + log_2(u - h));
 }
 
 static double slope(surface s, double u, double h)
 {
-    return -2.0 * s.compliance / M_PI / h *
-           (log_1(u + h) - 2.0 * log_1(u) + log_1(u - h));
+    return -2.0 * s.compliance / M_PI / h * (log_1(u + h) - 2.0 * log_1(u) + log_1(u - h));
 }
 
 static void set_up(contact *c, const pair *b, int nodes)
@@ -125,16 +122,15 @@ static void roll_on(contact *c)
         c->known[i] = 0.0;
         for (int j = 0; j < c->n; j++) {
             const double u = c->h * (i + 1 - j);
-            c->known[i] -= displacement(c->s, u, c->h) * c->q[j] -
-                           c->s.k * hat_integral(u, c->h) * c->p[j];
+            c->known[i] -=
+                displacement(c->s, u, c->h) * c->q[j] - c->s.k * hat_integral(u, c->h) * c->p[j];
         }
     }
 }
 
 /* sum of unknowns = total, matrix unknowns + side level = right, for the nodes listed. */
-static double solve_nodes(contact *c, double matrix[NODES][NODES], double side,
-                          const int *nodes, int m, const double *right, double total,
-                          double *unknown)
+static double solve_nodes(contact *c, double matrix[NODES][NODES], double side, const int *nodes,
+                          int m, const double *right, double total, double *unknown)
 {
     static double M[(NODES + 1) * (NODES + 1)], b[NODES + 1];
     lapack_int pivots[NODES + 1];
@@ -147,15 +143,13 @@ static double solve_nodes(contact *c, double matrix[NODES][NODES], double side,
     }
     M[m * (m + 1) + m] = 0.0;
     b[m] = total;
-    assert_int_equal(
-        LAPACKE_dgesv(LAPACK_COL_MAJOR, m + 1, 1, M, m + 1, pivots, b, m + 1), 0);
+    assert_int_equal(LAPACKE_dgesv(LAPACK_COL_MAJOR, m + 1, 1, M, m + 1, pivots, b, m + 1), 0);
     for (int i = 0; i < m; i++)
         unknown[nodes[i]] = b[i];
     return b[m];
 }
 
-static double row(const contact *c, double matrix[NODES][NODES], int i,
-                  const double *traction)
+static double row(const contact *c, double matrix[NODES][NODES], int i, const double *traction)
 {
     double sum = 0.0;
     for (int j = 0; j < c->n; j++)
@@ -180,8 +174,7 @@ static void press(contact *c)
         changed = 0;
         for (int i = 0; i < c->n; i++) {
             const double gap = row(c, c->gap_p, i, c->p) - right[i] - c->approach;
-            const int touches =
-                c->touches[i] ? c->p[i] > 0.0 : gap < -1e-12 * fabs(c->approach);
+            const int touches = c->touches[i] ? c->p[i] > 0.0 : gap < -1e-12 * fabs(c->approach);
             changed += touches != c->touches[i];
             c->touches[i] = touches;
         }
@@ -208,8 +201,7 @@ static void roll(contact *c)
                 nodes[m++] = i;
         }
         for (int i = 0; i < c->n; i++)
-            right[i] =
-                -c->known[i] - row(c, c->slip_p, i, c->p) - row(c, c->slip_q, i, c->q);
+            right[i] = -c->known[i] - row(c, c->slip_p, i, c->p) - row(c, c->slip_q, i, c->q);
         c->creepage = solve_nodes(c, c->slip_q, c->side, nodes, m, right, total, c->q);
         changed = 0;
         for (int i = 0; i < c->n; i++) {
@@ -299,8 +291,8 @@ static double creepage_at(const rb_rolling_history *h, double distance)
         const double from = 0.5 * (h->distance[k - 2] + h->distance[k - 1]),
                      to = 0.5 * (h->distance[k - 1] + h->distance[k]);
         if (from <= distance && distance <= to)
-            return h->creepage[k - 1] + (distance - from) / (to - from) *
-                                            (h->creepage[k] - h->creepage[k - 1]);
+            return h->creepage[k - 1] +
+                   (distance - from) / (to - from) * (h->creepage[k] - h->creepage[k - 1]);
     }
     return NAN;
 }

@@ -20,8 +20,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
         rb_rolling_errors e;
         rb_message why = {""};
         int elements;
-        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why) !=
-            RB_OK)
+        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why) != RB_OK)
             fail_msg("%s", why.text);
         CHECK_MAX(e.scalar.force_ratio, accuracy[k], "Q/(mu P)");
         CHECK_MAX(e.scalar.half_width / s.half_width, accuracy[k], "half-width");
@@ -49,8 +48,8 @@ TEST(little_friction_asks_for_no_more_elements)
     if (rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &why) != RB_OK)
         fail_msg("%s", why.text);
     const double unit = rc.mu * s.hertz_half_width / rc.a.radius;
-    const double exact = rb_closed_bentall_johnson_slip(
-        fabs(rb_rolling_derive(&rc).dundurs), s.hertz_half_width, rc.a.radius);
+    const double exact = rb_closed_bentall_johnson_slip(fabs(rb_rolling_derive(&rc).dundurs),
+                                                        s.hertz_half_width, rc.a.radius);
     CHECK_MAX(elements, 80, "elements");
     CHECK_MAX(e.scalar.creepage, 0.2 * fabs(s.creepage), "the error of the creepage");
     assert_true(e.scalar.creepage > 5.0 * unit);
@@ -66,9 +65,8 @@ TEST(what_is_no_accuracy_is_refused)
         rb_rolling_errors e;
         rb_message why = {""};
         int elements;
-        CHECK_STATUS(
-            rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why),
-            RB_EINVAL);
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why),
+                     RB_EINVAL);
         assert_non_null(strstr(why.text, "accuracy: expected in (0, 1)"));
     }
 }
@@ -83,9 +81,8 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
         rb_message why = {""};
         int elements;
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        CHECK_STATUS(
-            rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &why),
-            RB_INACCURATE);
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &why),
+                     RB_INACCURATE);
         assert_int_equal(elements, 12);
         assert_non_null(strstr(why.text, "accuracy 1e-12 not reached with 12 elements"));
         assert_int_equal(strstr(why.text, "a fitted mesh needs fewer") != NULL, !k);
@@ -132,8 +129,7 @@ TEST(a_given_force_has_an_accurate_creepage)
         rc.creep_ratio = NAN;
         rc.force_ratio = -0.9;
         rc.mesh = k < 3 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
-        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &why) !=
-            RB_OK)
+        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &why) != RB_OK)
             fail_msg("%s", why.text);
         CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
                   accuracy[k % 3], "case %d", k);
@@ -150,8 +146,7 @@ TEST(accuracy_takes_more_steps_too)
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;
     rc.steps = 4;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL), RB_OK);
     assert_true(elements > 12 && elements % 12 == 0);
     rc.contact_elements = elements;
     rc.steps = 4 * elements / 12;

@@ -53,11 +53,8 @@ static rb_status find_shakedown(void *context)
 static rb_status wear(void *context)
 {
     const rb_rolling_case *rc = context;
-    const rb_rolling_wear w = {.law = RB_WEAR_ARCHARD,
-                               .coefficient = 1e-9,
-                               .way = 1.0,
-                               .steps = 1,
-                               .increments = 1};
+    const rb_rolling_wear w = {
+        .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1.0, .steps = 1, .increments = 1};
     OWNED(rb_rolling_wear_history) h;
     OWNED(rb_rolling_solution) last;
     const rb_status s = rb_rolling_wear_run(rc, &w, NULL, &h, &last, NULL);
@@ -67,8 +64,8 @@ static rb_status wear(void *context)
 static rb_status draw(void *context)
 {
     OWNED(rb_rolling_curve) curve, errors;
-    const rb_status s = rb_rolling_curve_with_errors(
-        context, &(rb_rolling_range){0, 0.1, 0.2, 2}, NULL, NULL, &curve, &errors, NULL);
+    const rb_status s = rb_rolling_curve_with_errors(context, &(rb_rolling_range){0, 0.1, 0.2, 2},
+                                                     NULL, NULL, &curve, &errors, NULL);
     return s;
 }
 

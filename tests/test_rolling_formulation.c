@@ -52,16 +52,16 @@ TEST(the_second_order_operator_has_four_points)
     for (int j = 0; j < 2 * N; j++)
         for (int i = 1; i + 1 < N; i++)
             CHECK_ABS(S(&d, i, j),
-                      a[0] * w_T(&d, i - 1, j) + a[1] * w_T(&d, i, j) +
-                          a[2] * w_T(&d, i + 1, j) + a[3] * w_T(&d, i + 2, j),
+                      a[0] * w_T(&d, i - 1, j) + a[1] * w_T(&d, i, j) + a[2] * w_T(&d, i + 1, j) +
+                          a[3] * w_T(&d, i + 2, j),
                       1e-12 * fabs(w_T(&d, 0, N)), "%d %d", i, j);
     /* a half-plane answers to distances alone: rows at the ends are moved others */
     for (int j = 1; j < N; j++)
         CHECK_ABS(S(&d, 0, N + j - 1), S(&d, 1, N + j), 1e-12 * fabs(w_T(&d, 0, N)),
                   "first row, %d", j);
     for (int j = 1; j < N; j++)
-        CHECK_ABS(S(&d, N - 1, N + j), S(&d, N - 2, N + j - 1),
-                  1e-12 * fabs(w_T(&d, 0, N)), "last row, %d", j);
+        CHECK_ABS(S(&d, N - 1, N + j), S(&d, N - 2, N + j - 1), 1e-12 * fabs(w_T(&d, 0, N)),
+                  "last row, %d", j);
 
     static const double local[4] = {0.0, 1.5, -2.0, 0.5};
     rc.interlayer_tangential = 1e-5;
@@ -69,9 +69,8 @@ TEST(the_second_order_operator_has_four_points)
     for (int i = 1; i + 1 < N; i++) /* the outermost elements are open */
         for (int j = 0; j < N; j++) {
             const int k = j - i + 1;
-            CHECK_ABS(S(&with, i, N + j) - S(&d, i, N + j),
-                      k >= 0 && k < 4 ? 1e-5 * local[k] : 0.0, 1e-16, "interface %d %d",
-                      i, j);
+            CHECK_ABS(S(&with, i, N + j) - S(&d, i, N + j), k >= 0 && k < 4 ? 1e-5 * local[k] : 0.0,
+                      1e-16, "interface %d %d", i, j);
             CHECK_ABS(S(&with, i, j), S(&d, i, j), 0.0, "of pressures %d %d", i, j);
         }
     release(&with);
@@ -138,8 +137,7 @@ TEST(products_move_with_the_tractions)
                 const double most = fabs(here[cblas_idamax(2 * n, here, 1)]);
                 for (int i = 0; i < 2 * n; i++)
                     if (i != n - 1 && i != 2 * n - 1)
-                        CHECK_ABS(there[i + 1], here[i], 1e-12 * most, "answer %d to %d",
-                                  i, left);
+                        CHECK_ABS(there[i + 1], here[i], 1e-12 * most, "answer %d to %d", i, left);
             }
         release(&d);
     }
@@ -186,8 +184,7 @@ TEST(softening_has_a_limit)
         }
         d = (posed){.rc = rc};
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
         CHECK_STATUS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &why),
                      RB_EINVAL);
         assert_non_null(strstr(why.text, "has no unique solution"));

@@ -39,8 +39,7 @@ static void check_laws(const rb_rolling_model *model)
         const double x = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
         const double mu = fabs(x) < 0.2 ? 0.2 : fmin(0.4, 0.2 + 0.5 * (fabs(x) - 0.2));
         const double most = mu * s->p[i], small = 1e-9 * p->stress;
-        CHECK_ABS(fmin(gap[i] / p->gap_length, s->p[i] / p->stress), 0.0, 1e-9, "gap %d",
-                  i);
+        CHECK_ABS(fmin(gap[i] / p->gap_length, s->p[i] / p->stress), 0.0, 1e-9, "gap %d", i);
         assert_true(fabs(s->q[i]) <= most + small);
         if (fabs(s->q[i]) < most - small)
             CHECK_ABS(slip[i], 0.0, 1e-9 * p->slip_length, "stick %d", i);
@@ -63,9 +62,7 @@ TEST(each_element_has_its_bound)
     OWNED(rb_rolling_model) first = {0};
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = steady();
-        rc.contact.solver = k == 2   ? RB_SOLVER_NEWTON
-                            : k == 3 ? RB_SOLVER_CONE
-                                     : RB_SOLVER_LEMKE;
+        rc.contact.solver = k == 2 ? RB_SOLVER_NEWTON : k == 3 ? RB_SOLVER_CONE : RB_SOLVER_LEMKE;
         rc.contact.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         rc.contact.cone_solvers = rb_friction_cone_solvers();
         rc.contact.cone_solver = "nsn-ac";
@@ -123,10 +120,9 @@ TEST(large_contacts_and_steps_too)
 
     OWNED(rb_rolling_curve) curve;
     rc = steady();
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6},
-                               &curve, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6},
+                                        &curve, NULL),
+                 RB_OK);
     CHECK_ABS(curve.force_ratio[5], -1.0, 1e-9, "full sliding");
 }
 
@@ -168,8 +164,7 @@ TEST(an_interface_yields_by_itself)
         rb_bem_flexibility_apply(&without.f, r, w + 2 * m);
         for (int i = 0; i < m; i++) {
             CHECK_ABS(w[i] - w[2 * m + i], i < n ? 2e-5 * r[i] : 0.0, 1e-12, "N %d", i);
-            CHECK_ABS(w[m + i] - w[3 * m + i], i < n ? 3e-5 * r[n + i] : 0.0, 1e-12,
-                      "T %d", i);
+            CHECK_ABS(w[m + i] - w[3 * m + i], i < n ? 3e-5 * r[n + i] : 0.0, 1e-12, "T %d", i);
         }
     }
 }
@@ -198,8 +193,7 @@ TEST(a_soft_interface_is_a_brush)
             const double x = 0.5 * (model.mesh.ends[i] + model.mesh.ends[i + 1]);
             const double most = rc.mu * model.state.p[i];
             const double want = -fmin(most, slope * fmax(0.0, lead - x));
-            CHECK_ABS(model.state.q[i], want, 0.03 * rc.mu * scale, "large %d, q at %g",
-                      large, x);
+            CHECK_ABS(model.state.q[i], want, 0.03 * rc.mu * scale, "large %d, q at %g", large, x);
         }
     }
 }
@@ -232,8 +226,7 @@ static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.formulation = RB_STEADY;
-    rc.friction =
-        (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
+    rc.friction = (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
     return rc;
 }
 
@@ -242,8 +235,7 @@ TEST(the_largest_of_a_table_is_that_of_any_row)
 {
     const double x[] = {-1.0, 0.0, 3.0};
     for (int at = 0; at < 3; at++) {
-        const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1,
-                            at == 2 ? 0.2 : 0.05};
+        const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1, at == 2 ? 0.2 : 0.05};
         rb_rolling_case rc = law(RB_FRICTION_table, 0.0, 0.0);
         rc.friction.table = (rb_rolling_table){3, x, y};
         CHECK_ABS(rb_rolling_largest_mu(&rc), 0.2, 0.0, "row %d", at);
@@ -252,10 +244,9 @@ TEST(the_largest_of_a_table_is_that_of_any_row)
 
 TEST(tables_of_no_friction_are_refused)
 {
-    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
-                 gone[3] = {-1.0, NAN, 1.0}, mu[3] = {0.0, 0.2, 0.3},
-                 less[3] = {0.2, -0.1, 0.3}, lost[3] = {0.2, NAN, 0.3};
-#define MU(x, y)                                                                         \
+    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0}, gone[3] = {-1.0, NAN, 1.0},
+                 mu[3] = {0.0, 0.2, 0.3}, less[3] = {0.2, -0.1, 0.3}, lost[3] = {0.2, NAN, 0.3};
+#define MU(x, y)                                                                                   \
     rc.friction.law = RB_FRICTION_table, rc.friction.table = (rb_rolling_table){3, x, y}
     ACCEPTED(MU(x, mu));
     REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
@@ -266,11 +257,11 @@ TEST(tables_of_no_friction_are_refused)
 #undef MU
 }
 
-#define FALLS                                                                            \
-    STEADY;                                                                              \
-    rc.speed = 1.0;                                                                      \
-    rc.friction.law = RB_FRICTION_rational;                                              \
-    rc.friction.fall[1] = 0.1;                                                           \
+#define FALLS                                                                                      \
+    STEADY;                                                                                        \
+    rc.speed = 1.0;                                                                                \
+    rc.friction.law = RB_FRICTION_rational;                                                        \
+    rc.friction.fall[1] = 0.1;                                                                     \
     rc.friction.slip_scale[1] = 1.0
 TEST(ranges_of_friction_laws)
 {
@@ -282,8 +273,7 @@ TEST(ranges_of_friction_laws)
             rc.friction.slip_scale[0] = 1.0);
     REFUSED("mu-fall: expected a number", FALLS; rc.friction.fall[0] = INFINITY);
     REFUSED("slip-scale: expected a number > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
-    REFUSED("slip-scale: expected a number > 0", FALLS;
-            rc.friction.slip_scale[1] = INFINITY);
+    REFUSED("slip-scale: expected a number > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
     REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
     REFUSED("speed: expected a number > 0, got inf", FALLS; rc.speed = INFINITY);
     ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);

@@ -31,8 +31,7 @@ static void check_honest(const rb_rolling_case *rc, const rb_rolling_solution *s
     double P = 0.0;
     for (int i = 0; i < s->n; i++) {
         CHECK_MAX(-s->p[i], 0.0, "adhesion at %d", i);
-        CHECK_MAX(fabs(s->q[i]), rc->mu * s->p[i] + 1e-10 * s->max_pressure,
-                  "Coulomb at %d", i);
+        CHECK_MAX(fabs(s->q[i]), rc->mu * s->p[i] + 1e-10 * s->max_pressure, "Coulomb at %d", i);
         CHECK_MAX(-s->gap[i], 1e-10 * s->half_width, "penetration at %d", i);
         P += s->p[i] * s->h[i];
     }
@@ -52,9 +51,8 @@ TEST(hertz_at_any_alignment)
         const double p0 = 2.0 * P / (M_PI * a);
         double square = 0.0;
         for (int i = 0; i < s.n; i++)
-            square +=
-                gsl_pow_2(s.p[i] - p0 * sqrt(fmax(0.0, 1.0 - gsl_pow_2(s.x[i] / a)))) *
-                s.h[i] / (2.0 * a);
+            square += gsl_pow_2(s.p[i] - p0 * sqrt(fmax(0.0, 1.0 - gsl_pow_2(s.x[i] / a)))) *
+                      s.h[i] / (2.0 * a);
         check_honest(&rc, &s);
         CHECK_REL(s.max_pressure, p0, 1e-3, "p0, offset %g", 0.25 * k);
         CHECK_REL(s.normal_load, P, 1e-10, "load, offset %g", 0.25 * k);
@@ -98,8 +96,7 @@ TEST(carter_on_200_equal_elements)
         const double h = s.h[0];
         check_honest(&rc, &s);
         CHECK_ABS(-s.force_ratio, carter(0.1 * k), 3e-3, "s = %g", 0.1 * k);
-        CHECK_ABS(s.stick_from, a * (1.0 - 2.0 * (1.0 - 0.1 * k)), 1.5 * h, "s = %g",
-                  0.1 * k);
+        CHECK_ABS(s.stick_from, a * (1.0 - 2.0 * (1.0 - 0.1 * k)), 1.5 * h, "s = %g", 0.1 * k);
         CHECK_ABS(s.stick_to, a, 1.5 * h, "s = %g", 0.1 * k);
         assert_int_equal(s.slip_violations, 0);
     }
@@ -141,8 +138,7 @@ TEST(carter_on_a_fitted_mesh)
             rc.contact_elements = n[mesh];
             OWNED(rb_rolling_solution) s = rolling_at(rc, ratio);
             check_honest(&rc, &s);
-            CHECK_ABS(-s.force_ratio, carter(ratio), bound[mesh], "n = %d, s = %g",
-                      n[mesh], ratio);
+            CHECK_ABS(-s.force_ratio, carter(ratio), bound[mesh], "n = %d, s = %g", n[mesh], ratio);
         }
 }
 
@@ -173,10 +169,8 @@ TEST(both_forms_agree)
         assert_int_equal(pivoted.lcp_form, RB_LCP_PIVOTED);
         assert_int_equal(kwak.lcp_form, RB_LCP_KWAK);
         for (int i = 0; i < kwak.n; i++) {
-            CHECK_ABS(pivoted.p[i], kwak.p[i], 1e-9 * kwak.max_pressure, "p, element %d",
-                      i);
-            CHECK_ABS(pivoted.q[i], kwak.q[i], 1e-9 * kwak.max_pressure, "q, element %d",
-                      i);
+            CHECK_ABS(pivoted.p[i], kwak.p[i], 1e-9 * kwak.max_pressure, "p, element %d", i);
+            CHECK_ABS(pivoted.q[i], kwak.q[i], 1e-9 * kwak.max_pressure, "q, element %d", i);
         }
     }
 }

@@ -33,8 +33,7 @@ static double quadrature(const source *s, double from, double to)
 
     for (int k = 0; k < 2; k++)
         if (ends[k + 1] > ends[k]) {
-            gsl_integration_qags(&f, ends[k], ends[k + 1], 0.0, 1e-12, 1000, w, &part,
-                                 &error);
+            gsl_integration_qags(&f, ends[k], ends[k + 1], 0.0, 1e-12, 1000, w, &part, &error);
             sum += part;
         }
     gsl_integration_workspace_free(w);
@@ -53,12 +52,11 @@ TEST(strip_meets_quadrature)
             const source s = {P[k], 50.0};
             const double speed = 2.0 * P[k] * 50.0 / 3.5;
             const double want = quadrature(&s, ends[j][0], ends[j][1]);
-            const double got =
-                rb_rolling_heat_response(&steel, speed, ends[j][0], ends[j][1]);
+            const double got = rb_rolling_heat_response(&steel, speed, ends[j][0], ends[j][1]);
             /* far upstream both are rounding against the response of the strip itself */
             const double own = rb_rolling_heat_response(&steel, speed, -0.5, 0.5);
-            CHECK_ABS(got, want, 1e-10 * fabs(want) + 1e-13 * own, "P = %g, %g ... %g",
-                      P[k], ends[j][0], ends[j][1]);
+            CHECK_ABS(got, want, 1e-10 * fabs(want) + 1e-13 * own, "P = %g, %g ... %g", P[k],
+                      ends[j][0], ends[j][1]);
         }
 }
 
@@ -105,13 +103,12 @@ TEST(element_sum_meets_the_closed_form)
             double rise = 0.0;
             for (int j = 0; j < n[k]; j++) {
                 const double x = (j + 0.5) * h - 1.0, from = (j - i - 0.5) * h;
-                rise += sqrt(1.0 - x * x) *
-                        rb_rolling_heat_response(&body, speed, from, from + h);
+                rise += sqrt(1.0 - x * x) * rb_rolling_heat_response(&body, speed, from, from + h);
             }
             warmest = fmax(warmest, rise);
         }
-        CHECK_REL(warmest, rb_closed_flash_temperature(1.0, 1.0, speed, sqrt(50.0 * 3.5)),
-                  bound[k], "n = %d", n[k]);
+        CHECK_REL(warmest, rb_closed_flash_temperature(1.0, 1.0, speed, sqrt(50.0 * 3.5)), bound[k],
+                  "n = %d", n[k]);
     }
 }
 
@@ -139,8 +136,7 @@ TEST(high_peclet_number_is_a_limit)
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case rc = sliding(peclet[k], 200);
         OWNED(rb_rolling_solution) s = solved(&rc);
-        CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "Pe = %g",
-                  peclet[k]);
+        CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "Pe = %g", peclet[k]);
     }
 }
 
@@ -175,8 +171,8 @@ TEST(surfaces_in_contact_are_equally_warm)
     for (int i = 0; i < s.n; i++) {
         rise = fmax(rise, s.temperature[i]);
         if (s.zone[i] != RB_ZONE_SEPARATED)
-            CHECK_ABS(s.temperature[i], s.temperature_b[i], 1e-11 * s.max_temperature,
-                      "element %d", i);
+            CHECK_ABS(s.temperature[i], s.temperature_b[i], 1e-11 * s.max_temperature, "element %d",
+                      i);
     }
     CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 1e-3, "shares e/(e1 + e2)");
     rb_rolling_solution_free(&s);
@@ -205,10 +201,10 @@ TEST(conduction_between_bodies)
             CHECK_ABS(s.temperature[i], 100.0, 1e-6, "before the contact");
         if (x < -1.02 * a) {
             const double part = 2.0 / M_PI * asin(sqrt(2.0 * a / (a - x)));
-            CHECK_ABS(s.temperature[i], 100.0 + (middle - 100.0) * part, 0.6,
-                      "A behind, x/a = %g", x / a);
-            CHECK_ABS(s.temperature_b[i], 20.0 + (middle - 20.0) * part, 0.6,
-                      "B behind, x/a = %g", x / a);
+            CHECK_ABS(s.temperature[i], 100.0 + (middle - 100.0) * part, 0.6, "A behind, x/a = %g",
+                      x / a);
+            CHECK_ABS(s.temperature_b[i], 20.0 + (middle - 20.0) * part, 0.6, "B behind, x/a = %g",
+                      x / a);
         }
     }
 }
@@ -230,8 +226,7 @@ TEST(steps_tend_to_the_steady_state)
         rb_message why = {""};
         rc.steps = steps[k];
         CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why), RB_OK);
-        CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps",
-                  h.n);
+        CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps", h.n);
         /* it rises along the way; the peak between elements is known to 1e-5 */
         for (int i = 1; i < h.n; i++)
             assert_true(h.max_temperature[i] >= h.max_temperature[i - 1] * (1.0 - 1e-5));
@@ -244,9 +239,8 @@ TEST(curve_has_the_temperature_of_its_cases)
     rb_rolling_case rc = sliding(500.0, 60);
     OWNED(rb_rolling_curve) curve;
     rb_message why = {""};
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2}, &curve, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2}, &curve, &why),
+                 RB_OK);
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
 }
@@ -278,10 +272,9 @@ TEST(meaningless_cases_are_refused)
     bad[5].heat_b.temperature = NAN;
     bad[6].contact_elements = 5000;
     bad[6].heat_b.conductivity = 40.0;
-    static const char *const said[] = {
-        "--speed",     "heat capacity",  "bodies that roll",
-        "homogeneous", "conductivity-b", "temperature-b",
-        "4000"};
+    static const char *const said[] = {"--speed",     "heat capacity",  "bodies that roll",
+                                       "homogeneous", "conductivity-b", "temperature-b",
+                                       "4000"};
     for (int k = 0; k < 7; k++) {
         rb_message why = {""};
         CHECK_STATUS(rb_rolling_case_check(&bad[k], &why), RB_EINVAL);

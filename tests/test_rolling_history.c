@@ -20,9 +20,9 @@ static void release(rb_rolling_model *model, rb_rolling_history *history)
 }
 
 /* CONTACT, n = 200, c = h (theory.md 6): distance/a, 1e4 |xi|. */
-static const double contact_says[][2] = {
-    {0.04, 1.214}, {0.1, 1.243}, {0.2, 1.298}, {0.4, 1.432}, {0.6, 1.619},
-    {0.8, 2.027},  {1.0, 2.818}, {1.4, 2.393}, {2.0, 2.371}, {3.0, 2.389}};
+static const double contact_says[][2] = {{0.04, 1.214}, {0.1, 1.243}, {0.2, 1.298}, {0.4, 1.432},
+                                         {0.6, 1.619},  {0.8, 2.027}, {1.0, 2.818}, {1.4, 2.393},
+                                         {2.0, 2.371},  {3.0, 2.389}};
 
 TEST(from_cattaneo_to_carter)
 {
@@ -38,8 +38,7 @@ TEST(from_cattaneo_to_carter)
         int k = 0;
         while (k < h.n - 1 && h.distance[k] < contact_says[j][0] - 1e-9)
             k++;
-        CHECK_REL(1e4 * h.creepage[k], contact_says[j][1], 1e-2, "distance %g",
-                  contact_says[j][0]);
+        CHECK_REL(1e4 * h.creepage[k], contact_says[j][1], 1e-2, "distance %g", contact_says[j][0]);
     }
     for (int k = 0; k < h.n; k++) {
         CHECK_ABS(h.force_ratio[k], -0.64, 1e-10, "step %d", k);
@@ -187,8 +186,7 @@ TEST(loads_vary_along_the_way)
     const double distance[] = {0.0, 1.0, 2.0}, load[] = {100.0, 178.0, 120.0},
                  creep[] = {1e-4, 2e-4, 1e-4};
     rb_rolling_case rc = steel_wheel(40);
-    const rb_rolling_program program = {
-        .n = 3, .distance = distance, .load = load, .creep = creep};
+    const rb_rolling_program program = {.n = 3, .distance = distance, .load = load, .creep = creep};
     rb_rolling_model model;
     rb_rolling_history h;
     rc.formulation = RB_TRANSIENT;
@@ -241,8 +239,8 @@ TEST(bad_programs_name_the_row)
     }
 }
 
-static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history *history,
-                        int step, int steps, void *context)
+static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                        int steps, void *context)
 {
     (void)model;
     (void)steps;
@@ -260,8 +258,7 @@ TEST(an_interrupted_run_keeps_its_steps)
     rc.formulation = RB_TRANSIENT;
     rc.creep = 1e-4;
     rc.distance = 2.0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
-                                        &(rb_rolling_observer){stop_at_five, &seen},
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){stop_at_five, &seen},
                                         &model, &h, &why),
                  RB_INTERRUPTED);
     assert_int_equal(seen, 5);
@@ -284,8 +281,7 @@ static void count_history(double creep, double force_ratio, double zone, tally *
     rc.creep = finer.creep = creep;
     rc.force_ratio = finer.force_ratio = force_ratio;
     rc.distance = finer.distance = 2.0;
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL), RB_OK);
     rb_rolling_model_free(&model);
     assert_int_equal(h.errors->n, h.n);
     finer.steps = 4 * (h.n - 1);
@@ -294,8 +290,7 @@ static void count_history(double creep, double force_ratio, double zone, tally *
         const double *xi = truth.creepage + 4 * k - 3;
         tally_count(of_force, h.force_ratio[k] - truth.force_ratio[4 * k],
                     h.errors->force_ratio[k]);
-        tally_count(of_creepage,
-                    1e4 * (h.creepage[k] - 0.25 * (xi[0] + xi[1] + xi[2] + xi[3])),
+        tally_count(of_creepage, 1e4 * (h.creepage[k] - 0.25 * (xi[0] + xi[1] + xi[2] + xi[3])),
                     1e4 * h.errors->creepage[k]);
     }
     rb_rolling_history_free(&truth);
@@ -327,12 +322,11 @@ TEST(error_bars_hold_mindlin)
     rc.zone = finer.zone = 1.17 * rb_rolling_hertz_half_width(&rc, rc.load);
     run(&finer, &program, &model, &truth);
     rb_rolling_model_free(&model);
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, NULL), RB_OK);
     for (int k = 0; k < 5; k++) {
         const double unit = rc.mu * model.half_width * model.half_width / rc.a.radius;
-        CHECK_MAX(fabs(h.shift[k] - truth.shift[k]) / unit, h.errors->shift[k] / unit,
-                  "row %d", k + 1);
+        CHECK_MAX(fabs(h.shift[k] - truth.shift[k]) / unit, h.errors->shift[k] / unit, "row %d",
+                  k + 1);
         CHECK_MAX(h.errors->shift[k] / unit, 0.02, "of a shift of 1");
         CHECK_MAX(h.errors->force_ratio[k], 1e-12, "a given force has no error");
     }
@@ -340,9 +334,8 @@ TEST(error_bars_hold_mindlin)
     release(&model, &h);
 }
 
-static int stop_in_companion(const rb_rolling_model *model,
-                             const rb_rolling_history *history, int step, int steps,
-                             void *context)
+static int stop_in_companion(const rb_rolling_model *model, const rb_rolling_history *history,
+                             int step, int steps, void *context)
 {
     (void)history;
     (void)steps;
@@ -358,10 +351,9 @@ TEST(companions_can_be_interrupted)
     rc.formulation = RB_TRANSIENT;
     rc.creep = 1e-4;
     rc.distance = 1.0;
-    CHECK_STATUS(
-        rb_rolling_history_with_errors(
-            &rc, NULL, &(rb_rolling_observer){stop_in_companion, NULL}, &model, &h, NULL),
-        RB_INTERRUPTED);
+    CHECK_STATUS(rb_rolling_history_with_errors(
+                     &rc, NULL, &(rb_rolling_observer){stop_in_companion, NULL}, &model, &h, NULL),
+                 RB_INTERRUPTED);
     assert_int_equal(h.n, 11); /* the run itself is complete */
     assert_null(h.errors);
     release(&model, &h);
@@ -379,8 +371,7 @@ TEST(every_failed_allocation_is_reported)
         rb_rolling_model model;
         rb_rolling_history h;
         alloc_fail_after(count);
-        const rb_status s =
-            rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL);
+        const rb_status s = rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)
@@ -420,8 +411,8 @@ TEST(ways_that_lead_nowhere_are_refused)
 
 /* Keeps the states of a run, which follow it to the same history; what does not fit is
  * refused. */
-static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history,
-                      int step, int steps, void *context)
+static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                      int steps, void *context)
 {
     rb_rolling_states *states = context;
     (void)history;
@@ -453,8 +444,8 @@ TEST(states_are_followed_to_the_same_history)
     rc.distance = 0.5;
     rc.increments = 2;
     run_recorded(&rc, &states, &model, &h);
-    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
-                  &why, "half-width 0: expected > 0");
+    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why), &why,
+                  "half-width 0: expected > 0");
     release(&again, &followed);
     states.half_width = h.half_width;
     if (rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why) != RB_OK)
@@ -463,8 +454,7 @@ TEST(states_are_followed_to_the_same_history)
     for (int k = 0; k < h.n; k++) {
         CHECK_ABS(followed.distance[k], h.distance[k], 1e-13, "distance of step %d", k);
         CHECK_REL(followed.normal_load[k], h.normal_load[k], 1e-13, "P of step %d", k);
-        CHECK_ABS(followed.tangential_load[k], h.tangential_load[k], 1e-13,
-                  "Q of step %d", k);
+        CHECK_ABS(followed.tangential_load[k], h.tangential_load[k], 1e-13, "Q of step %d", k);
         CHECK_ABS(followed.creepage[k], h.creepage[k], 1e-15, "xi of step %d", k);
         CHECK_ABS(followed.approach[k], h.approach[k], 0.0, "approach of step %d", k);
         CHECK_ABS(followed.dissipation[k], h.dissipation[k], 1e-12, "power of %d", k);
@@ -473,25 +463,22 @@ TEST(states_are_followed_to_the_same_history)
     }
     release(&again, &followed);
     states.p[(states.steps - 1) * states.n + states.n / 2] *= 1.01;
-    CHECK_STATUS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why), RB_OK);
     CHECK_MAX(1e-4, followed.residual[h.n - 1], "a changed state");
     CHECK_MAX(followed.residual[h.n - 2], 1e-9, "the state before");
     release(&again, &followed);
     states.steps--;
-    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
-                  &why, "steps, the program has");
+    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why), &why,
+                  "steps, the program has");
     release(&again, &followed);
     rb_rolling_case yields = rc, falls = rc;
     yields.yield_stress = 10.0;
-    check_refused(
-        rb_rolling_history_follow(&yields, &states, NULL, &again, &followed, &why), &why,
-        "whose state variables are not stored");
+    check_refused(rb_rolling_history_follow(&yields, &states, NULL, &again, &followed, &why), &why,
+                  "whose state variables are not stored");
     falls.friction.law = RB_FRICTION_linear;
     falls.friction.fall[0] = 0.1;
-    check_refused(
-        rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &why), &why,
-        "whose state variables are not stored");
+    check_refused(rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &why), &why,
+                  "whose state variables are not stored");
     release(&model, &h);
 }
 
@@ -515,9 +502,7 @@ TEST(states_of_a_ratio_are_followed)
     states.half_width = h.half_width;
     for (int k = 0; k < 2; k++) {
         const double creepage = states.xi[states.steps - 1];
-        CHECK_STATUS(
-            rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why), RB_OK);
         CHECK_ABS(followed.creepage[h.n - 1], creepage, 1e-15, "creepage");
         CHECK_REL(again.problem.xi, model.problem.xi, 1e-12, "the wanted one");
         if (k == 0)
@@ -540,8 +525,7 @@ TEST(a_row_s_friction_bounds_its_force)
     const double mu[] = {0.3, 0.1}, force[] = {0.2 * rc.load, 0.2 * rc.load};
     const rb_rolling_program program = {.n = 2, .mu = mu, .force = force};
     rc.formulation = RB_STATIC;
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "row 2"));
     release(&model, &h);
 }
@@ -561,8 +545,7 @@ TEST(friction_between_rows_bounds_the_force)
     rc.formulation = RB_STATIC;
     rc.time_step = 0.25;
     rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
     print_message("%s\n", why.text);
     assert_true(h.n > 0);
     release(&model, &h);

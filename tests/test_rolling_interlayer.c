@@ -17,8 +17,7 @@ static rb_rolling_case brushes(int n, double s)
     rc.interlayer_normal = 1e-6;
     rc.interlayer_tangential = 2e-6;
     rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
-    rc.creep =
-        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
+    rc.creep = s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
     rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
@@ -42,8 +41,7 @@ TEST(brushes_meet_their_law)
             OWNED(rb_rolling_solution) it = solved(&rc);
             CHECK_ABS(it.force_ratio, -(1.0 - gsl_pow_3(1.0 - s[k])), bound[k] * finer,
                       "n = %d, s = %g", n[j], s[k]);
-            CHECK_ABS(it.half_width, 1.0, 1e-4 * gsl_pow_2(coarse), "n = %d: half-width",
-                      n[j]);
+            CHECK_ABS(it.half_width, 1.0, 1e-4 * gsl_pow_2(coarse), "n = %d: half-width", n[j]);
             CHECK_ABS(it.stick_from, -1.0 + 2.0 * s[k], 2.0 / n[j] + 1e-3,
                       "n = %d, s = %g: start of stick", n[j], s[k]);
             CHECK_MAX(it.residual, 1e-10, "residual");

@@ -19,14 +19,13 @@ TEST(each_element_has_the_coefficient_of_its_slip)
         const double v = fabs(s->lambda[i]) / model.problem.e_T[i] * rc.speed;
         if (s->p[i] == 0.0)
             continue;
-        CHECK_MAX(fabs(s->q[i]),
-                  falling_mu(&rc, v) * s->p[i] + 1e-8 * model.problem.stress,
+        CHECK_MAX(fabs(s->q[i]), falling_mu(&rc, v) * s->p[i] + 1e-8 * model.problem.stress,
                   "bound of %d", i);
         if (s->zone[i] == RB_ZONE_STICK)
             continue;
         slides++;
-        CHECK_ABS(fabs(s->q[i]), falling_mu(&rc, v) * s->p[i],
-                  1e-8 * model.problem.stress, "friction of %d", i);
+        CHECK_ABS(fabs(s->q[i]), falling_mu(&rc, v) * s->p[i], 1e-8 * model.problem.stress,
+                  "friction of %d", i);
     }
     assert_true(slides > 3);
     CHECK_MAX(s->residual, 1e-10, "residual");
@@ -56,8 +55,7 @@ TEST(warm_elements_have_another_coefficient)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.0, 1.0);
     rc.creep_ratio = 2.0;
-    rc.heat_a = (rb_rolling_heat){
-        .conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
     rc.heat_b.temperature = 20.0;
     rc.friction.heat = -0.1;
     rc.friction.heat_from = 20.5;
@@ -103,8 +101,8 @@ TEST(kappa_is_slope_times_answer)
                 v[i] = w[i] / largest;
         }
         CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
-        CHECK_REL(kappa, slope * largest / model.problem.e_T[0], steady ? 1e-12 : 1e-6,
-                  "steady %d", steady);
+        CHECK_REL(kappa, slope * largest / model.problem.e_T[0], steady ? 1e-12 : 1e-6, "steady %d",
+                  steady);
         CHECK_ABS(s.kappa, kappa, 0.0, "of the solution");
     }
 }
@@ -181,8 +179,7 @@ TEST(the_largest_force_is_that_of_a_scan)
     rb_rolling_solution_free(&s);
     const char *from = strstr(why.text, "the largest is ");
     assert_non_null(from);
-    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at),
-                     2);
+    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_REL(told, -largest, 5e-3, "largest force");
     CHECK_ABS(at, place, 1.5e-4, "its creepage");
     rc.force = 0.99 * told;
@@ -212,8 +209,7 @@ TEST(steep_laws_are_solved_in_few_steps)
     static const double scale[] = {4.0, 1.0, 0.4, 0.2};
     for (int k = 0; k < 4; k++)
         for (int steady = 0; steady < 2; steady++) {
-            rb_rolling_case rc =
-                falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
+            rb_rolling_case rc = falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
             rc.creep_ratio = 0.6;
             rc.steps = steady ? 0 : 3;
             OWNED(rb_rolling_solution) s = solved(&rc);
@@ -312,8 +308,7 @@ TEST(several_solutions_are_told_apart)
         for (int j = 0; j < k; j++) {
             double difference = 0.0;
             for (int i = 0; i < model.state.n; i++)
-                difference =
-                    fmax(difference, fabs(all.solution[k].q[i] - all.solution[j].q[i]));
+                difference = fmax(difference, fabs(all.solution[k].q[i] - all.solution[j].q[i]));
             assert_true(difference > 1e-6 * 0.4 * model.problem.stress);
         }
     }
@@ -333,8 +328,7 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     const char *from = strstr(why.text, "the largest is ");
     assert_non_null(from);
-    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at),
-                     2);
+    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_MAX(1e3, at, "creepage");
     CHECK_REL(told, -500.0 * (0.2 - 0.1 / (1.0 + at * rc.speed / 40.0)), 1e-6,
               "everything slides at that speed");

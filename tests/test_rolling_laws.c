@@ -43,11 +43,9 @@ static double by_formula(const rb_rolling_case *rc, double v)
     const double *m = rc->friction.fall, *s = rc->friction.slip_scale;
     switch (rc->friction.law) {
     case RB_FRICTION_exponential:
-        return rc->mu + m[0] * exp(-log(2.0) * v / s[0]) +
-               m[1] * exp(-log(2.0) * v / s[1]);
+        return rc->mu + m[0] * exp(-log(2.0) * v / s[0]) + m[1] * exp(-log(2.0) * v / s[1]);
     case RB_FRICTION_rational:
-        return rc->mu + m[0] * s[0] / (s[0] + v) +
-               m[1] * s[1] * s[1] / (s[1] * s[1] + v * v);
+        return rc->mu + m[0] * s[0] / (s[0] + v) + m[1] * s[1] * s[1] / (s[1] * s[1] + v * v);
     default:
         return rc->mu + (v < 2.0 * s[0] ? m[0] - 0.5 * m[0] * v / s[0] : 0.0) +
                (v < 2.0 * s[1] ? m[1] - 0.5 * m[1] * v / s[1] : 0.0);
@@ -56,8 +54,7 @@ static double by_formula(const rb_rolling_case *rc, double v)
 
 /* (K1) to (K3) with the coefficients that the slip of each element gives, upstream to
  * downstream with memory; `before`: of the particles before a step. */
-static void check_state(const rb_rolling_model *model, const double *before,
-                        const char *what)
+static void check_state(const rb_rolling_model *model, const double *before, const char *what)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *s = &model->state;
@@ -68,18 +65,16 @@ static void check_state(const rb_rolling_model *model, const double *before,
     assert_non_null(gap);
     rb_contact_kinematics(p, s, gap, slip);
     for (int i = p->n - 1; i >= 0; i--) {
-        const double v =
-            s->zone[i] == RB_ZONE_STICK ? 0.0 : fabs(slip[i]) / p->e_T[i] * V;
+        const double v = s->zone[i] == RB_ZONE_STICK ? 0.0 : fabs(slip[i]) / p->e_T[i] * V;
         const double now = by_formula(model->rc, v), small = 1e-9 * p->stress;
         const double upstream = before ? before[i] : mu;
         mu = s->p[i] == 0.0 ? rest : now;
         if (f->memory > 0.0 && s->p[i] > 0.0)
-            mu += (upstream - now) *
-                  exp(-fmax(v, f->memory_slip) * p->e_T[i] / V / f->memory);
-        CHECK_ABS((p->bound[i] - mu) * (s->p[i] > 0.0 ? s->p[i] / p->stress : 1.0), 0.0,
-                  1e-10, "%s: mu of element %d", what, i);
-        CHECK_ABS(fmin(gap[i] / p->gap_length, s->p[i] / p->stress), 0.0, 1e-9,
-                  "%s: contact %d", what, i);
+            mu += (upstream - now) * exp(-fmax(v, f->memory_slip) * p->e_T[i] / V / f->memory);
+        CHECK_ABS((p->bound[i] - mu) * (s->p[i] > 0.0 ? s->p[i] / p->stress : 1.0), 0.0, 1e-10,
+                  "%s: mu of element %d", what, i);
+        CHECK_ABS(fmin(gap[i] / p->gap_length, s->p[i] / p->stress), 0.0, 1e-9, "%s: contact %d",
+                  what, i);
         assert_true(fabs(s->q[i]) <= mu * s->p[i] + small);
         if (fabs(s->q[i]) < mu * s->p[i] - small)
             CHECK_ABS(slip[i], 0.0, 1e-9 * p->slip_length, "%s: stick %d", what, i);
@@ -92,8 +87,8 @@ static void check_state(const rb_rolling_model *model, const double *before,
 /* Every law, with and without memory, on every mesh, by matrices and by transforms. */
 TEST(coefficients_follow_from_the_slip)
 {
-    static const rb_rolling_friction_law laws[] = {
-        RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
+    static const rb_rolling_friction_law laws[] = {RB_FRICTION_exponential, RB_FRICTION_rational,
+                                                   RB_FRICTION_linear};
     for (int k = 0; k < 3; k++)
         for (int mesh = 0; mesh < 4; mesh++)
             for (int memory = 0; memory < 2; memory++) {
@@ -113,8 +108,7 @@ TEST(coefficients_follow_from_the_slip)
                 if (mesh == 3 && (k > 0 || memory))
                     continue;
                 OWNED(rb_rolling_model) model = solved_model(&rc);
-                snprintf(what, sizeof what, "law %d, mesh %d, memory %d", k, mesh,
-                         memory);
+                snprintf(what, sizeof what, "law %d, mesh %d, memory %d", k, mesh, memory);
                 check_state(&model, NULL, what);
             }
 }
@@ -126,8 +120,7 @@ TEST(ratios_refer_to_the_largest_coefficient)
     OWNED(rb_rolling_solution) s;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     CHECK_REL(s.force_ratio, s.tangential_load / (0.3 * s.normal_load), 1e-12, "ratio");
-    CHECK_REL(s.creep_ratio, rc.creep * 460.0 / (0.3 * s.hertz_half_width), 1e-12,
-              "creep ratio");
+    CHECK_REL(s.creep_ratio, rc.creep * 460.0 / (0.3 * s.hertz_half_width), 1e-12, "creep ratio");
     CHECK_REL(s.mu[s.n - 1], 0.3, 1e-14, "mu at rest");
     const double slope = 0.12 * log(2.0) / 100.0;
     CHECK_REL(s.kappa, 45000.0 * slope * 495.0 * 1.0491 / 113889.0, 5e-3, "kappa");
@@ -198,10 +191,9 @@ TEST(curves_have_two_branches)
             rc.contact_elements = 60;
         }
         rc.creep = NAN;
-        CHECK_STATUS(
-            rb_rolling_curve_solve(
-                &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS}, &c, &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_curve_solve(
+                         &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS}, &c, &why),
+                     RB_OK);
         assert_int_equal(c.n, 2 * POINTS);
         assert_int_equal(c.rising, POINTS);
         for (int i = 0; i < c.n; i++) {
@@ -254,8 +246,8 @@ TEST(one_element_more_may_stick)
  * bodies whose pressure and friction are coupled. */
 TEST(steep_laws_are_solved)
 {
-    static const rb_rolling_friction_law laws[] = {
-        RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
+    static const rb_rolling_friction_law laws[] = {RB_FRICTION_exponential, RB_FRICTION_rational,
+                                                   RB_FRICTION_linear};
     for (int k = 0; k < 9; k++) {
         rb_rolling_case rc = rail(4.8 / (1 + k % 3)); /* kappa = 2.5 ... 7.5 */
         double kappa;
@@ -315,10 +307,9 @@ TEST(branches_outlive_their_mesh)
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 60;
     rc.creep = NAN;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13},
-                               &c, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13},
+                                        &c, &why),
+                 RB_OK);
     for (int i = 0; i < c.n; i++) {
         CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
         widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));
@@ -404,8 +395,7 @@ TEST(a_force_is_met_on_the_rising_branch)
  * the law alone would leave one. */
 static rb_rolling_case wheel_on_layer(void)
 {
-    static const double worn_x[] = {-0.9, -0.3, 0.2, 0.8},
-                        worn_depth[] = {0.0, 2e-4, 3e-4, 0.0};
+    static const double worn_x[] = {-0.9, -0.3, 0.2, 0.8}, worn_depth[] = {0.0, 2e-4, 3e-4, 0.0};
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.support = RB_BEM_HUB;
     rc.b.support = RB_BEM_HALFPLANE;
@@ -478,8 +468,7 @@ TEST(the_largest_force_is_told)
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
     const char *largest = strstr(why.text, "the largest is ");
     assert_non_null(largest);
-    assert_int_equal(
-        sscanf(largest, "the largest is %lf N/mm, at creepage %lf", &force, &at), 2);
+    assert_int_equal(sscanf(largest, "the largest is %lf N/mm, at creepage %lf", &force, &at), 2);
     CHECK_REL(force, -754.453, 1e-5, "largest force");
     rc.force = NAN;
     for (int k = -1; k <= 1; k++) {
@@ -498,10 +487,8 @@ TEST(a_force_is_met_from_beyond_free_rolling)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.poisson = 0.0;
-    rc.b = (rb_rolling_body){.young = 900000.0,
-                             .poisson = -0.5,
-                             .radius = INFINITY,
-                             .support = RB_BEM_HALFPLANE};
+    rc.b = (rb_rolling_body){
+        .young = 900000.0, .poisson = -0.5, .radius = INFINITY, .support = RB_BEM_HALFPLANE};
     rc.elastic_b = 1;
     rc.approach = 0.01;
     rc.formulation = RB_STEADY;
@@ -530,8 +517,8 @@ typedef struct {
     int n;
 } steps_seen;
 
-static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, int step,
-                    int steps, void *context)
+static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, int step, int steps,
+                    void *context)
 {
     steps_seen *seen = context;
     const int n = model->mesh.n;
@@ -563,8 +550,7 @@ TEST(steps_remember_their_friction)
         rc.formulation = RB_TRANSIENT;
         rc.distance = 6.0;
         rc.a.datum = rc.b.datum = 10.0; /* stiff, so that it is steady soon */
-        CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
-                                            &(rb_rolling_observer){see_step, &seen},
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){see_step, &seen},
                                             &model, &history, &why),
                      RB_OK);
         if (memory) /* without it the steps jump between solutions */
@@ -590,9 +576,8 @@ static rb_rolling_case on_its_way(int coupled, rb_rolling_formulation formulatio
     return rc;
 }
 
-static rb_rolling_history run_of(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program, rb_rolling_step *see,
-                                 void *context, rb_rolling_model *model)
+static rb_rolling_history run_of(const rb_rolling_case *rc, const rb_rolling_program *program,
+                                 rb_rolling_step *see, void *context, rb_rolling_model *model)
 {
     const rb_rolling_observer observer = {see, context};
     rb_rolling_history history;
@@ -607,10 +592,9 @@ TEST(a_column_of_one_mu_is_that_mu)
 {
     static const double load[] = {800.0, 2500.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.004, 0.008, -0.002},
-                        creep[] = {0.0, 0.001, 0.0003, 0.0005},
-                        distance[] = {0.0, 0.3, 0.7, 1.1}, mu[] = {0.2, 0.2, 0.2, 0.2};
-    for (int k = 0; k < 6;
-         k++) { /* at rest, rolling, with friction that falls; B twice */
+                        creep[] = {0.0, 0.001, 0.0003, 0.0005}, distance[] = {0.0, 0.3, 0.7, 1.1},
+                        mu[] = {0.2, 0.2, 0.2, 0.2};
+    for (int k = 0; k < 6; k++) { /* at rest, rolling, with friction that falls; B twice */
         rb_rolling_case rc = on_its_way(k % 2, k < 2 ? RB_STATIC : RB_TRANSIENT);
         rb_rolling_program program = {.n = 4, .load = load};
         rb_rolling_model model[2];
@@ -655,8 +639,8 @@ typedef struct {
     int steps, slips;
 } way_seen;
 
-static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, int step,
-                   int steps, void *context)
+static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, int step, int steps,
+                   void *context)
 {
     way_seen *seen = context;
     const rb_rolling_program *program = seen->program;
@@ -700,8 +684,7 @@ TEST(steps_have_the_friction_of_their_way)
     static const double load[] = {3000.0, 3000.0, 3000.0, 3000.0, 3000.0},
                         shift[] = {0.0, 0.005, 0.005, 0.005, -0.004},
                         creep[] = {0.001, 0.001, 0.001, 0.001, 0.001},
-                        distance[] = {0.0, 0.3, 0.5, 0.8, 1.5},
-                        mu[] = {0.3, 0.3, 0.1, 0.4, 0.05};
+                        distance[] = {0.0, 0.3, 0.5, 0.8, 1.5}, mu[] = {0.3, 0.3, 0.1, 0.4, 0.05};
     for (int k = 0; k < 4; k++) {
         const int rolls = k >= 2;
         rb_rolling_case rc = on_its_way(k % 2, rolls ? RB_TRANSIENT : RB_STATIC);
@@ -736,8 +719,7 @@ TEST(steps_have_the_friction_of_their_way)
  * is with friction that falls with the slip, whose kinetic limit the column is. */
 TEST(friction_that_has_changed_becomes_steady)
 {
-    static const double mu[] = {0.3, 0.3, 0.15, 0.15},
-                        distance[] = {0.0, 1.0, 1.01, 12.0};
+    static const double mu[] = {0.3, 0.3, 0.15, 0.15}, distance[] = {0.0, 1.0, 1.01, 12.0};
     for (int falls = 0; falls < 2; falls++) {
         rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
         const rb_rolling_program program = {.n = 4, .distance = distance, .mu = mu};
@@ -771,29 +753,23 @@ TEST(bad_ways_are_refused)
     rb_rolling_model model;
     rb_rolling_history h;
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
     assert_string_equal(why.text, "history: row 2: mu: expected a number >= 0, got -0.1");
-    rc.friction =
-        (rb_rolling_friction){.law = RB_FRICTION_table, .table = {1, &place, mu}};
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_table, .table = {1, &place, mu}};
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "a column mu cannot be combined with a table"));
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
-    static const double less[] = {0.1, 0.3}, load[] = {100.0, 12500.0},
-                        force[] = {10.0, 3700.0};
+    static const double less[] = {0.1, 0.3}, load[] = {100.0, 12500.0}, force[] = {10.0, 3700.0};
     const rb_rolling_program between = {
         .n = 2, .distance = distance, .mu = less, .load = load, .force = force};
-    CHECK_STATUS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "step 2: force Q = "));
     assert_non_null(strstr(why.text, "friction carries at most mu P = "));
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&h);
     rc.force = 800.0; /* mu P becomes 0 */
     program.mu = distance;
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "history: row 1: force"));
 }
 
@@ -811,9 +787,8 @@ TEST(a_step_has_two_starts)
         SCRATCH double *w = rb_alloc(2 * (size_t)m, 1), *before = rb_alloc((size_t)n, 1);
         rb_message why = {""};
         assert_true(w && before);
-        CHECK_STATUS(
-            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+                     RB_OK);
         const rb_rolling_past past = {.w_T = w + m + 1, .step = 0.1};
         memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
         rb_contact_problem_free(&model.problem);
@@ -821,8 +796,8 @@ TEST(a_step_has_two_starts)
         case_of_model(&model)->creep = 0.001;
         case_of_model(&model)->friction.start = start ? &sliding : NULL;
         model.carried.mu = before;
-        CHECK_STATUS(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies,
-                                               &past, &model.problem, &why),
+        CHECK_STATUS(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies, &past,
+                                               &model.problem, &why),
                      RB_OK);
         const rb_status s = rb_rolling_model_resolve(&model, 1, &why);
         if (s != RB_OK)
@@ -855,10 +830,8 @@ static rb_rolling_case warm(double creep_ratio)
     rc.creep_ratio = creep_ratio;
     rc.heat_a = rc.heat_b = steel;
     rc.mu = 0.3;
-    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant,
-                                        .heat = -0.18,
-                                        .heat_from = 20.0,
-                                        .heat_range = 400.0};
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_constant, .heat = -0.18, .heat_from = 20.0, .heat_range = 400.0};
     return rc;
 }
 
@@ -877,8 +850,8 @@ TEST(warm_surfaces_have_another_friction)
         assert_true(s.max_temperature > 25.0);
         for (int i = 0; i < s.n; i++) {
             const double part = (s.temperature[i] - 20.0) / 400.0;
-            const double mu = 0.3 + rc.friction.heat *
-                                        (s.p[i] > 0.0 ? fmin(fmax(part, 0.0), 1.0) : 0.0);
+            const double mu =
+                0.3 + rc.friction.heat * (s.p[i] > 0.0 ? fmin(fmax(part, 0.0), 1.0) : 0.0);
             CHECK_ABS(s.mu[i], mu, 1e-9, "case %d, element %d", k, i);
         }
         if (k % 3 == 2) /* full sliding */

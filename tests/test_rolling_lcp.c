@@ -25,8 +25,7 @@ static rb_rolling_model dissimilar_model(int load_given, int force_given)
     return model;
 }
 
-static double weighted(int n, const double *a, const double *x, const double *b,
-                       const double *y)
+static double weighted(int n, const double *a, const double *x, const double *b, const double *y)
 {
     double sum = 0.0;
     for (int i = 0; i < n; i++)
@@ -50,8 +49,8 @@ static void check_controls(const rb_contact_problem *p, const rb_contact_lcp *lc
                   1e-10 * P, "force");
 }
 
-static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                       const double *z, const double *w)
+static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
+                       const double *w)
 {
     const int n = p->n;
     const double o = lcp->mirrored ? -1.0 : 1.0;
@@ -66,32 +65,30 @@ static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
         CHECK_ABS(w[i] * lcp->w_scale[i], gap[i], 1e-9 * p->gap_length, "gap %d", i);
         if (lcp->form == RB_LCP_PIVOTED) {
             const double nu = z[2 * n + i] * lcp->z_scale[2 * n + i];
-            CHECK_ABS(w[n + i] * lcp->w_scale[n + i], o * slip[i] + nu,
-                      1e-9 * p->slip_length, "slip %d", i);
+            CHECK_ABS(w[n + i] * lcp->w_scale[n + i], o * slip[i] + nu, 1e-9 * p->slip_length,
+                      "slip %d", i);
             CHECK_ABS(w[2 * n + i] * lcp->w_scale[2 * n + i], o > 0 ? minus : plus,
                       1e-10 * p->stress, "margin %d", i);
-            CHECK_ABS(z[n + i] * lcp->z_scale[n + i], o > 0 ? plus : minus,
-                      1e-10 * p->stress, "other margin %d", i);
+            CHECK_ABS(z[n + i] * lcp->z_scale[n + i], o > 0 ? plus : minus, 1e-10 * p->stress,
+                      "other margin %d", i);
         } else {
             const int k = n + 2 * i;
-            CHECK_ABS(p->slip_length * (z[k] - z[k + 1]), slip[i], 1e-8 * p->slip_length,
-                      "slip %d", i);
+            CHECK_ABS(p->slip_length * (z[k] - z[k + 1]), slip[i], 1e-8 * p->slip_length, "slip %d",
+                      i);
             CHECK_ABS(w[k] * lcp->w_scale[k], plus, 1e-9 * p->stress, "margin + %d", i);
-            CHECK_ABS(w[k + 1] * lcp->w_scale[k + 1], minus, 1e-9 * p->stress,
-                      "margin - %d", i);
+            CHECK_ABS(w[k + 1] * lcp->w_scale[k + 1], minus, 1e-9 * p->stress, "margin - %d", i);
         }
     }
     check_controls(p, lcp, &s, w);
     free(gap);
 }
 
-static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
-                       int mirrored)
+static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form, int mirrored)
 {
     OWNED(rb_contact_lcp) lcp;
-    CHECK_STATUS(rb_contact_lcp_create(&model->problem, form, mirrored,
-                                       mirrored ? 1e-3 : -1e-3, &lcp, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_contact_lcp_create(&model->problem, form, mirrored, mirrored ? 1e-3 : -1e-3, &lcp, NULL),
+        RB_OK);
     double *z = rb_alloc((size_t)lcp.size, 2), *w = z + lcp.size;
     for (int i = 0; i < lcp.size; i++)
         z[i] = rand() / (double)RAND_MAX;

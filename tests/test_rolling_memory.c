@@ -12,20 +12,18 @@ static double moment_of(const rb_rolling_solution *s)
     double M = 0.0;
     for (int i = 0; i < s->n; i++)
         M += s->x[i] * s->p[i] * s->h[i];
-    CHECK_ABS(s->resistance_moment, M, 1e-13 * s->normal_load * s->half_width,
-              "resistance_moment");
+    CHECK_ABS(s->resistance_moment, M, 1e-13 * s->normal_load * s->half_width, "resistance_moment");
     return M;
 }
 
 /* What creepage and resistance feed is lost in friction and in the bodies. */
-static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                         double bound, const char *what)
+static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s, double bound,
+                         const char *what)
 {
     const double R = 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
     const double fed = moment_of(s) / R - s->creepage * s->tangential_load;
     CHECK_REL(s->dissipation + s->hysteresis, fed, bound, "%s: energy", what);
-    CHECK_REL(s->resistance_ratio, moment_of(s) / (s->normal_load * R), 1e-13, "%s",
-              what);
+    CHECK_REL(s->resistance_ratio, moment_of(s) / (s->normal_load * R), 1e-13, "%s", what);
 }
 
 /* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */
@@ -126,8 +124,8 @@ TEST(a_free_axle_is_turned_by_friction)
         rc.free_axle = 1;
         choose_solver(k, &rc);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
-        CHECK_ABS(s.tangential_load, -moment_of(&s) / rc.a.radius,
-                  1e-10 * rc.mu * s.normal_load, "solver %d: Q = -M/R", k);
+        CHECK_ABS(s.tangential_load, -moment_of(&s) / rc.a.radius, 1e-10 * rc.mu * s.normal_load,
+                  "solver %d: Q = -M/R", k);
         if (k > 2)
             check_energy(&rc, &s, 1e-3, "free axle");
         assert_true(s.residual < 1e-9);
@@ -161,8 +159,8 @@ TEST(only_the_axle_of_a_is_free)
         CHECK_ABS(s.torque_a, 0.0, 1e-10 * s.normal_load * rc.a.radius, "case %d: A", k);
         CHECK_REL(Q, -M / rc.a.radius, 1e-9, "case %d: Q = -M/R_A", k);
         CHECK_REL(s.torque_b, M - Q * R, 1e-12, "case %d: B", k);
-        CHECK_REL(s.torque_b / R, M * (1.0 / R + 1.0 / rc.a.radius), 1e-9,
-                  "case %d: B drives both", k);
+        CHECK_REL(s.torque_b / R, M * (1.0 / R + 1.0 / rc.a.radius), 1e-9, "case %d: B drives both",
+                  k);
         CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_OK);
         CHECK_ABS(c.torque_a[0], 0.0, 1e-10 * s.normal_load * rc.a.radius, "curve");
         CHECK_REL(c.torque_b[0], s.torque_b, 1e-6, "case %d: curve", k);
@@ -178,10 +176,9 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rb_message why = {""};
     rb_rolling_case rc = hunter(1.0, 1.0, 40);
     int turns = 0;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS},
-                               &c, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS},
+                                        &c, &why),
+                 RB_OK);
     assert_int_equal(c.n, POINTS);
     for (int k = 1; k + 1 < POINTS; k++) {
         CHECK_REL(c.speed[k] / c.speed[k - 1], sqrt(10.0), 1e-12, "point %d", k);
@@ -192,13 +189,13 @@ TEST(resistance_has_a_maximum_over_the_speed)
     CHECK_REL(c.resistance_moment[4], 0.2621595 * c.normal_load[4], 1e-5, "Hunter");
     CHECK_REL(c.hysteresis[4], c.resistance_moment[4] / rc.a.radius, 1e-3, "energy");
     rb_rolling_curve_free(&c);
-    CHECK_STATUS(rb_rolling_curve_solve(
-                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, &c, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, &c, &why),
+        RB_EINVAL);
     rc.a.memory.n = 0;
-    CHECK_STATUS(rb_rolling_curve_solve(
-                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, &c, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, &c, &why),
+        RB_EINVAL);
 }
 
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
@@ -211,11 +208,10 @@ TEST(speed_has_its_limits)
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         const double wide = fast ? 1.0 : sqrt(1.0 + f);
         CHECK_REL(s.half_width, wide, 1e-3, "fast %d", fast);
-        CHECK_REL(s.max_pressure, 2.0 * s.normal_load / (M_PI * wide), 2e-3, "fast %d",
-                  fast);
+        CHECK_REL(s.max_pressure, 2.0 * s.normal_load / (M_PI * wide), 2e-3, "fast %d", fast);
         const double L = rc.a.memory.time[0],
-                     moment = fast ? f / (2.0 * L) * (log(2.0 * L) + 0.25 - M_EULER)
-                                   : f * L / (1.0 + f);
+                     moment =
+                         fast ? f / (2.0 * L) * (log(2.0 * L) + 0.25 - M_EULER) : f * L / (1.0 + f);
         CHECK_REL(moment_of(&s) / s.normal_load, moment, 2e-2, "fast %d", fast);
     }
 }
@@ -248,11 +244,10 @@ static rb_rolling_case two_cylinders(double tau)
 
 TEST(contacts_figures_are_met)
 {
-    static const contact_row want[4] = {
-        {0.009, 1.36501e-2, 78.737, 2.36732, 913.55, 62, 37},
-        {2.0, 9.9451e-3, 85.299, 1.30047, 1010.3, 56, 35},
-        {1e-12, 1.37836e-2, 60.314, 2.50844, 1437.85, 80, 51},
-        {INFINITY, 9.7916e-3, 85.288, 1.32372, NAN, 56, 36}};
+    static const contact_row want[4] = {{0.009, 1.36501e-2, 78.737, 2.36732, 913.55, 62, 37},
+                                        {2.0, 9.9451e-3, 85.299, 1.30047, 1010.3, 56, 35},
+                                        {1e-12, 1.37836e-2, 60.314, 2.50844, 1437.85, 80, 51},
+                                        {INFINITY, 9.7916e-3, 85.288, 1.32372, NAN, 56, 36}};
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = two_cylinders(want[k].tau);
         if (isinf(want[k].tau)) /* its elastic case */
@@ -265,12 +260,9 @@ TEST(contacts_figures_are_met)
         rb_rolling_mesh_free(&mesh);
         rb_rolling_case grid = rc;
         grid.contact_elements = 99;
-        CHECK_STATUS(rb_rolling_mesh_uniform(&grid, NULL, -8.0, 7.84, &mesh, NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_mesh_uniform(&grid, NULL, -8.0, 7.84, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&grid, NULL, &mesh, &bodies, NULL), RB_OK);
-        CHECK_STATUS(
-            rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, &problem, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, &problem, NULL), RB_OK);
         CHECK_STATUS(rb_contact_state_alloc(99, &s), RB_OK);
         CHECK_STATUS(rb_rolling_problem_solve(&problem, &grid, 0, &s, NULL), RB_OK);
         int contact = 0, stick = 0;
@@ -285,8 +277,7 @@ TEST(contacts_figures_are_met)
         CHECK_REL(p_max, want[k].p_max, 5e-4, "tau %g: p_max", want[k].tau);
         CHECK_REL(s.delta, want[k].approach, 2e-4, "tau %g: approach", want[k].tau);
         if (!isnan(want[k].power))
-            CHECK_REL(power * grid.speed, want[k].power, 1e-3, "tau %g: power",
-                      want[k].tau);
+            CHECK_REL(power * grid.speed, want[k].power, 1e-3, "tau %g: power", want[k].tau);
         assert_int_equal(contact, want[k].contact);
         assert_int_equal(stick, want[k].stick);
         rb_rolling_mesh_free(&mesh);
@@ -314,8 +305,7 @@ TEST(thick_layers_have_their_series)
             OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = layered(1.0 / ratio, nu[k], 200);
             CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
-            const double a = s.half_width, d = rc.a.layer,
-                         E = rc.a.young / (1.0 - nu[k] * nu[k]),
+            const double a = s.half_width, d = rc.a.layer, E = rc.a.young / (1.0 - nu[k] * nu[k]),
                          hertz = M_PI * E * a * a / (4.0 * rc.a.radius);
             CHECK_REL(s.normal_load * (1.0 - c1[k] * a * a / (d * d)), hertz,
                       2.0 * gsl_pow_4(ratio) + 2e-4, "nu %g, a/d %g", nu[k], ratio);
@@ -379,12 +369,11 @@ TEST(layers_must_be_resolved)
         rc.increments = steps == 1 ? 3 : 1;
         rc.creep = steps == 1 ? NAN : 0.0;
         rb_rolling_curve curve;
-        CHECK_STATUS(
-            steps == 2
-                ? rb_rolling_curve_solve(
-                      &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 1e-3, 2}, &curve, &why)
-                : rb_rolling_solve(&rc, &s[0], &why),
-            RB_EINVAL);
+        CHECK_STATUS(steps == 2
+                         ? rb_rolling_curve_solve(
+                               &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 1e-3, 2}, &curve, &why)
+                         : rb_rolling_solve(&rc, &s[0], &why),
+                     RB_EINVAL);
         if (steps == 2)
             rb_rolling_curve_free(&curve);
         const char *take = strstr(why.text, "take ");
@@ -435,8 +424,7 @@ TEST(incompressible_covers_stretch_in_the_nip)
         rc.creep = NAN;
         rc.force = 0.0;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
-        CHECK_ABS(s.creepage * rc.a.radius / 2.0, want[k], 4e-3 * want[k] + 4e-4,
-                  "mu = %g", mu[k]);
+        CHECK_ABS(s.creepage * rc.a.radius / 2.0, want[k], 4e-3 * want[k] + 4e-4, "mu = %g", mu[k]);
     }
 }
 
@@ -491,9 +479,8 @@ TEST(all_solvers_agree)
 /* What friction cannot turn, and what does not go with it. */
 TEST(bad_axles_are_refused)
 {
-    static const char *const word[4] = {"more than friction carries",
-                                        "steady rolling only", "expected mu > 0",
-                                        "excludes"};
+    static const char *const word[4] = {"more than friction carries", "steady rolling only",
+                                        "expected mu > 0", "excludes"};
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = hunter(2.0, 0.8, 40);
         OWNED(rb_rolling_solution) s = {0};
@@ -520,10 +507,8 @@ TEST(bad_bodies_are_refused)
         rb_rolling_formulation formulation;
         const char *word;
     } bad[] = {
-        {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY,
-         "relaxation-time: expected a number > 0"},
-        {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY,
-         "relaxation-ratio: expected a number >= 0"},
+        {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "relaxation-time: expected a number > 0"},
+        {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "relaxation-ratio: expected a number >= 0"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_STEADY, "speed"},
         {1, 1, 1, 0, RB_BEM_ARC, RB_STEADY, "halfplane"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_TRANSIENT, "speed"},

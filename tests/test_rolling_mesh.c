@@ -35,8 +35,8 @@ TEST(equal_elements_are_equal_along_the_surface)
     CHECK_REL(mesh.ends[7], 30.0, 1e-14, "last end");
     const double arc = 50.0 * (asin(0.6) - asin(-0.4)) / 7.0;
     for (int i = 0; i <= 7; i++)
-        CHECK_REL(50.0 * (asin(mesh.ends[i + 1] / 50.0) - asin(mesh.ends[i] / 50.0)), arc,
-                  1e-13, "arc %d", i);
+        CHECK_REL(50.0 * (asin(mesh.ends[i + 1] / 50.0) - asin(mesh.ends[i] / 50.0)), arc, 1e-13,
+                  "arc %d", i);
     rb_rolling_mesh_free(&mesh);
 }
 
@@ -45,8 +45,7 @@ TEST(meshes_stay_on_the_lower_half)
     rb_rolling_mesh mesh;
     rb_message why;
     rb_rolling_case rc = rb_rolling_case_defaults();
-    check_refused(rb_rolling_mesh_uniform(&rc, NULL, 1.0, 1.0, &mesh, &why), &why,
-                  "is empty");
+    check_refused(rb_rolling_mesh_uniform(&rc, NULL, 1.0, 1.0, &mesh, &why), &why, "is empty");
     check_refused(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 50.0, &mesh, &why), &why,
                   "wider than the radius, 50 mm");
     check_refused(rb_rolling_mesh_uniform(&rc, NULL, -50.0, 1.0, &mesh, &why), &why,
@@ -54,8 +53,7 @@ TEST(meshes_stay_on_the_lower_half)
     rc.contact_elements = 3;
     check_refused(rb_rolling_mesh_uniform(&rc, NULL, -49.0, 49.0, &mesh, &why), &why,
                   "no room for the element before it");
-    check_refused(rb_rolling_mesh_fitted(&rc, NULL, 2.0, 1.0, &mesh, &why), &why,
-                  "is empty");
+    check_refused(rb_rolling_mesh_fitted(&rc, NULL, 2.0, 1.0, &mesh, &why), &why, "is empty");
 }
 
 /* ---- The gap ----------------------------------------------------------------------- */
@@ -79,8 +77,7 @@ TEST(fitted_elements_meet_both_edges)
     }
     CHECK_REL(length(&mesh, 32), 1.5 * length(&mesh, 31), 1e-12, "before the mesh");
     for (int i = 0; i < mesh.n; i++)
-        CHECK_REL(mesh.gap[i],
-                  rb_rolling_initial_gap(&rc, 0.5 * (mesh.ends[i] + mesh.ends[i + 1])),
+        CHECK_REL(mesh.gap[i], rb_rolling_initial_gap(&rc, 0.5 * (mesh.ends[i] + mesh.ends[i + 1])),
                   1e-14, "gap %d", i);
 }
 
@@ -107,20 +104,16 @@ TEST(a_result_has_the_elements_of_its_mesh)
         double x[32], h[32];
         rc.a.support = k % 2 ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         if (k < 2)
-            CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -7.0, 9.0, &mesh, NULL),
-                         RB_OK);
+            CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -7.0, 9.0, &mesh, NULL), RB_OK);
         else
-            CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -7.0, 9.0, &mesh, NULL),
-                         RB_OK);
+            CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -7.0, 9.0, &mesh, NULL), RB_OK);
         for (int i = 0; i < mesh.n; i++) {
             const double y[2] = {k % 2 ? sqrt(2500.0 - gsl_pow_2(mesh.ends[i])) : 0.0,
-                                 k % 2 ? sqrt(2500.0 - gsl_pow_2(mesh.ends[i + 1]))
-                                       : 0.0};
+                                 k % 2 ? sqrt(2500.0 - gsl_pow_2(mesh.ends[i + 1])) : 0.0};
             x[i] = 0.5 * (mesh.ends[i] + mesh.ends[i + 1]);
             h[i] = hypot(length(&mesh, i), y[1] - y[0]); /* chords of the wheel */
         }
-        const rb_rolling_elements elements = {
-            .n = mesh.n, .x = x, .h = h, .are_equal = k < 2};
+        const rb_rolling_elements elements = {.n = mesh.n, .x = x, .h = h, .are_equal = k < 2};
         CHECK_STATUS(rb_rolling_mesh_of_result(&rc, &elements, &again, NULL), RB_OK);
         assert_int_equal(again.n, mesh.n);
         for (int i = 0; i <= mesh.n + 1; i++)

@@ -22,8 +22,8 @@ TEST(elements_are_fitted_to_every_patch)
     assert_int_equal(s.equal_instead, 0);
     for (int k = 0; k < 3; k++) {
         const double a = 0.5 * (s.patch[k].to - s.patch[k].from);
-        CHECK_REL(s.patch[k].normal_load, M_PI * 94500.0 / 0.99 * a * a / (4.0 * 10.0),
-                  0.02, "patch %d", k);
+        CHECK_REL(s.patch[k].normal_load, M_PI * 94500.0 / 0.99 * a * a / (4.0 * 10.0), 0.02,
+                  "patch %d", k);
         CHECK_ABS(s.patch[k].peak, x[k], 0.02, "patch %d", k);
     }
     assert_true(s.patch[0].normal_load > s.patch[1].normal_load &&
@@ -154,18 +154,14 @@ TEST(mirrored_tables_have_mirrored_contacts)
             assert_int_equal(s[1].equal_instead, s[0].equal_instead);
             for (int i = 0; i < n; i++) {
                 const int j = n - 1 - i;
-                CHECK_ABS(s[1].x[j], -s[0].x[i], 1e-7, "%d %d: x of %d", (int)k, fitted,
-                          i);
-                CHECK_ABS(s[1].p[j], s[0].p[i], 1e-5 * p0, "%d %d: p of %d", (int)k,
-                          fitted, i);
-                CHECK_ABS(s[1].q[j], -s[0].q[i], 1e-5 * p0, "%d %d: q of %d", (int)k,
-                          fitted, i);
+                CHECK_ABS(s[1].x[j], -s[0].x[i], 1e-7, "%d %d: x of %d", (int)k, fitted, i);
+                CHECK_ABS(s[1].p[j], s[0].p[i], 1e-5 * p0, "%d %d: p of %d", (int)k, fitted, i);
+                CHECK_ABS(s[1].q[j], -s[0].q[i], 1e-5 * p0, "%d %d: q of %d", (int)k, fitted, i);
             }
             CHECK_ABS(s[1].contact_from, -s[0].contact_to, 1e-6, "left end");
             CHECK_ABS(s[1].stick_from, -s[0].stick_to, 1e-6, "stick");
             for (int i = 0; i < patches; i++) {
-                const rb_rolling_patch *a = &s[0].patch[i],
-                                       *b = &s[1].patch[patches - 1 - i];
+                const rb_rolling_patch *a = &s[0].patch[i], *b = &s[1].patch[patches - 1 - i];
                 CHECK_ABS(b->from, -a->to, 1e-6, "patch %d", i);
                 CHECK_ABS(b->peak, -a->peak, 1e-6, "its peak, %d", i);
                 CHECK_REL(b->normal_load, a->normal_load, 1e-6, "its load, %d", i);
@@ -219,8 +215,7 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
         rb_rolling_solution_free(&s);
         const char *at = strstr(why.text, "half-width ");
         assert_non_null(at);
-        assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide),
-                         2);
+        assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
         CHECK_REL(wide, side < 0 ? -from : to, 1e-3, "side %d", side);
         assert_true(wide > 3.0);
         bumps_free(t);

@@ -42,11 +42,8 @@ static int see_nothing(int k, const rb_rolling_row *row, void *context)
 
 static rb_rolling_sweep of(int count, int workers, unsigned also)
 {
-    return (rb_rolling_sweep){.count = count,
-                              .workers = workers,
-                              .also = also,
-                              .make = make,
-                              .see = see_nothing};
+    return (rb_rolling_sweep){
+        .count = count, .workers = workers, .also = also, .make = make, .see = see_nothing};
 }
 
 static rb_rolling_row row_of(rb_rolling_pool *pool, int k)
@@ -98,8 +95,8 @@ TEST(rows_have_what_is_asked_for)
         else
             assert_true(isnan(row.errors.scalar.approach));
         if (also == 3)
-            CHECK_REL(row.errors.stress.von_mises.value, errors.stress.von_mises.value,
-                      1e-9, "bar of Mises");
+            CHECK_REL(row.errors.stress.von_mises.value, errors.stress.von_mises.value, 1e-9,
+                      "bar of Mises");
         else
             assert_true(isnan(row.errors.stress.von_mises.value));
     }
@@ -126,8 +123,8 @@ TEST(refused_cases_have_their_status)
  * two are the case's. */
 TEST(a_case_is_lost_with_its_second_worker)
 {
-    int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
-                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    int *deaths =
+        mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     assert_true(deaths != MAP_FAILED);
     for (int k = 0; k < 2; k++) {
         rb_rolling_sweep sweep = of(8, 1, 0);
@@ -268,8 +265,7 @@ static rb_status pretended_submit(rb_rolling_pool *pool, int k)
     return RB_OK;
 }
 
-static int pretended_collect(rb_rolling_pool *pool, int milliseconds, int *k,
-                             rb_rolling_row *row)
+static int pretended_collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
 {
     pretended *p = (pretended *)(void *)pool;
     (void)milliseconds;

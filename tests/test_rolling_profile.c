@@ -151,8 +151,8 @@ TEST(smoothing_does_not_know_left_from_right)
     rb_rolling_profile *other = profile_of(N, u[1], g[1], 0.015);
     for (int i = 0; i < 3 * N; i++) {
         const double at = -8.0 + 0.12 * i;
-        CHECK_REL(rb_rolling_profile_gap(other, -at), rb_rolling_profile_gap(one, at),
-                  1e-8, "x = %g", at);
+        CHECK_REL(rb_rolling_profile_gap(other, -at), rb_rolling_profile_gap(one, at), 1e-8,
+                  "x = %g", at);
     }
     rb_rolling_profile_free(one);
     rb_rolling_profile_free(other);
@@ -174,15 +174,14 @@ TEST(the_spline_passes_through_its_points)
         const double at_end = rb_rolling_profile_gap(profile, end);
         const double one = rb_rolling_profile_gap(profile, end + side) - at_end;
         const double step = rb_rolling_profile_gap(profile, end - 1e-6 * side) - at_end;
-        CHECK_REL(rb_rolling_profile_gap(profile, end + 7.0 * side) - at_end, 7.0 * one,
-                  1e-12, "straight");
+        CHECK_REL(rb_rolling_profile_gap(profile, end + 7.0 * side) - at_end, 7.0 * one, 1e-12,
+                  "straight");
         CHECK_REL(one, -1e6 * step, 1e-4, "slope at the end");
     }
     rb_rolling_profile_free(profile);
 }
 
-static void check_refused(int n, const double *u, const double *g, double noise,
-                          const char *text)
+static void check_refused(int n, const double *u, const double *g, double noise, const char *text)
 {
     rb_rolling_profile *profile;
     rb_message why = {""};

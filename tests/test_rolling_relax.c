@@ -75,8 +75,7 @@ static double relaxation_modulus(const rb_rolling_memory *memory, double t)
     const double dt = t / STEPS;
     double v[RB_ROLLING_TERMS] = {0.0}, p = 1.0;
     if (memory->n == 1)
-        return (1.0 +
-                memory->ratio[0] * exp(-(1.0 + memory->ratio[0]) * t / memory->time[0])) /
+        return (1.0 + memory->ratio[0] * exp(-(1.0 + memory->ratio[0]) * t / memory->time[0])) /
                (1.0 + memory->ratio[0]);
     for (int k = 0; k < STEPS; k++)
         for (int half = 0; half < 2; half++) { /* Heun's half of a step, twice */
@@ -105,10 +104,8 @@ static const struct {
 
 TEST(a_held_approach_relaxes)
 {
-    static const double time[2] = {0.0, 1.5}, approach[2] = {0.5, 0.5},
-                        shift[2] = {0.02, 0.02};
-    const rb_rolling_program program = {
-        .n = 2, .time = time, .approach = approach, .shift = shift};
+    static const double time[2] = {0.0, 1.5}, approach[2] = {0.5, 0.5}, shift[2] = {0.02, 0.02};
+    const rb_rolling_program program = {.n = 2, .time = time, .approach = approach, .shift = shift};
     for (size_t c = 0; c < sizeof held / sizeof *held; c++) {
         double error[2];
         for (int j = 0; j < 2; j++) {
@@ -131,13 +128,11 @@ TEST(a_held_approach_relaxes)
             error[j] = 0.0;
             for (int k = 0; k < h.n; k++) {
                 const double want = relaxation_modulus(&rc.a.memory, h.time[k]);
-                error[j] =
-                    fmax(error[j], fabs(h.normal_load[k] / h.normal_load[0] - want));
+                error[j] = fmax(error[j], fabs(h.normal_load[k] / h.normal_load[0] - want));
                 CHECK_REL(h.tangential_load[k] / h.tangential_load[0],
-                          h.normal_load[k] / h.normal_load[0], 1e-7, "%s: Q, step %d",
-                          held[c].name, k);
-                CHECK_ABS(h.contact_to[k], h.contact_to[0], element, "%s: edge",
-                          held[c].name);
+                          h.normal_load[k] / h.normal_load[0], 1e-7, "%s: Q, step %d", held[c].name,
+                          k);
+                CHECK_ABS(h.contact_to[k], h.contact_to[0], element, "%s: edge", held[c].name);
             }
         }
         CHECK_MAX(error[1], 4.0 * held[c].bound, "%s: P(t)", held[c].name);
@@ -163,9 +158,8 @@ static double held_pressure(double E, double P, double t)
     double p = 0.0;
     for (int k = 0; k <= STEPS; k++) {
         const double s = (k - 0.5) * dt, age = k > 0 ? t - s : t;
-        const double grown =
-            k > 0 ? held_width(E, P, s + 0.5 * dt) - held_width(E, P, s - 0.5 * dt)
-                  : held_width(E, P, 0.0);
+        const double grown = k > 0 ? held_width(E, P, s + 0.5 * dt) - held_width(E, P, s - 0.5 * dt)
+                                   : held_width(E, P, 0.0);
         p += E / (1.0 + F) * (1.0 + F * exp(-(1.0 + F) * age / TAU)) * grown;
     }
     return p / (2.0 * 50.0);
@@ -175,8 +169,7 @@ static double held_pressure(double E, double P, double t)
 static double complementary_energy(const rb_rolling_case *rc, double softer, double P)
 {
     const double E = modulus(rc) / softer, d = 2.0 * 50.0 / M_E;
-    return (0.5 * P * P * (log(d * d * M_PI * E / (50.0 * P)) + 1.0) + 0.25 * P * P) /
-           (M_PI * E);
+    return (0.5 * P * P * (log(d * d * M_PI * E / (50.0 * P)) + 1.0) + 0.25 * P * P) / (M_PI * E);
 }
 
 /* Half-width, pressure and, when all has relaxed, the work that the dashpots have taken:
@@ -195,22 +188,21 @@ TEST(a_held_load_creeps)
             const double want = held_width(modulus(&rc), 100.0, h.time[k]);
             CHECK_ABS(0.5 * (h.contact_to[k] - h.contact_from[k]), want, 1.25 * element,
                       "n %d: half-width at %g s", n, h.time[k]);
-            CHECK_REL(h.max_pressure[k], held_pressure(modulus(&rc), 100.0, h.time[k]),
-                      2e-3, "n %d: p0 at %g s", n, h.time[k]);
+            CHECK_REL(h.max_pressure[k], held_pressure(modulus(&rc), 100.0, h.time[k]), 2e-3,
+                      "n %d: p0 at %g s", n, h.time[k]);
             CHECK_REL(h.normal_load[k], 100.0, 1e-10, "load");
         }
-        const double lost = complementary_energy(&rc, 1.0 + F, 100.0) -
-                            complementary_energy(&rc, 1.0, 100.0);
+        const double lost =
+            complementary_energy(&rc, 1.0 + F, 100.0) - complementary_energy(&rc, 1.0, 100.0);
         CHECK_REL(h.lost_work[h.n - 1], lost, 1e-3 / (1 << j), "n %d: lost work", n);
         CHECK_REL(100.0 * (h.approach[h.n - 1] - h.approach[0]) - lost,
                   (100.0 * h.approach[h.n - 1] - complementary_energy(&rc, 1 + F, 100)) -
                       (100.0 * h.approach[0] - complementary_energy(&rc, 1.0, 100)),
                   1e-9, "the same said twice");
-        CHECK_REL(
-            h.approach[0],
-            100.0 / (M_PI * modulus(&rc)) *
-                (2.0 * log(4.0 * 50.0 / M_E / held_width(modulus(&rc), 100, 0)) + 1),
-            1e-3, "approach at once");
+        CHECK_REL(h.approach[0],
+                  100.0 / (M_PI * modulus(&rc)) *
+                      (2.0 * log(4.0 * 50.0 / M_E / held_width(modulus(&rc), 100, 0)) + 1),
+                  1e-3, "approach at once");
     }
 }
 
@@ -236,14 +228,12 @@ static double load_of(double t, double t1)
     for (int k = 0; k < STEPS; k++) {
         const double from = t1 * k / STEPS, to = t1 * (k + 1) / STEPS;
         const double age = t - 0.5 * (from + to);
-        P += (1.0 + F * exp(-(1.0 + F) * age / TAU)) / (1.0 + F) *
-             (grown(to) - grown(from));
+        P += (1.0 + F * exp(-(1.0 + F) * age / TAU)) / (1.0 + F) * (grown(to) - grown(from));
     }
     return P;
 }
 
-static double bisected(double (*f)(double, double), double t, double want, double from,
-                       double to)
+static double bisected(double (*f)(double, double), double t, double want, double from, double to)
 {
     for (int k = 0; k < 60; k++) {
         const double middle = 0.5 * (from + to);
@@ -278,8 +268,7 @@ TEST(an_unloaded_contact_shrinks)
             const double t = h.time[k];
             const double t1 = t < widest ? t : bisected(load_of, t, 2.0 - t, 0.0, widest);
             const double got = 0.5 * (h.contact_to[k] - h.contact_from[k]);
-            CHECK_ABS(got, sqrt(scale * grown(t1)), element, "n %d: half-width at %g s",
-                      n, t);
+            CHECK_ABS(got, sqrt(scale * grown(t1)), element, "n %d: half-width at %g s", n, t);
             CHECK_MAX(got, a + element, "n %d: no wider than at %g s", n, widest);
         }
         assert_true(h.lost_work[h.n - 1] > 0.0);
@@ -317,8 +306,7 @@ TEST(limits_are_elastic)
         for (int k = 0; k < 5; k++) {
             if (kind == 1 && (k == 0 || k == 2))
                 continue;
-            CHECK_REL(h[0].approach[k], h[1].approach[k], 1e-9, "kind %d, step %d", kind,
-                      k);
+            CHECK_REL(h[0].approach[k], h[1].approach[k], 1e-9, "kind %d, step %d", kind, k);
             if (kind != 1)
                 CHECK_ABS(h[0].tangential_load[k], h[1].tangential_load[k], 1e-8 * 30.0,
                           "kind %d, step %d", kind, k);
@@ -331,8 +319,7 @@ TEST(limits_are_elastic)
 /* Which of the bodies relaxes: seen from the other one, friction is of the other sign. */
 TEST(bodies_may_change_places)
 {
-    static const double time[4] = {0.0, 0.5, 1.0, 2.0},
-                        load[4] = {50.0, 100.0, 100.0, 30.0};
+    static const double time[4] = {0.0, 0.5, 1.0, 2.0}, load[4] = {50.0, 100.0, 100.0, 30.0};
     const rb_rolling_program program = {.n = 4, .time = time, .load = load};
     rb_rolling_case rc = relaxing(40);
     rb_rolling_model model[2];
@@ -346,8 +333,7 @@ TEST(bodies_may_change_places)
     rc.b.young = 3000.0;
     rc.b.poisson = 0.4;
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model[k], &h[k], NULL),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model[k], &h[k], NULL), RB_OK);
         const rb_rolling_body a = rc.a;
         rc.a = rc.b;
         rc.b = a;
@@ -407,13 +393,12 @@ TEST(rolling_becomes_steady)
             rc.formulation = RB_STEADY;
             rc.contact_elements = model.mesh.n;
             CHECK_STATUS(rb_rolling_solve_between(&rc, model.mesh.ends[0],
-                                                  model.mesh.ends[model.mesh.n], &s,
-                                                  &why),
+                                                  model.mesh.ends[model.mesh.n], &s, &why),
                          RB_OK);
             const int last = h.n - 1;
             error[j] = fabs(h.moment[last] / s.resistance_moment - 1.0);
-            CHECK_REL(h.tangential_load[last], s.tangential_load, 2e-3 / (1 << 2 * j),
-                      "n %d: Q", rc.contact_elements);
+            CHECK_REL(h.tangential_load[last], s.tangential_load, 2e-3 / (1 << 2 * j), "n %d: Q",
+                      rc.contact_elements);
             CHECK_REL(h.creepage[last], s.creepage, 4e-3 / (1 << 2 * j), "n %d: xi",
                       rc.contact_elements);
             CHECK_REL(h.approach[last], s.approach, 4e-4 / (1 << 2 * j), "approach");
@@ -476,8 +461,8 @@ TEST(many_elements_tell_the_same)
     for (int k = 0; k < h[0].n; k++) {
         CHECK_REL(h[1].approach[k], h[0].approach[k], 1e-4, "step %d", k);
         CHECK_REL(h[1].max_pressure[k], h[0].max_pressure[k], 1e-3, "step %d", k);
-        CHECK_ABS(h[1].lost_work[k], h[0].lost_work[k], 1e-3 * h[0].lost_work[2] + 1e-9,
-                  "step %d", k);
+        CHECK_ABS(h[1].lost_work[k], h[0].lost_work[k], 1e-3 * h[0].lost_work[2] + 1e-9, "step %d",
+                  k);
     }
     for (int k = 0; k < 2; k++)
         rb_rolling_history_free(&h[k]);
@@ -521,8 +506,7 @@ TEST(bad_programs_are_refused)
         }
         if (bad[k].hub)
             rc.a.support = RB_BEM_HUB;
-        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
         if (!strstr(why.text, bad[k].word))
             fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
     }
@@ -562,8 +546,8 @@ TEST(every_failing_allocation_is_noticed)
             OWNED(rb_rolling_model) model;
             OWNED(rb_rolling_history) h;
             alloc_fail_after(count);
-            const rb_status s = rb_rolling_history_run(&rc, rolls ? NULL : &program, NULL,
-                                                       &model, &h, NULL);
+            const rb_status s =
+                rb_rolling_history_run(&rc, rolls ? NULL : &program, NULL, &model, &h, NULL);
             refused = alloc_failed();
             alloc_succeed();
             if (refused && s == RB_OK)
@@ -589,8 +573,7 @@ TEST(what_fades_is_known_to_rounding)
             after = 1.0L + expm1l(-(long double)r) / r;
         CHECK_REL(f.kept, exp(-r), 1e-14, "kept, r = %g", r);
         CHECK_REL(f.after, (double)after, 1e-13, "after, r = %g", r);
-        CHECK_REL(f.before, (double)(-expm1l(-(long double)r) - after), 2e-13,
-                  "before, r = %g", r);
+        CHECK_REL(f.before, (double)(-expm1l(-(long double)r) - after), 2e-13, "before, r = %g", r);
         CHECK_ABS(f.kept + f.before + f.after, 1.0, 1e-15, "sum, r = %g", r);
     }
 }
@@ -627,9 +610,8 @@ TEST(a_step_that_relaxes_too_much_is_said)
         rc.time_step = 0.1;
         const double step = rolls ? 2.0 * rb_rolling_derive(&rc).half_width / 20.0 : 0.1;
         rc.a.memory = (rb_rolling_memory){1, {steps[k].tau * step}, {10.0}};
-        CHECK_STATUS(
-            rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL),
+                     RB_OK);
         CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
         const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
         const double left = h.normal_load[1] / h.normal_load[0];

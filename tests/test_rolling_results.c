@@ -28,15 +28,13 @@ TEST(a_creep_curve_is_carters)
     rb_rolling_case rc = wheel_on_plane(0.5);
     OWNED(rb_rolling_curve) c;
     rc.contact_elements = 100;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL),
+                 RB_OK);
     assert_int_equal(c.n, 49);
     for (int k = 0; k < c.n; k++) {
         const double s = c.creep_ratio[k];
         CHECK_ABS(s, -1.2 + 0.05 * k, 1e-12, "point %d", k);
-        CHECK_ABS(c.force_ratio[k], -(s < 0 ? -1 : 1) * carter(fabs(s)), 1.5e-4, "s = %g",
-                  s);
+        CHECK_ABS(c.force_ratio[k], -(s < 0 ? -1 : 1) * carter(fabs(s)), 1.5e-4, "s = %g", s);
         CHECK_ABS(c.stick_ratio[k], fmax(0.0, 1.0 - fabs(s)), 0.016, "s = %g", s);
         CHECK_MAX(c.residual[k], 1e-10, "s = %g", s);
     }
@@ -51,9 +49,7 @@ TEST(the_stick_ratio_is_one_of_lengths)
     OWNED(rb_rolling_curve) c;
     OWNED(rb_rolling_solution) s;
     rc.contact_elements = 100;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL), RB_OK);
     CHECK_ABS(c.stick_ratio[0], 0.9, 0.01, "s = 0.1");
     rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.1;
@@ -72,17 +68,15 @@ TEST(a_curve_agrees_with_single_solves)
     OWNED(rb_rolling_curve) c;
     rc.mesh = RB_MESH_UNIFORM;
     rc.zone = 1.6 * rc.half_width;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL),
+                 RB_OK);
     for (int k = 0; k < c.n; k++) {
         OWNED(rb_rolling_solution) s;
         rc.formulation = RB_STEADY;
         rc.creep = c.creepage[k];
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_ABS(c.force_ratio[k], s.force_ratio, 1e-10, "xi = %g", c.creepage[k]);
-        CHECK_ABS(c.dissipation[k], s.dissipation, 1e-10 * s.normal_load, "xi = %g",
-                  c.creepage[k]);
+        CHECK_ABS(c.dissipation[k], s.dissipation, 1e-10 * s.normal_load, "xi = %g", c.creepage[k]);
     }
 }
 
@@ -90,22 +84,19 @@ TEST(bad_curves_are_refused)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, NAN, 5}, &c, NULL),
-        RB_EINVAL);
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 0}, &c, NULL),
-        RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, NAN, 5}, &c, NULL),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 0}, &c, NULL),
+                 RB_EINVAL);
     rc.mu = 0.0;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 5}, &c, NULL),
-        RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 5}, &c, NULL),
+                 RB_EINVAL);
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */
 
-static void check_extremum(const char *name, rb_rolling_extremum got, double value,
-                           double x, double y, double p0, double a)
+static void check_extremum(const char *name, rb_rolling_extremum got, double value, double x,
+                           double y, double p0, double a)
 {
     CHECK_REL(got.value, value * p0, 3e-3, "%s, value", name);
     CHECK_ABS(fabs(got.x), x * a, 1e-2 * a, "%s, x", name);
@@ -196,8 +187,8 @@ TEST(the_surface_carries_the_tractions)
         CHECK_STATUS(rb_rolling_stress_at(&model, 1, xy, &s, NULL), RB_OK);
         CHECK_ABS(s.syy, -model.state.p[i], 1e-10 * model.problem.stress, "syy at %d", i);
         CHECK_ABS(s.sxy, -model.state.q[i], 1e-10 * model.problem.stress, "sxy at %d", i);
-        CHECK_ABS(s.principal_1 + s.principal_2, s.sxx + s.syy,
-                  1e-10 * model.problem.stress, "trace");
+        CHECK_ABS(s.principal_1 + s.principal_2, s.sxx + s.syy, 1e-10 * model.problem.stress,
+                  "trace");
     }
     const double above[] = {0.0, -1e-3};
     rb_rolling_stress s;
@@ -296,17 +287,15 @@ TEST(error_bars_of_curves_hold_the_truth)
         tally t = {.wide = fitted ? 20.0 : 10.0};
         rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.contact_elements = 80;
-        CHECK_STATUS(rb_rolling_curve_with_errors(&rc,
-                                                  &(rb_rolling_range){0, 0.03, 0.97, 100},
+        CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.03, 0.97, 100},
                                                   NULL, NULL, &c, &e, NULL),
                      RB_OK);
         assert_int_equal(e.n, 100);
         for (int k = 0; k < c.n; k++)
-            tally_count(&t, c.force_ratio[k] + carter(c.creep_ratio[k]),
-                        e.force_ratio[k]);
+            tally_count(&t, c.force_ratio[k] + carter(c.creep_ratio[k]), e.force_ratio[k]);
         for (int k = 0; k < c.n; k++)
-            CHECK_ABS(c.stick_ratio[k], 1.0 - c.creep_ratio[k], e.stick_ratio[k],
-                      "stick at s = %g", c.creep_ratio[k]);
+            CHECK_ABS(c.stick_ratio[k], 1.0 - c.creep_ratio[k], e.stick_ratio[k], "stick at s = %g",
+                      c.creep_ratio[k]);
         tally_check(&t, fitted ? "fitted" : "uniform");
     }
 }
@@ -323,8 +312,7 @@ TEST(refinement_reaches_the_accuracy)
     CHECK_ABS(s.force_ratio, -0.64, 1e-3, "Q with %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1e-3, "its estimate");
     rb_rolling_solution_free(&s);
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 2.0, &s, &e, &elements, NULL),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 2.0, &s, &e, &elements, NULL), RB_EINVAL);
     rc.contact_elements = 5;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_EINVAL);
 }
@@ -336,8 +324,7 @@ static void check_names(const rb_rolling_results *table)
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
         assert_true(r->name && *r->name && r->meaning && *r->meaning);
-        assert_true(strlen(rb_rolling_heading(r, RB_UNITS_MM, heading)) + 1 <
-                    RB_ROLLING_HEADING);
+        assert_true(strlen(rb_rolling_heading(r, RB_UNITS_MM, heading)) + 1 < RB_ROLLING_HEADING);
         for (int i = 0; i < k; i++)
             assert_string_not_equal(table->row[i].name, r->name);
     }
@@ -381,8 +368,8 @@ TEST(every_failed_allocation_is_reported)
     for (int count = 0; refused; count++) {
         OWNED(rb_rolling_curve) c, e;
         alloc_fail_after(count);
-        const rb_status s = rb_rolling_curve_with_errors(
-            &rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, NULL, NULL, &c, &e, NULL);
+        const rb_status s = rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.1, 0.5, 3},
+                                                         NULL, NULL, &c, &e, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)
@@ -458,8 +445,7 @@ TEST(no_result_knows_its_unit)
     for (int k = 0; k < 7; k++)
         for (int u = 0; u < 2; u++) {
             const double length = units[u][0], stress = units[u][1];
-            const rb_rolling_case rc = case_of_any_kind(k),
-                                  other = in_units(rc, length, stress);
+            const rb_rolling_case rc = case_of_any_kind(k), other = in_units(rc, length, stress);
             OWNED(rb_rolling_solution) s, t;
             rb_message why = {""};
             if (rb_rolling_solve(&rc, &s, &why) != RB_OK ||
@@ -474,15 +460,13 @@ TEST(no_result_knows_its_unit)
                 if (r->kind == RB_RESULT_SECONDS || isnan(factor) ||
                     strcmp(r->name, "iterations") == 0)
                     continue;
-                const double size =
-                    fmax(fabs(a), factor == 1.0      ? 1.0
-                                  : factor == length ? one[0]
-                                  : factor == stress ? one[1]
-                                                     : one[2] * fmin(1.0, one[0]));
+                const double size = fmax(fabs(a), factor == 1.0      ? 1.0
+                                                  : factor == length ? one[0]
+                                                  : factor == stress ? one[1]
+                                                                     : one[2] * fmin(1.0, one[0]));
                 assert_int_equal(!isnan(a), !isnan(b));
                 if (!isnan(a))
-                    CHECK_ABS(b / factor, a, 1e-8 * size, "case %d, units %d: %s", k, u,
-                              r->name);
+                    CHECK_ABS(b / factor, a, 1e-8 * size, "case %d, units %d: %s", k, u, r->name);
             }
             for (int i = 0; i < s.n; i++) {
                 CHECK_ABS(t.x[i] / length, s.x[i], 1e-8 * one[0], "%d: x of %d", k, i);

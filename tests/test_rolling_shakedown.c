@@ -54,8 +54,8 @@ static rb_rolling_case sliding(double mu)
     return rc;
 }
 
-static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit,
-                          double *p0, rb_message *why)
+static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit, double *p0,
+                          rb_message *why)
 {
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;

@@ -64,10 +64,10 @@ static rb_status curve_over(rb_rolling_variable over, double from, double to, ta
 {
     const rb_rolling_range range = {.over = over, .from = from, .to = to, .points = 2};
     rb_rolling_curve curve, errors;
-    const rb_status s = t->rc.contact_elements < 12
-                            ? rb_rolling_curve_solve(&t->rc, &range, &curve, &t->why)
-                            : rb_rolling_curve_with_errors(&t->rc, &range, NULL, NULL,
-                                                           &curve, &errors, &t->why);
+    const rb_status s =
+        t->rc.contact_elements < 12
+            ? rb_rolling_curve_solve(&t->rc, &range, &curve, &t->why)
+            : rb_rolling_curve_with_errors(&t->rc, &range, NULL, NULL, &curve, &errors, &t->why);
     rb_rolling_curve_free(&curve);
     if (t->rc.contact_elements >= 12)
         rb_rolling_curve_free(&errors);
@@ -88,8 +88,7 @@ static rb_status history(void *context)
 {
     task *t = context;
     OWNED(rb_rolling_history) h;
-    const rb_status s =
-        rb_rolling_history_with_errors(&t->rc, NULL, NULL, &t->model, &h, &t->why);
+    const rb_status s = rb_rolling_history_with_errors(&t->rc, NULL, NULL, &t->model, &h, &t->why);
     rb_rolling_model_free(&t->model);
     return s;
 }
@@ -100,8 +99,7 @@ static rb_status history_in_time(void *context)
     static const rb_rolling_program program = {.n = 2, .time = time, .load = load};
     task *t = context;
     OWNED(rb_rolling_history) h;
-    const rb_status s =
-        rb_rolling_history_run(&t->rc, &program, NULL, &t->model, &h, &t->why);
+    const rb_status s = rb_rolling_history_run(&t->rc, &program, NULL, &t->model, &h, &t->why);
     rb_rolling_model_free(&t->model);
     return s;
 }
@@ -116,15 +114,13 @@ static rb_status wear_by(const rb_rolling_wear *wear, task *t)
 
 static rb_status slide(void *context)
 {
-    const rb_rolling_wear wear = {
-        .slides = 1, .coefficient = 1e-8, .way = 1e4, .steps = 2};
+    const rb_rolling_wear wear = {.slides = 1, .coefficient = 1e-8, .way = 1e4, .steps = 2};
     return wear_by(&wear, context);
 }
 
 static rb_status fret(void *context)
 {
-    const rb_rolling_wear wear = {
-        .coefficient = 1e-8, .way = 10.0, .steps = 1, .increments = 1};
+    const rb_rolling_wear wear = {.coefficient = 1e-8, .way = 10.0, .steps = 1, .increments = 1};
     return wear_by(&wear, context);
 }
 
@@ -261,8 +257,7 @@ static void fail_all(const char *name, rb_status (*work)(void *), rb_rolling_cas
     t = (task){.rc = rc};
     if (work(&t) != RB_OK)
         fail_msg("%s: %s", name, t.why.text);
-    print_message("# %s: %d more failures of memory\n", name,
-                  alloc_fail_every_call(work, &t));
+    print_message("# %s: %d more failures of memory\n", name, alloc_fail_every_call(work, &t));
 }
 
 #define FAIL(work, ...) fail_all(#work ", " #__VA_ARGS__, work, __VA_ARGS__)
@@ -357,11 +352,10 @@ TEST(bytes_are_those_of_the_documentation)
 {
     rb_rolling_case rc = few(RB_STEADY, 40);
     const double n = 40.0;
-    CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * (6.0 * n * n + 3600.0 + 12.0 * n),
-              1e-15, "Newton, all tractions");
-    CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 20),
-              8.0 * (6.0 * n * n + n * n + 100.0 + 12.0 * n), 1e-15,
-              "Newton, half as many elements");
+    CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * (6.0 * n * n + 3600.0 + 12.0 * n), 1e-15,
+              "Newton, all tractions");
+    CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 20), 8.0 * (6.0 * n * n + n * n + 100.0 + 12.0 * n),
+              1e-15, "Newton, half as many elements");
     rc.elastic_b = 1;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 0), 64.0 * n * n, 1e-15,
               "two bodies while they are added");
@@ -371,28 +365,26 @@ TEST(bytes_are_those_of_the_documentation)
     CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 32.0 * n * n, 1e-12,
               "what a memory adds to a wheel");
     rolls.b.memory = rolls.a.memory;
-    CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 64.0 * n * n, 1e-12,
-              "to two bodies");
+    CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 64.0 * n * n, 1e-12, "to two bodies");
     rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 24.0 * n * n, 1e-15, "Lemke");
     rc.contact.lcp_form = RB_LCP_KWAK;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 31.0 * n * n, 1e-15, "Kwak");
     rc.contact.solver = RB_SOLVER_AUTO;
     rc.a.poisson = 0.3;
-    CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 816.0 * RB_ROLLING_LARGE,
-              1e-15, "unlike bodies without a matrix");
+    CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 816.0 * RB_ROLLING_LARGE, 1e-15,
+              "unlike bodies without a matrix");
     rc.b = rc.a;
     rc.b.radius = INFINITY;
-    CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 616.0 * RB_ROLLING_LARGE,
-              1e-15, "similar ones");
+    CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 616.0 * RB_ROLLING_LARGE, 1e-15,
+              "similar ones");
     rc = few(RB_STATIC, 40);
     rc.a.support = RB_BEM_HUB;
     const double both = rb_bem_system_bytes(200, 40);
     CHECK_REL(rb_rolling_bytes(&rc, 40, 200, 0), both, 1e-15, "a wheel");
-    CHECK_REL(
-        rb_rolling_bytes(&rc, 40, 200, 400),
-        both + 8.0 * (6.0 * n * n + 160000.0 + 12.0 * n - 4.0 * 200.0 * n - 4.0 * n * n),
-        1e-15, "where the contact needs more");
+    CHECK_REL(rb_rolling_bytes(&rc, 40, 200, 400),
+              both + 8.0 * (6.0 * n * n + 160000.0 + 12.0 * n - 4.0 * 200.0 * n - 4.0 * n * n),
+              1e-15, "where the contact needs more");
 }
 
 RUN_TESTS(NULL, NULL)

@@ -12,8 +12,7 @@ TEST(the_parts_of_the_time_are_within_the_whole)
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 40;
     rb_rolling_solution s = solved(&rc);
-    const double part[] = {s.seconds_assembly, s.seconds_factor, s.seconds_condense,
-                           s.seconds_lcp};
+    const double part[] = {s.seconds_assembly, s.seconds_factor, s.seconds_condense, s.seconds_lcp};
     double sum = 0.0;
     for (int k = 0; k < 4; k++) {
         assert_true(part[k] > 0.0);
@@ -47,8 +46,7 @@ TEST(sums_are_those_of_the_tractions)
         CHECK_ABS(s.load_error, fabs(P - 500.0) / 500.0, 1e-13, "load error");
         CHECK_REL(s.force_ratio, Q / (0.3 * P), 1e-12, "Q/(mu P)");
         CHECK_REL(s.half_width, 0.5 * (s.contact_to - s.contact_from), 1e-14, "a");
-        CHECK_REL(s.hertz_half_width, rb_rolling_hertz_half_width(&rc, P), 1e-12,
-                  "Hertz");
+        CHECK_REL(s.hertz_half_width, rb_rolling_hertz_half_width(&rc, P), 1e-12, "Hertz");
         CHECK_REL(s.datum, 2.0 * 50.0 / exp(1.0), 1e-12, "2 R/e");
         assert_true(isnan(s.support_balance) && isnan(s.kappa) && isnan(s.peclet));
         assert_int_equal(s.boundary_elements, 0);
@@ -161,8 +159,7 @@ TEST(a_ratio_is_met_under_an_approach)
     rc.approach = 0.05;
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creep_ratio, 0.5, 1e-10, "xi R/(mu a)");
-    CHECK_REL(s.creepage,
-              0.5 * 0.3 * rb_rolling_hertz_half_width(&rc, s.normal_load) / 50.0, 1e-10,
+    CHECK_REL(s.creepage, 0.5 * 0.3 * rb_rolling_hertz_half_width(&rc, s.normal_load) / 50.0, 1e-10,
               "of the load that was found");
     CHECK_ABS(s.approach, 0.05, 0.0, "the approach");
 }
@@ -210,9 +207,8 @@ TEST(strain_energy_is_the_work_of_pressing)
     rc.contact_elements = 400;
     rb_rolling_solution s = solved(&rc);
     const double a = s.hertz_half_width;
-    CHECK_REL(s.strain_energy,
-              0.5 * s.normal_load * (s.approach - a * a / (8.0 * rc.a.radius)), 1e-4,
-              "Hertz");
+    CHECK_REL(s.strain_energy, 0.5 * s.normal_load * (s.approach - a * a / (8.0 * rc.a.radius)),
+              1e-4, "Hertz");
     CHECK_ABS(s.nip_width, s.contact_to - s.contact_from, 0.0, "nip");
     CHECK_REL(s.nip_width, 2.0 * a, 2e-2, "2a");
     rb_rolling_solution_free(&s);
@@ -232,8 +228,7 @@ TEST(strain_energy_is_the_work_of_pressing)
             load = j == 1 ? s.normal_load : load;
             rb_rolling_solution_free(&s);
         }
-        CHECK_REL((energy[2] - energy[0]) / (2.0 * 0.1 * 0.01), load, 2e-2, "support %d",
-                  k);
+        CHECK_REL((energy[2] - energy[0]) / (2.0 * 0.1 * 0.01), load, 2e-2, "support %d", k);
     }
     rc = rolled_plane(RB_STEADY);
     rc.a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};

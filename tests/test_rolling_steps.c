@@ -94,8 +94,7 @@ TEST(one_step_at_rest_is_a_static_case)
             rb_rolling_solution_free(&step);
             release(&model, &h);
             if (by_force) {
-                const rb_rolling_program rest = {
-                    .n = 1, .distance = start, .force_ratio = force};
+                const rb_rolling_program rest = {.n = 1, .distance = start, .force_ratio = force};
                 rc.creep_ratio = NAN; /* in rolling a force stands in its place */
                 one.creep_ratio = NAN;
                 rb_rolling_solution_free(&single);
@@ -165,8 +164,8 @@ typedef struct {
     double least, most;
 } spread;
 
-static int watch_stick(const rb_rolling_model *model, const rb_rolling_history *h,
-                       int step, int steps, void *context)
+static int watch_stick(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                       int steps, void *context)
 {
     spread *s = context;
     const double c = stick_part(model);
@@ -197,12 +196,10 @@ static double stick_under_a_flat_punch(int elements)
     memset(mesh.gap, 0, (size_t)mesh.n * sizeof(double));
     model.mesh = mesh;
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &model.bodies, NULL), RB_OK);
-    CHECK_STATUS(
-        rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, &model.problem, NULL),
-        RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(mesh.n, &model.state), RB_OK);
-    CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL),
+    CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, &model.problem, NULL),
                  RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(mesh.n, &model.state), RB_OK);
+    CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL), RB_OK);
     const double part = stick_part(&model);
     return part;
 }
@@ -219,8 +216,7 @@ TEST(increments_press_as_spence)
     CHECK_ABS(stick_part(&model), 0.298, 0.01, "in one step");
     rb_rolling_model_free(&model);
     rc.increments = 60;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
-                                        &(rb_rolling_observer){watch_stick, &s}, &model,
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){watch_stick, &s}, &model,
                                         &h, NULL),
                  RB_OK);
     assert_int_equal(h.n, 60);
@@ -256,8 +252,8 @@ TEST(increments_end_where_the_case_says)
         }
 }
 
-static int count_steps(const rb_rolling_model *model, const rb_rolling_history *h,
-                       int step, int steps, void *context)
+static int count_steps(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                       int steps, void *context)
 {
     (void)step;
     (void)steps;
@@ -287,8 +283,7 @@ TEST(similar_bodies_press_at_once)
         CHECK_ABS(many.q[i], one.q[i], 1e-9 * one.max_pressure, "q, element %d", i);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 0.5;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
-                                        &(rb_rolling_observer){count_steps, &at_rest},
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){count_steps, &at_rest},
                                         &model, &h, NULL),
                  RB_OK);
     assert_int_equal(at_rest, 10);
@@ -300,9 +295,8 @@ TEST(similar_bodies_press_at_once)
 
 TEST(histories_end_on_their_last_row)
 {
-    static const double distance[] = {0.0, 1.0, 2.0},
-                        up_and_down[] = {100.0, 400.0, 100.0}, force[] = {0.0, 0.5, 0.5},
-                        away[] = {0.0, 2.0}, let_go[] = {100.0, 0.01},
+    static const double distance[] = {0.0, 1.0, 2.0}, up_and_down[] = {100.0, 400.0, 100.0},
+                        force[] = {0.0, 0.5, 0.5}, away[] = {0.0, 2.0}, let_go[] = {100.0, 0.01},
                         pulled[] = {0.0, 0.5};
     const rb_rolling_program programs[] = {
         {.n = 3, .distance = distance, .load = up_and_down, .force_ratio = force},
@@ -414,8 +408,8 @@ TEST(power_and_moment_balance_when_steady)
     const int last = h.n - 1;
     assert_true(h.steady_from > 0);
     CHECK_REL(h.dissipation[last],
-              -h.creepage[last] * h.tangential_load[last] + h.moment[last] / rc.a.radius,
-              0.01, "energy");
+              -h.creepage[last] * h.tangential_load[last] + h.moment[last] / rc.a.radius, 0.01,
+              "energy");
     assert_true(h.moment[last] > 0.0);
     release(&model, &h);
 }
@@ -463,8 +457,8 @@ TEST(nothing_passes_unnoticed)
         run(&moving, NULL, &model[1], &h[1]);
         assert_int_equal(h[0].n, h[1].n);
         for (int i = 0; i < h[0].n; i++)
-            CHECK_ABS(h[1].tangential_load[i], h[0].tangential_load[i],
-                      1e-9 * h[0].normal_load[i], "kind %d, step %d", k, i);
+            CHECK_ABS(h[1].tangential_load[i], h[0].tangential_load[i], 1e-9 * h[0].normal_load[i],
+                      "kind %d, step %d", k, i);
         if (k == 2) {
             OWNED(rb_rolling_solution) steady;
             rc.formulation = RB_STEADY;
@@ -482,8 +476,8 @@ typedef struct {
     int n;
 } film;
 
-static int take(const rb_rolling_model *model, const rb_rolling_history *h, int step,
-                int steps, void *context)
+static int take(const rb_rolling_model *model, const rb_rolling_history *h, int step, int steps,
+                void *context)
 {
     film *f = context;
 
@@ -512,12 +506,10 @@ TEST(a_bump_passes_from_front_to_back)
         rc.creep = 2e-3;
         rc.distance = 6.0;
         rb_rolling_case moving = with_spot(&rc, &bump);
-        CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
-                                            &(rb_rolling_observer){take, &smooth},
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){take, &smooth},
                                             &model[0], &h[0], NULL),
                      RB_OK);
-        CHECK_STATUS(rb_rolling_history_run(&moving, NULL,
-                                            &(rb_rolling_observer){take, &bumpy},
+        CHECK_STATUS(rb_rolling_history_run(&moving, NULL, &(rb_rolling_observer){take, &bumpy},
                                             &model[1], &h[1], NULL),
                      RB_OK);
         assert_int_equal(smooth.n, bumpy.n);
@@ -534,8 +526,8 @@ TEST(a_bump_passes_from_front_to_back)
         }
         assert_true(inside > 20);
         const int last = h[1].n - 1;
-        CHECK_REL(h[1].max_pressure[last], h[0].max_pressure[last], 1e-3,
-                  "kind %d: p0 behind it", k);
+        CHECK_REL(h[1].max_pressure[last], h[0].max_pressure[last], 1e-3, "kind %d: p0 behind it",
+                  k);
         release(&model[0], &h[0]);
         release(&model[1], &h[1]);
     }
@@ -571,8 +563,8 @@ TEST(contact_may_be_lost_and_found)
     }
 }
 
-static int find_widest(const rb_rolling_model *model, const rb_rolling_history *h,
-                       int step, int steps, void *context)
+static int find_widest(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                       int steps, void *context)
 {
     double *widest = context;
 
@@ -600,8 +592,7 @@ TEST(zones_grow_with_what_passes)
     rc.force_ratio = 0.0;
     rc.distance = 12.0;
     rb_rolling_case moving = with_spot(&rc, &flat);
-    CHECK_STATUS(rb_rolling_history_run(&moving, NULL,
-                                        &(rb_rolling_observer){find_widest, &widest},
+    CHECK_STATUS(rb_rolling_history_run(&moving, NULL, &(rb_rolling_observer){find_widest, &widest},
                                         &model, &h, NULL),
                  RB_OK);
     const double a = h.half_width;
@@ -617,9 +608,8 @@ TEST(zones_grow_with_what_passes)
 
 TEST(bad_irregularities_are_refused)
 {
-    static const double x[] = {0.0, 1.0, 2.0}, back[] = {0.0, 1.0, 1.0},
-                        open[] = {0.0, 1.0, 0.5}, closed[] = {0.0, 1.0, 0.0},
-                        hole[] = {0.0, NAN, 0.0};
+    static const double x[] = {0.0, 1.0, 2.0}, back[] = {0.0, 1.0, 1.0}, open[] = {0.0, 1.0, 0.5},
+                        closed[] = {0.0, 1.0, 0.0}, hole[] = {0.0, NAN, 0.0};
     const struct {
         const char *word;
         rb_rolling_formulation formulation;
@@ -682,8 +672,7 @@ TEST(lost_contact_has_error_bars)
     rc.distance = 14.0;
     rc.steps = 20;
     const rb_rolling_case moving = with_spot(&rc, &hole);
-    CHECK_STATUS(rb_rolling_history_with_errors(&moving, NULL, NULL, &model, &h, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&moving, NULL, NULL, &model, &h, NULL), RB_OK);
     for (int i = 0; i < h.n; i++) {
         lost += h.normal_load[i] == 0.0;
         assert_true(isfinite(h.errors->dissipation[i]));

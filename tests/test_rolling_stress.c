@@ -37,8 +37,8 @@ static void check_parts(const rb_rolling_stress *s, double nu)
     CHECK_ABS(s->max_shear, radius, small, "Tresca");
     CHECK_ABS(s->hydrostatic, (s->sxx + s->syy + szz) / 3.0, small, "mean of three");
     const double a = s->principal_1, b = s->principal_2;
-    CHECK_ABS(s->von_mises, sqrt(a * a + b * b + szz * szz - a * b - b * szz - szz * a),
-              small, "Mises");
+    CHECK_ABS(s->von_mises, sqrt(a * a + b * b + szz * szz - a * b - b * szz - szz * a), small,
+              "Mises");
 }
 
 /* McEwen on the axis: sxx = -p0 [(1 + 2 y^2)/sqrt(1 + y^2) - 2 y], syy = -p0/sqrt(1+y^2).
@@ -51,8 +51,7 @@ TEST(the_axis_has_its_closed_form)
     for (int k = 1; k <= 8; k++) {
         const double y = 0.25 * k, root = sqrt(1.0 + y * y);
         const rb_rolling_stress s = at(&model, 0.0, y);
-        CHECK_ABS(s.sxx, -p0 * ((1.0 + 2.0 * y * y) / root - 2.0 * y), 2e-3 * p0,
-                  "sxx at %g", y);
+        CHECK_ABS(s.sxx, -p0 * ((1.0 + 2.0 * y * y) / root - 2.0 * y), 2e-3 * p0, "sxx at %g", y);
         CHECK_ABS(s.syy, -p0 / root, 2e-3 * p0, "syy at %g", y);
         CHECK_ABS(s.sxy, 0.0, 1e-9 * p0, "sxy at %g", y);
         check_parts(&s, 0.3);
@@ -223,14 +222,12 @@ TEST(a_grid_lies_under_the_contact)
     assert_null(grid.at);
     for (int k = 0; k < 3; k++) {
         const int nx = k == 0 ? 1 : k == 1 ? 2 : 20000, ny = k == 1 ? 1 : 20000;
-        CHECK_STATUS(rb_rolling_stress_on_grid(&model, nx, ny, 0.0, &grid, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_rolling_stress_on_grid(&model, nx, ny, 0.0, &grid, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, "grid: expected 2 x 2"));
         assert_null(grid.at);
     }
     memset(model.state.zone, 0, sizeof(int) * 60);
-    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 2, 2, 0.0, &grid, &why),
-                 RB_NO_CONTACT);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 2, 2, 0.0, &grid, &why), RB_NO_CONTACT);
     rb_rolling_stress_maxima m;
     rb_rolling_shakedown limit;
     CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, &why), RB_NO_CONTACT);
@@ -259,12 +256,10 @@ TEST(a_wheel_has_stress_up_to_its_circle)
         assert_true(circle < my);
         chords++;
         for (int k = 0; k < 2; k++) {
-            const double xy[2] = {mx, k ? circle
-                                        : circle - 0.2 * (mesh->x1[j] - mesh->x0[j])};
+            const double xy[2] = {mx, k ? circle : circle - 0.2 * (mesh->x1[j] - mesh->x0[j])};
             CHECK_STATUS(rb_rolling_inside(&model, 1, xy, &inside), RB_OK);
             assert_int_equal(inside, k);
-            assert_int_equal(rb_rolling_stress_at(&model, 1, xy, &s, &why),
-                             k ? RB_OK : RB_EINVAL);
+            assert_int_equal(rb_rolling_stress_at(&model, 1, xy, &s, &why), k ? RB_OK : RB_EINVAL);
         }
     }
     assert_true(chords > 16);
@@ -315,8 +310,8 @@ TEST(shakedown_of_a_frictionless_contact_is_sxy)
     const rb_rolling_stress s = at(&model, limit.x, limit.y);
     CHECK_ABS(0.5 * (s.sxx - s.syy) + 0.5 * limit.residual, 0.0, 5e-2 * limit.shear_yield,
               "the residual stress evens the others out");
-    CHECK_REL(hypot(0.5 * (s.sxx - s.syy + limit.residual), s.sxy), limit.shear_yield,
-              1e-9, "Mohr's circle there");
+    CHECK_REL(hypot(0.5 * (s.sxx - s.syy + limit.residual), s.sxy), limit.shear_yield, 1e-9,
+              "Mohr's circle there");
     rb_rolling_shakedown again = limit;
     again.shear_yield = NAN;
     CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_OK);
@@ -354,13 +349,11 @@ TEST(a_rigid_base_has_no_stress)
     CHECK_REL(grid.at[8].y, rc.a.layer, 1e-12, "the last row lies on the base");
     assert_false(isnan(grid.at[8].sxx));
     rb_rolling_stress_grid_free(&grid);
-    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 3, 3, 2.0 * rc.a.layer, &grid, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 3, 3, 2.0 * rc.a.layer, &grid, &why), RB_OK);
     assert_false(isnan(grid.at[5].sxx));
     assert_true(isnan(grid.at[8].sxx));
     rb_rolling_stress_grid_free(&grid);
-    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 3.0 * rc.a.layer, &m, &why),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 3.0 * rc.a.layer, &m, &why), RB_OK);
     CHECK_MAX(m.max_shear.y, rc.a.layer, "the largest shear lies in the layer");
     CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "shakedown: of one material"));

@@ -64,8 +64,7 @@ TEST(the_kernel_is_the_sum_of_its_waves)
 {
     enum { N = 5, M = N + 1 };
     static const double ratio[2] = {0.7, 2.0};
-    static const double lengths[4][2] = {
-        {0.05, 0.3}, {1.0, 20.0}, {80.0, 1000.0}, {1e-4, 1e6}};
+    static const double lengths[4][2] = {{0.05, 0.3}, {1.0, 20.0}, {80.0, 1000.0}, {1e-4, 1e6}};
     const int last = waves_of(0.027); /* of the shortest load and more */
     cplx(*memory)[4] = malloc(((size_t)last + 1) * sizeof *memory);
     assert_non_null(memory);
@@ -88,24 +87,21 @@ TEST(the_kernel_is_the_sum_of_its_waves)
                 memory_of_wave(&w, m, memory[m]);
             CHECK_STATUS(rb_bem_flexibility_surface(N, ends, &any, &f, NULL), RB_OK);
             CHECK_STATUS(rb_bem_flexibility_matrix(&f, before, 2 * M), RB_OK);
-            CHECK_STATUS(
-                rb_bem_flexibility_add_memory(&w, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
-                RB_OK);
+            CHECK_STATUS(rb_bem_flexibility_add_memory(&w, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
+                         RB_OK);
             CHECK_STATUS(rb_bem_flexibility_matrix(&f, after, 2 * M), RB_OK);
             for (int j = 0; j < N; j += 2)
                 for (int i = 0; i < M; i++) {
-                    const double from = asin(ends[j] / w.radius),
-                                 to = asin(ends[j + 1] / w.radius),
-                                 at = 0.5 * (asin(ends[i] / w.radius) +
-                                             asin(ends[i + 1] / w.radius));
+                    const double from = asin(ends[j] / w.radius), to = asin(ends[j + 1] / w.radius),
+                                 at = 0.5 *
+                                      (asin(ends[i] / w.radius) + asin(ends[i + 1] / w.radius));
                     double want[4];
-                    const int place[4] = {i + j * 2 * M, i + M + j * 2 * M,
-                                          i + (j + N) * 2 * M, i + M + (j + N) * 2 * M};
+                    const int place[4] = {i + j * 2 * M, i + M + j * 2 * M, i + (j + N) * 2 * M,
+                                          i + M + (j + N) * 2 * M};
                     sum_of_waves(memory, at - 0.5 * (from + to), 0.5 * (to - from), want);
                     for (int k = 0; k < 4; k++)
-                        worst = fmax(worst,
-                                     fabs(after[place[k]] - before[place[k]] - want[k]) *
-                                         w.material.shear / (to - from) / w.radius);
+                        worst = fmax(worst, fabs(after[place[k]] - before[place[k]] - want[k]) *
+                                                w.material.shear / (to - from) / w.radius);
                 }
             CHECK_MAX(worst, 3e-6, "kind %d, lengths %g and %g", kind, lengths[l][0],
                       lengths[l][1]);
@@ -128,9 +124,9 @@ TEST(bad_wheels_are_refused)
         rb_message why = {""};
         const rb_bem_surface any = rb_bem_halfplane(steel, 1.0);
         CHECK_STATUS(rb_bem_flexibility_surface(2, ends, &any, &f, NULL), RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel[k], RB_BEM_NORMALS_OBSTACLE,
-                                                   ends, &f, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(
+            rb_bem_flexibility_add_memory(&wheel[k], RB_BEM_NORMALS_OBSTACLE, ends, &f, &why),
+            RB_EINVAL);
         assert_true(strlen(why.text) > 0);
     }
 }
@@ -156,8 +152,7 @@ TEST(memory_is_added_to_any_flexibility)
         else
             CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &plane, &f, NULL), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[2], 2 * m), RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends,
-                                                   &f, NULL),
+        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends, &f, NULL),
                      RB_OK);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[k], 2 * m), RB_OK);
         for (int i = 0; i < 2 * m * 2 * n; i++)
@@ -250,8 +245,8 @@ TEST(a_thin_cover_is_the_layer)
             for (int i = 0; i < 3; i += 2) {
                 value[i] -= flat[i];
                 if (k > 0)
-                    CHECK_ABS(before[i] / value[i], 1.9, 0.2,
-                              "core %d: first order of figure %d", core, i);
+                    CHECK_ABS(before[i] / value[i], 1.9, 0.2, "core %d: first order of figure %d",
+                              core, i);
             }
             memcpy(before, value, sizeof before);
         }
@@ -294,8 +289,7 @@ TEST(speed_has_its_limits)
             figures(&rc, limit);
             CHECK_ABS(value[0], 0.0, 1e-4, "kind %d, fast %d: M", kind, fast);
             CHECK_REL(value[1], limit[1], 2e-4, "kind %d, fast %d: p0", kind, fast);
-            CHECK_ABS(value[2], limit[2], fast ? 2e-2 : 2e-3, "kind %d, fast %d: xi R",
-                      kind, fast);
+            CHECK_ABS(value[2], limit[2], fast ? 2e-2 : 2e-3, "kind %d, fast %d: xi R", kind, fast);
         }
 }
 
@@ -373,8 +367,7 @@ TEST(the_energy_balances)
         CHECK_MAX(-s.hysteresis, 0.0, "case %d: hysteresis", k);
         CHECK_ABS(s.residual, 0.0, 1e-9, "case %d: residual", k);
         if (rc.free_axle)
-            CHECK_ABS(s.tangential_load, -M / rc.a.radius, 1e-9 * s.normal_load,
-                      "Q = -M/R_A");
+            CHECK_ABS(s.tangential_load, -M / rc.a.radius, 1e-9 * s.normal_load, "Q = -M/R_A");
     }
 }
 
@@ -390,8 +383,7 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
     if (rc.normals == RB_BEM_NORMALS_OBSTACLE)
         fed = s.resistance_moment / R - s.creepage * s.tangential_load + levers(&s, R);
     for (int i = 1; i + 1 < s.n && rc.normals == RB_BEM_NORMALS_SURFACE; i++)
-        fed += s.p[i] * s.h[i] * s.x[i] / R -
-               s.creepage * s.q[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]);
+        fed += s.p[i] * s.h[i] * s.x[i] / R - s.creepage * s.q[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]);
     const double lost = s.dissipation + s.hysteresis;
     *per_radius = s.half_width / R;
     return fabs(fed - lost) / lost;
@@ -450,11 +442,9 @@ TEST(surface_normals_feed_by_their_own_tractions)
         const double forces = s.resistance_moment / R - xi * s.tangential_load;
         /* as above: second order in the elements and in a/R */
         CHECK_ABS(lost, fed + load,
-                  (2.3 / (k ? 60 * 60 : 15 * 15) + 0.15 * pow(s.half_width / R, 2.0)) *
-                      load,
+                  (2.3 / (k ? 60 * 60 : 15 * 15) + 0.15 * pow(s.half_width / R, 2.0)) * load,
                   "%d elements", s.contact);
-        CHECK_ABS(forces - fed - load, turned, (k ? 5e-4 : 2e-3) * load,
-                  "missed by forces");
+        CHECK_ABS(forces - fed - load, turned, (k ? 5e-4 : 2e-3) * load, "missed by forces");
         CHECK_MAX(0.05 * load, fabs(turned), "which is no small part");
     }
 }
@@ -496,9 +486,9 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rc.a.cover = 3.0;
     rc.force = NAN;
     rc.free_axle = 1;
-    CHECK_STATUS(rb_rolling_curve_solve(
-                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5}, &c, &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5}, &c, &why),
+        RB_OK);
     for (int k = 1; k < 4; k++)
         turns += c.resistance_ratio[k] > c.resistance_ratio[k - 1] &&
                  c.resistance_ratio[k] > c.resistance_ratio[k + 1];

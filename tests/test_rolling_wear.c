@@ -83,15 +83,12 @@ TEST(sliding_wears_its_volume)
         double volume = 0.0;
         for (int i = 0; i < w.last.n; i++)
             volume += w.last.worn[i] * w.last.h[i];
-        CHECK_REL(volume, wear.coefficient * rc.load * wear.way, 1e-12, "%d steps",
-                  steps[k]);
+        CHECK_REL(volume, wear.coefficient * rc.load * wear.way, 1e-12, "%d steps", steps[k]);
         CHECK_REL(w.h.worn[w.h.n - 1], volume, 1e-12, "%d steps: recorded", steps[k]);
-        CHECK_ABS(half_width(&w), width[k], 0.035,
-                  "%d steps: half-width, to half an element", steps[k]);
-        CHECK_MAX(roughness(&w.last), 0.02 * w.h.max_pressure[0], "%d steps: saw teeth",
+        CHECK_ABS(half_width(&w), width[k], 0.035, "%d steps: half-width, to half an element",
                   steps[k]);
-        CHECK_MAX(w.h.residual[w.h.n - 1], 1e-10, "%d steps: residual of the worn gap",
-                  steps[k]);
+        CHECK_MAX(roughness(&w.last), 0.02 * w.h.max_pressure[0], "%d steps: saw teeth", steps[k]);
+        CHECK_MAX(w.h.residual[w.h.n - 1], 1e-10, "%d steps: residual of the worn gap", steps[k]);
         worn_free(&w);
     }
 }
@@ -145,8 +142,7 @@ TEST(punch_wears_to_uniform_pressure)
             off = fmax(off, fabs(w.last.p[i] / mean - 1.0));
     CHECK_MAX(off, 0.02, "p/mean - 1");
     CHECK_REL(mean, rc.load / (2.0 * half_width(&w)), 0.05, "P/(2c)");
-    CHECK_REL(w.h.worn[w.h.n - 1], wear.coefficient * rc.load * wear.way, 1e-12,
-              "volume");
+    CHECK_REL(w.h.worn[w.h.n - 1], wear.coefficient * rc.load * wear.way, 1e-12, "volume");
     worn_free(&w);
     rb_rolling_profile_free(profile);
 }
@@ -157,11 +153,8 @@ TEST(fretting_spares_what_sticks)
 {
     rb_rolling_case rc = cylinder(120, 1.5);
     rc.force_ratio = 0.75; /* c = a/2 */
-    const rb_rolling_wear wear = {.law = RB_WEAR_DISSIPATION,
-                                  .coefficient = 1e-8,
-                                  .way = 100.0,
-                                  .steps = 2,
-                                  .increments = 8};
+    const rb_rolling_wear wear = {
+        .law = RB_WEAR_DISSIPATION, .coefficient = 1e-8, .way = 100.0, .steps = 2, .increments = 8};
     worn w = run(&rc, &wear);
     double slip = 0.0;
     for (int i = 0; i < w.last.n; i++) {
@@ -183,11 +176,8 @@ TEST(gross_slip_wears_four_strokes)
     rb_rolling_case rc = cylinder(100, 2.0);
     const double p0 = rb_closed_hertz_max_pressure(rc.load, 1.0);
     rc.shift = 50.0;
-    const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
-                                  .coefficient = 1e-10,
-                                  .way = 10.0,
-                                  .steps = 1,
-                                  .increments = 4};
+    const rb_rolling_wear wear = {
+        .law = RB_WEAR_ARCHARD, .coefficient = 1e-10, .way = 10.0, .steps = 1, .increments = 4};
     worn w = run(&rc, &wear);
     CHECK_REL(w.h.max_depth[1], 1e-10 * p0 * 10.0 * 4.0 * 50.0, 0.02, "depth");
     worn_free(&w);
@@ -205,12 +195,11 @@ TEST(wheel_loses_its_radius)
     worn w = run(&rc, &wear);
     const int last = w.h.n - 1;
     for (int k = 1; k <= last; k++) { /* implicit: with the work at its end */
-        CHECK_REL(w.h.radius[k - 1] - w.h.radius[k], 250.0 * 1e-7 * w.h.work[k], 1e-9,
-                  "step %d", k);
+        CHECK_REL(w.h.radius[k - 1] - w.h.radius[k], 250.0 * 1e-7 * w.h.work[k], 1e-9, "step %d",
+                  k);
         assert_true(w.h.radius[k] < w.h.radius[k - 1]);
     }
-    CHECK_REL(w.h.worn[last],
-              M_PI * (gsl_pow_2(rc.a.radius) - gsl_pow_2(w.h.radius[last])), 1e-12,
+    CHECK_REL(w.h.worn[last], M_PI * (gsl_pow_2(rc.a.radius) - gsl_pow_2(w.h.radius[last])), 1e-12,
               "volume");
     worn_free(&w);
 }
@@ -229,8 +218,7 @@ TEST(archard_s_wheel_loses_what_creepage_feeds)
             .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1.0, .steps = 1};
         worn w = run(&rc, &wear);
         const double a = w.last.hertz_half_width, P = w.last.normal_load;
-        const double fed =
-            s * rc.mu * a / rc.a.radius * P * (s < 1.0 ? s * (2.0 - s) : 1);
+        const double fed = s * rc.mu * a / rc.a.radius * P * (s < 1.0 ? s * (2.0 - s) : 1);
         CHECK_REL(w.h.max_depth[1], 1e-9 * fed, k < 2 ? 2e-3 : 2e-2, "s = %g", s);
         worn_free(&w);
     }
@@ -317,8 +305,7 @@ TEST(the_gap_knows_what_wears_in_it)
     one.coefficient *= 0.75;
     worn alone = run(&rc, &one);
     for (int i = 0; i < w.last.n; i++)
-        CHECK_REL(w.last.worn[i] + 1e-12, alone.last.worn[i] + 1e-12, 1e-9, "depth %d",
-                  i);
+        CHECK_REL(w.last.worn[i] + 1e-12, alone.last.worn[i] + 1e-12, 1e-9, "depth %d", i);
     CHECK_REL(w.h.max_depth[3], alone.h.max_depth[3], 1e-9, "largest depth");
     worn_free(&w);
     worn_free(&alone);
@@ -355,9 +342,8 @@ TEST(meaningless_wear_is_refused)
     enum { BAD = 6 };
     rb_rolling_case bad[BAD] = {good, good, good, good, good, good};
     rb_rolling_wear wear[BAD];
-    static const char *const said[] = {"transient",          "coefficient",
-                                       "dissipates nothing", "equal elements",
-                                       "one elastic",        "one elastic"};
+    static const char *const said[] = {"transient",      "coefficient", "dissipates nothing",
+                                       "equal elements", "one elastic", "one elastic"};
     for (int k = 0; k < BAD; k++)
         wear[k] = sliding(&good, 1.0, 2);
     bad[0].formulation = RB_TRANSIENT;
@@ -377,8 +363,7 @@ TEST(meaningless_wear_is_refused)
     for (int k = 0; k < BAD; k++) {
         worn w;
         rb_message why = {""};
-        CHECK_STATUS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &why),
-                     RB_EINVAL);
+        CHECK_STATUS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &why), RB_EINVAL);
         if (!strstr(why.text, said[k]))
             print_error("case %d: %s\n", k, why.text);
         assert_non_null(strstr(why.text, said[k]));
@@ -394,11 +379,8 @@ TEST(strokes_may_be_forces)
         rb_rolling_case rc = cylinder(24, 1.5);
         rc.force = k ? NAN : 0.5 * rc.mu * rc.load;
         rc.force_ratio = k ? 0.5 : NAN;
-        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
-                                      .coefficient = 1e-9,
-                                      .way = 1e3,
-                                      .steps = 1,
-                                      .increments = 4};
+        const rb_rolling_wear wear = {
+            .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1e3, .steps = 1, .increments = 4};
         worn w = run(&rc, &wear);
         depth[k] = w.h.max_depth[w.h.n - 1];
         assert_true(depth[k] > 0.0);

@@ -33,10 +33,8 @@ static rb_rolling_solution valid(const rb_rolling_case *rc)
     CHECK_MAX(s.residual, 1e-10, "residual, %s", name_of(rc->a.support));
     for (int i = 0; i < s.n; i++) {
         CHECK_MAX(-s.p[i], 0.0, "adhesion at %d", i);
-        CHECK_MAX(fabs(s.q[i]), rc->mu * s.p[i] + 1e-10 * s.max_pressure, "Coulomb at %d",
-                  i);
-        CHECK_MAX(s.p[i] > 0.0 ? fabs(s.gap[i]) : -s.gap[i], 1e-10 * s.half_width,
-                  "gap at %d", i);
+        CHECK_MAX(fabs(s.q[i]), rc->mu * s.p[i] + 1e-10 * s.max_pressure, "Coulomb at %d", i);
+        CHECK_MAX(s.p[i] > 0.0 ? fabs(s.gap[i]) : -s.gap[i], 1e-10 * s.half_width, "gap at %d", i);
     }
     return s;
 }
@@ -77,10 +75,8 @@ TEST(tractions_tend_to_the_halfplane_with_first_order)
         distance last = from_halfplane(wheel(wheels[k], 1e-3));
         for (double ratio = 1e-4; ratio > 1e-7; ratio *= 0.1) {
             const distance d = from_halfplane(wheel(wheels[k], ratio));
-            CHECK_ABS(last.p / d.p, 10.0, 0.5, "p, %s, a/R = %g", name_of(wheels[k]),
-                      ratio);
-            CHECK_ABS(last.q / d.q, 10.0, 0.5, "q, %s, a/R = %g", name_of(wheels[k]),
-                      ratio);
+            CHECK_ABS(last.p / d.p, 10.0, 0.5, "p, %s, a/R = %g", name_of(wheels[k]), ratio);
+            CHECK_ABS(last.q / d.q, 10.0, 0.5, "q, %s, a/R = %g", name_of(wheels[k]), ratio);
             CHECK_MAX(d.p, 4.0 * ratio, "p, %s, a/R = %g", name_of(wheels[k]), ratio);
             CHECK_MAX(d.q, 6.0 * ratio, "q, %s, a/R = %g", name_of(wheels[k]), ratio);
             last = d;
@@ -103,8 +99,7 @@ TEST(compressible_wheels_need_small_elements_too)
             const distance d = from_halfplane(rc);
             CHECK_MAX(d.q, 1e-2, "q, %s", name_of(wheels[k]));
             if (fine > 1)
-                CHECK_MAX(d.q, last / 1.6, "q, %s, %d times as fine", name_of(wheels[k]),
-                          fine);
+                CHECK_MAX(d.q, last / 1.6, "q, %s, %d times as fine", name_of(wheels[k]), fine);
             last = d.q;
         }
     }
@@ -128,8 +123,8 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
     rc.force = 0.0;
     OWNED(rb_rolling_solution) s = valid(&rc);
     const double modulus = rb_rolling_derive(&rc).modulus, R = rb_rolling_radius(&rc);
-    const rb_closed_bentall_johnson want = rb_closed_bentall_johnson_stick(
-        rb_rolling_derive(&rc).dundurs, rc.half_width, R, modulus);
+    const rb_closed_bentall_johnson want =
+        rb_closed_bentall_johnson_stick(rb_rolling_derive(&rc).dundurs, rc.half_width, R, modulus);
     const double error = fabs(s.creepage + want.creepage) / want.creepage;
     return error;
 }
@@ -162,10 +157,9 @@ static double support_constant(const rb_rolling_case *rc)
 {
     OWNED(rb_rolling_solution) s = valid(rc);
     const double modulus = rb_rolling_derive(rc).modulus;
-    const double k =
-        (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
-                                                       modulus, rc->half_width)) *
-        M_PI * modulus / s.normal_load;
+    const double k = (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
+                                                                    modulus, rc->half_width)) *
+                     M_PI * modulus / s.normal_load;
     return k;
 }
 
@@ -178,8 +172,7 @@ TEST(approach_differs_by_a_constant_of_the_support)
         const double want = support_constant(&rc);
         for (double ratio = 1e-6; ratio > 1e-9; ratio *= 0.01) {
             rc.half_width = ratio * rc.a.radius;
-            CHECK_ABS(support_constant(&rc), want, 1e-4, "%s, a/R = %g",
-                      name_of(wheels[k]), ratio);
+            CHECK_ABS(support_constant(&rc), want, 1e-4, "%s, a/R = %g", name_of(wheels[k]), ratio);
         }
     }
 }
@@ -194,11 +187,9 @@ TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
         OWNED(rb_rolling_solution) s = valid(&rc);
         CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 3e-4, "Carter, %s",
                   name_of(wheels[k]));
-        CHECK_REL(s.max_pressure,
-                  rb_closed_hertz_max_pressure(s.normal_load, rc.half_width), 1e-3,
+        CHECK_REL(s.max_pressure, rb_closed_hertz_max_pressure(s.normal_load, rc.half_width), 1e-3,
                   "p0, %s", name_of(wheels[k]));
-        CHECK_REL(s.half_width, rc.half_width, 1e-3, "half-width, %s",
-                  name_of(wheels[k]));
+        CHECK_REL(s.half_width, rc.half_width, 1e-3, "half-width, %s", name_of(wheels[k]));
         CHECK_MAX(s.load_error, 1e-10, "load, %s", name_of(wheels[k]));
     }
 }
@@ -225,8 +216,8 @@ TEST(the_two_signs_mirror_up_to_delta_over_R)
             double approach;
             rc.mesh = RB_MESH_FITTED;
             rc.contact_elements = 50;
-            const double sum = creepage_of_force(rc, -0.64, &approach) +
-                               creepage_of_force(rc, 0.64, &approach);
+            const double sum =
+                creepage_of_force(rc, -0.64, &approach) + creepage_of_force(rc, 0.64, &approach);
             const double slope = sum / (approach / rc.a.radius);
             CHECK_ABS(slope, 0.7, 0.51, "%s, a/R = %g", name_of(wheels[k]), ratio);
             if (last_sum > 0.0)
@@ -252,8 +243,8 @@ TEST(free_rolling_of_an_incompressible_wheel)
     const double want[] = {0.4999, 0.8518};
     for (int k = 0; k < 2; k++)
         for (double ratio = 1e-2; ratio > 5e-5; ratio *= 0.1)
-            CHECK_REL(free_creepage(wheel(wheels[k], ratio)) / gsl_pow_2(ratio), want[k],
-                      2e-3, "%s, a/R = %g", name_of(wheels[k]), ratio);
+            CHECK_REL(free_creepage(wheel(wheels[k], ratio)) / gsl_pow_2(ratio), want[k], 2e-3,
+                      "%s, a/R = %g", name_of(wheels[k]), ratio);
 }
 
 /* (4.3): the surface's own normals make a creepage delta/R of the approach. */
@@ -267,8 +258,8 @@ TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
         flat = valid(&rc);
         rc.normals = RB_BEM_NORMALS_SURFACE;
         round = valid(&rc);
-        CHECK_REL(round.free_creepage - flat.free_creepage, flat.approach / rc.a.radius,
-                  0.25, "%s", name_of(wheels[k]));
+        CHECK_REL(round.free_creepage - flat.free_creepage, flat.approach / rc.a.radius, 0.25, "%s",
+                  name_of(wheels[k]));
         CHECK_ABS(-flat.force_ratio, 0.644, 3e-3, "obstacle, %s", name_of(wheels[k]));
         CHECK_ABS(-round.force_ratio, 0.630, 3e-3, "surface, %s", name_of(wheels[k]));
     }

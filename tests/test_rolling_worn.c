@@ -26,8 +26,8 @@ typedef struct {
     rb_message why;
 } run;
 
-static int see(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
-               int steps, void *context)
+static int see(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step, int steps,
+               void *context)
 {
     run *r = context;
     const int k = s->n / 2 + 2;
@@ -73,8 +73,7 @@ TEST(a_step_takes_off_what_its_pressure_wears)
         assert_int_equal(r.h.n, 3);
         assert_int_equal(r.h.slides, 1);
         assert_int_equal(r.h.rolls, 0);
-        const double depth =
-            1e-8 * (law ? 0.3 : 1.0) * 500.0; /* per pressure, of a step */
+        const double depth = 1e-8 * (law ? 0.3 : 1.0) * 500.0; /* per pressure, of a step */
         CHECK_ABS(r.worn[0], 0.0, 0.0, "nothing before");
         CHECK_REL(r.worn[1], depth * r.p[1], 1e-9, "first step");
         CHECK_REL(r.worn[2] - r.worn[1], depth * r.p[2], 1e-9, "second step");
@@ -157,8 +156,7 @@ TEST(smooth_surfaces_wear_by_archard)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
-    const rb_rolling_wear wear = {
-        .slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 1};
+    const rb_rolling_wear wear = {.slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 1};
     rc.mu = 0.0;
     rc.load = NAN;
     rc.half_width = rb_rolling_hertz_half_width(&rc, 500.0); /* means this load */
@@ -175,8 +173,7 @@ TEST(fretting_counts_one_closed_cycle)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
-    const rb_rolling_wear wear = {
-        .coefficient = 1e-9, .way = 100.0, .steps = 1, .increments = 3};
+    const rb_rolling_wear wear = {.coefficient = 1e-9, .way = 100.0, .steps = 1, .increments = 3};
     rc.mu = 0.01; /* it sticks for a small part of the cycle alone */
     rc.shift = 0.05;
     start(&r, &rc, &wear);
@@ -205,13 +202,12 @@ TEST(a_rolling_wheel_shrinks)
         assert_int_equal(r.h.rolls, 1);
         /* Archard's law: friction is mu p everywhere */
         const double depth = r.last.dissipation / (law ? 1.0 : rc.mu);
-        CHECK_REL(r.h.radius[1] - r.h.radius[2], 1e-9 * 5e5 * depth, 1e-9,
-                  "law %d: second step", law);
+        CHECK_REL(r.h.radius[1] - r.h.radius[2], 1e-9 * 5e5 * depth, 1e-9, "law %d: second step",
+                  law);
         CHECK_ABS(r.h.radius[0], 50.0, 0.0, "before");
         for (int k = 0; k < 3; k++) {
             CHECK_REL(r.h.max_depth[k], 50.0 - r.h.radius[k], 1e-12, "depth %d", k);
-            CHECK_REL(r.h.worn[k], M_PI * (2500.0 - gsl_pow_2(r.h.radius[k])), 1e-12,
-                      "ring %d", k);
+            CHECK_REL(r.h.worn[k], M_PI * (2500.0 - gsl_pow_2(r.h.radius[k])), 1e-12, "ring %d", k);
         }
         CHECK_REL(r.h.work[2], r.last.dissipation, 1e-12, "power");
         CHECK_REL(r.h.radius_before, 50.0, 0.0, "before");
@@ -229,8 +225,7 @@ TEST(a_scar_that_outgrows_its_zone)
 {
     run r = {.stop_at = -1};
     rb_rolling_case rc = plane(40);
-    const rb_rolling_wear wear = {
-        .slides = 1, .coefficient = 1e-7, .way = 1e4, .steps = 3};
+    const rb_rolling_wear wear = {.slides = 1, .coefficient = 1e-7, .way = 1e4, .steps = 3};
     start(&r, &rc, &wear); /* of half-planes it is widened */
     CHECK_STATUS(r.status, RB_OK);
     assert_true(r.last.n > 40);
@@ -253,8 +248,7 @@ TEST(an_observer_ends_the_run)
 {
     run r = {.stop_at = 2};
     const rb_rolling_case rc = plane(20);
-    const rb_rolling_wear wear = {
-        .slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 5};
+    const rb_rolling_wear wear = {.slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 5};
     start(&r, &rc, &wear);
     CHECK_STATUS(r.status, RB_INTERRUPTED);
     assert_non_null(strstr(r.why.text, "interrupted after step 1 of 5"));
@@ -267,18 +261,18 @@ TEST(wear_that_makes_no_sense_is_refused)
 {
     const rb_rolling_wear fine = {
         .slides = 1, .coefficient = 1e-8, .way = 1.0, .steps = 1, .increments = 1};
-#define REFUSED(words, ...)                                                              \
-    do {                                                                                 \
-        rb_rolling_case rc = plane(20);                                                  \
-        rb_rolling_wear wear = fine;                                                     \
-        run r = {.stop_at = -1};                                                         \
-        __VA_ARGS__;                                                                     \
-        start(&r, &rc, &wear);                                                           \
-        CHECK_STATUS(r.status, RB_EINVAL);                                               \
-        if (!strstr(r.why.text, words))                                                  \
-            fail_msg("'%s' does not say '%s'", r.why.text, words);                       \
-        assert_int_equal(r.seen, 0);                                                     \
-        finish(&r);                                                                      \
+#define REFUSED(words, ...)                                                                        \
+    do {                                                                                           \
+        rb_rolling_case rc = plane(20);                                                            \
+        rb_rolling_wear wear = fine;                                                               \
+        run r = {.stop_at = -1};                                                                   \
+        __VA_ARGS__;                                                                               \
+        start(&r, &rc, &wear);                                                                     \
+        CHECK_STATUS(r.status, RB_EINVAL);                                                         \
+        if (!strstr(r.why.text, words))                                                            \
+            fail_msg("'%s' does not say '%s'", r.why.text, words);                                 \
+        assert_int_equal(r.seen, 0);                                                               \
+        finish(&r);                                                                                \
     } while (0)
 #define STEADY rc.formulation = RB_STEADY, wear.slides = 0
     REFUSED("not in a transient", rc.formulation = RB_TRANSIENT);
@@ -289,8 +283,7 @@ TEST(wear_that_makes_no_sense_is_refused)
     REFUSED("a distance or cycles > 0", wear.way = INFINITY);
     REFUSED("wear steps: expected 1 ... 1000000, got 0", wear.steps = 0);
     REFUSED("wear steps: expected 1 ... 1000000", wear.steps = 1000001);
-    REFUSED("wear increments: expected >= 1, got 0", wear.slides = 0,
-            wear.increments = 0);
+    REFUSED("wear increments: expected >= 1, got 0", wear.slides = 0, wear.increments = 0);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.law = RB_WEAR_DISSIPATION);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.slides = 0);
     REFUSED("takes one coefficient of friction", wear.law = RB_WEAR_DISSIPATION,
@@ -309,8 +302,7 @@ TEST(wear_that_makes_no_sense_is_refused)
  * p0 is wide enough for ten times, and a note says how much. */
 TEST(corners_have_no_largest_pressure)
 {
-    static const double x[] = {-0.2, -0.1, 0.0, 0.1, 0.2},
-                        depth[] = {0.0, 1e-4, 0.0, 1e-4, 0.0};
+    static const double x[] = {-0.2, -0.1, 0.0, 0.1, 0.2}, depth[] = {0.0, 1e-4, 0.0, 1e-4, 0.0};
     double p[3];
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plane(k == 0 ? 61 : k == 1 ? 183 : 549);
@@ -326,15 +318,12 @@ TEST(corners_have_no_largest_pressure)
         CHECK_REL(s.max_pressure, p[k], 1e-12, "the largest");
         const double rise = rb_rolling_derive(&rc).modulus * 2e-3 / (2.0 * M_PI);
         if (k > 0)
-            CHECK_REL(p[k] - p[k - 1], rise * log(3.0), k == 1 ? 0.05 : 0.01, "ln 3, %d",
-                      k);
+            CHECK_REL(p[k] - p[k - 1], rise * log(3.0), k == 1 ? 0.05 : 0.01, "ln 3, %d", k);
         CHECK_MAX(rise * log(10.0), e.scalar.max_pressure, "bar");
         CHECK_MAX(e.scalar.max_pressure, 10.0 * rise * log(10.0), "not absurdly wide");
         assert_int_equal(list.n, 1);
-        assert_non_null(
-            strstr(list.text[0], "The worn table has corners in the contact"));
-        CHECK_REL(strtod(strstr(list.text[0], "by ") + 3, NULL), rise * log(2.0), 0.05,
-                  "note");
+        assert_non_null(strstr(list.text[0], "The worn table has corners in the contact"));
+        CHECK_REL(strtod(strstr(list.text[0], "by ") + 3, NULL), rise * log(2.0), 0.05, "note");
         rb_rolling_solution_free(&s);
     }
 }
@@ -353,8 +342,7 @@ TEST(corners_that_elements_do_not_see_are_not_noted)
         rb_rolling_solution s;
         static const double rows[] = {-0.2, 0.0, 0.2}, kink[] = {1e-4, 0.0, 1e-4};
         rc.mu = 0.0;
-        rc.worn =
-            soft ? (rb_rolling_table){3, rows, kink} : (rb_rolling_table){401, x, depth};
+        rc.worn = soft ? (rb_rolling_table){3, rows, kink} : (rb_rolling_table){401, x, depth};
         rc.interlayer_normal = soft ? 1e-6 : 0.0;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);

@@ -80,8 +80,7 @@ static void count_zones(const rb_contact_state *state, int *stick, int *slip, in
     *stick = *slip = *yield = 0;
     for (int i = 0; i < state->n; i++) {
         *stick += state->zone[i] == RB_ZONE_STICK;
-        *slip += state->zone[i] == RB_ZONE_SLIP_NEGATIVE ||
-                 state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+        *slip += state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE;
         *yield += state->zone[i] >= RB_ZONE_YIELD_NEGATIVE;
     }
 }
@@ -114,9 +113,8 @@ TEST(rolling_from_a_shift_is_met)
         rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
         rc.creep = step ? -0.0004 : NAN;
         rc.force_ratio = step ? NAN : 0.6;
-        CHECK_STATUS(
-            rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &why),
+                     RB_OK);
         CHECK_STATUS(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &why), RB_OK);
         double Q = 0.0;
         for (int i = 0; i < N; i++)
@@ -150,8 +148,7 @@ static double brush_force(const rb_rolling_case *rc, double a)
     const double slides =
         most * (a * (end * end - s2 * s2) - (gsl_pow_3(end) - gsl_pow_3(s2)) / 3.0);
 
-    return 0.5 * elastic * s1 * s1 + c * (s2 - s1) + 0.5 * plastic * (s2 * s2 - s1 * s1) +
-           slides;
+    return 0.5 * elastic * s1 * s1 + c * (s2 - s1) + 0.5 * plastic * (s2 * s2 - s1 * s1) + slides;
 }
 
 TEST(brushes_converge_to_second_order)
@@ -170,8 +167,8 @@ TEST(brushes_converge_to_second_order)
             rc.interlayer_normal = 1e-6;
             rc.interlayer_tangential = 2e-6;
             rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
-            rc.creep = 0.4 * rc.mu * rc.interlayer_tangential /
-                       (rc.a.radius * rc.interlayer_normal);
+            rc.creep =
+                0.4 * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
             rc.yield_stress = 900.0;
             rc.hardening = hardening[k];
             rc.formulation = RB_STEADY;
@@ -182,8 +179,8 @@ TEST(brushes_converge_to_second_order)
             assert_true(s.stick > 0 && s.yielding > 0 && s.slipping > s.yielding);
             const double want = brush_force(&rc, s.half_width);
             error[j] = fabs(-s.tangential_load - want) / (rc.mu * rc.load);
-            CHECK_MAX(error[j], 1.3e-3 * gsl_pow_2(50.0 / n[j]), "k = %g, n = %d",
-                      hardening[k], n[j]);
+            CHECK_MAX(error[j], 1.3e-3 * gsl_pow_2(50.0 / n[j]), "k = %g, n = %d", hardening[k],
+                      n[j]);
         }
     }
 }
@@ -207,10 +204,9 @@ static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, i
 static double plastic_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
 {
     const double *u = s->plastic;
-    return rc->formulation == RB_STATIC ? u[i]
-           : rc->slip_operator == RB_SLIP_UPSTREAM
-               ? u[i] - u[i + 1]
-               : 1.5 * u[i] - 2.0 * u[i + 1] + 0.5 * u[i + 2];
+    return rc->formulation == RB_STATIC            ? u[i]
+           : rc->slip_operator == RB_SLIP_UPSTREAM ? u[i] - u[i + 1]
+                                                   : 1.5 * u[i] - 2.0 * u[i + 1] + 0.5 * u[i + 2];
 }
 
 /* Natural residuals of both bounds, in units of p0 and of the largest slip. */
@@ -221,8 +217,7 @@ static double law_violation(const rb_rolling_case *rc, const rb_rolling_solution
     for (int i = 0; i < s->n; i++)
         length = fmax(length, fabs(s->shift[i]));
     for (int i = 1; i < s->n - 2 && length > 0.0; i++) {
-        const double q = fabs(s->q[i]),
-                     tau = rc->yield_stress + rc->hardening * s->plastic[i];
+        const double q = fabs(s->q[i]), tau = rc->yield_stress + rc->hardening * s->plastic[i];
         /* a layer that has softened to nothing carries no friction */
         const double with = s->q[i] == 0.0 ? -s->shift[i] : s->q[i],
                      against = with > 0.0 ? -1.0 : 1.0;
@@ -230,9 +225,7 @@ static double law_violation(const rb_rolling_case *rc, const rb_rolling_solution
         if (s->zone[i] == RB_ZONE_SEPARATED)
             continue;
         CHECK_ABS(slip, against * s->shift[i], 1e-6 * length, "slip of element %d", i);
-        worst =
-            fmax(worst,
-                 fabs(fmin((rc->mu * s->p[i] - q) / stress, (slip - plastic) / length)));
+        worst = fmax(worst, fabs(fmin((rc->mu * s->p[i] - q) / stress, (slip - plastic) / length)));
         worst = fmax(worst, fabs(fmin((fmax(tau, 0.0) - q) / stress, plastic / length)));
     }
     return worst;
@@ -267,12 +260,11 @@ TEST(law_holds_by_the_columns)
             rc.shift = (draw(&seed, 2) ? 1.0 : -1.0) * 1e-4 * (1 + draw(&seed, 20));
         else
             rc.creep_ratio = (draw(&seed, 2) ? 0.1 : -0.1) * (1 + draw(&seed, 20));
-        rc.mesh = rc.formulation == RB_STATIC ? RB_MESH_UNIFORM
-                                              : (rb_rolling_mesh_kind)draw(&seed, 3);
+        rc.mesh =
+            rc.formulation == RB_STATIC ? RB_MESH_UNIFORM : (rb_rolling_mesh_kind)draw(&seed, 3);
         rc.slip_operator = rc.mesh == RB_MESH_ALIGNED ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
         rc.contact_elements = 30;
-        rc.yield_stress =
-            rc.mu * rb_rolling_derive(&rc).stress * (0.05 + 0.1 * draw(&seed, 10));
+        rc.yield_stress = rc.mu * rb_rolling_derive(&rc).stress * (0.05 + 0.1 * draw(&seed, 10));
         const rb_rolling_derived d = rb_rolling_derive(&rc);
         const double of[] = {0.0, 0.01, 0.3, 10.0, 1000.0, -0.01, -0.05};
         rc.hardening = of[draw(&seed, 7)] * d.modulus / d.half_width;
@@ -287,8 +279,7 @@ TEST(law_holds_by_the_columns)
         rc.contact.lcp_form = draw(&seed, 2) ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         if (rc.hardening >= 0.0) {
             lemke = valid(&rc);
-            CHECK_ABS(lemke.tangential_load, newton.tangential_load, 1e-9 * rc.load,
-                      "case %d", k);
+            CHECK_ABS(lemke.tangential_load, newton.tangential_load, 1e-9 * rc.load, "case %d", k);
             assert_int_equal(lemke.yielding, newton.yielding);
             rb_rolling_solution_free(&lemke);
         }
@@ -317,8 +308,7 @@ TEST(large_yield_stress_is_elastic)
         OWNED(rb_rolling_solution) layer = valid(&rc);
         assert_int_equal(layer.yielding, 0);
         for (int i = 0; i < elastic.n; i++) {
-            CHECK_ABS(layer.q[i], elastic.q[i],
-                      k < 2 ? 0.0 : 1e-12 * elastic.max_pressure,
+            CHECK_ABS(layer.q[i], elastic.q[i], k < 2 ? 0.0 : 1e-12 * elastic.max_pressure,
                       "formulation %d, q of element %d", k, i);
             assert_true(layer.plastic[i] == 0.0);
         }
@@ -348,8 +338,8 @@ typedef struct {
 } seen;
 
 /* Bound and growth of what has yielded, step by step. */
-static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int step,
-                    int steps, void *context)
+static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int step, int steps,
+                    void *context)
 {
     seen *c = context;
     const rb_contact_problem *p = &m->problem;
@@ -370,8 +360,7 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
                   "step %d, element %d", step, i);
         CHECK_MAX(-own, 1e-15, "step %d, element %d", step, i);
         if (own > 1e-9) {
-            CHECK_ABS(fabs(s.q[i]), tau, 1e-9 * s.max_pressure, "step %d, element %d",
-                      step, i);
+            CHECK_ABS(fabs(s.q[i]), tau, 1e-9 * s.max_pressure, "step %d, element %d", step, i);
             assert_true(s.q[i] * s.shift[i] < 0.0);
             c->yields++;
         }
@@ -395,8 +384,7 @@ TEST(shift_to_and_fro_hardens)
     rc.formulation = RB_STATIC;
     rc.creep = NAN;
     rc.contact_elements = 40;
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program,
-                                        &(rb_rolling_observer){see_step, &c}, &model,
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, &(rb_rolling_observer){see_step, &c}, &model,
                                         &history, &why),
                  RB_OK);
     assert_int_equal(c.steps, 8);

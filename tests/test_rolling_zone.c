@@ -58,8 +58,7 @@ TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
                 edge[0] = s.contact_from;
                 edge[1] = s.contact_to;
             }
-            CHECK_ABS(s.contact_from, edge[0], 0.2 * s.h[n / 2], "left, case %d, %d", k,
-                      n);
+            CHECK_ABS(s.contact_from, edge[0], 0.2 * s.h[n / 2], "left, case %d, %d", k, n);
             CHECK_ABS(s.contact_to, edge[1], s.h[n / 2], "right, case %d, %d", k, n);
         }
     }
@@ -200,8 +199,7 @@ static void take_table(rb_rolling_case *rc)
     rb_message why = {""};
     rb_rolling_profile_free(profile);
     profile = NULL;
-    if (rb_rolling_profile_create(POINTS, table_x, table_gap, 0.0, &profile, &why) !=
-        RB_OK)
+    if (rb_rolling_profile_create(POINTS, table_x, table_gap, 0.0, &profile, &why) != RB_OK)
         fail_msg("%s", why.text);
     rc->gap = RB_GAP_TABLE;
     rc->profile = profile;
@@ -280,8 +278,7 @@ TEST(every_patch_is_found)
             const double E = rb_rolling_derive(&rc).modulus;
             CHECK_REL(p->max_pressure, sqrt(p->normal_load * E / (M_PI * 10.0)), 0.05,
                       "its pressure, case %d", k);
-            CHECK_REL(p->to - p->from,
-                      2.0 * sqrt(4.0 * p->normal_load * 10.0 / (M_PI * E)), 0.1,
+            CHECK_REL(p->to - p->from, 2.0 * sqrt(4.0 * p->normal_load * 10.0 / (M_PI * E)), 0.1,
                       "its width, case %d", k);
             CHECK_MAX(9.0, p->contact, "its elements, case %d", k);
         }
@@ -397,20 +394,17 @@ TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
-        RB_ZONE);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
+                 RB_ZONE);
     rb_rolling_curve_free(&curve);
     rc.formulation = RB_TRANSIENT;
     rc.creep_ratio = 3.0;
     rc.distance = 3.0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why),
-                 RB_ZONE);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why), RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
     rc.zone = 0.0;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
+                 RB_OK);
     rb_rolling_curve_free(&curve);
 }
 
@@ -478,8 +472,7 @@ TEST(a_contact_has_the_same_zone_in_every_unit)
         OWNED(rb_rolling_solution) s = solved(&rc);
         ends[k] = (s.x[s.n - 1] + 0.5 * s.h[s.n - 1]) / unit;
         width[k] = s.half_width / unit;
-        CHECK_MAX(ends[k], 0.9 * 1.3 * rb_rolling_derive(&rc).half_width / unit,
-                  "tightened");
+        CHECK_MAX(ends[k], 0.9 * 1.3 * rb_rolling_derive(&rc).half_width / unit, "tightened");
     }
     CHECK_REL(ends[1], ends[0], 1e-9, "the end of the zone");
     CHECK_REL(width[1], width[0], 1e-9, "the half-width");
@@ -558,8 +551,7 @@ TEST(a_history_grows_its_zone_to_the_end_of_the_table)
     rc.creep_ratio = 3.0;
     rc.distance = 3.0;
     set_table(&rc, 1.25, 0.0);
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why),
-                 RB_ZONE);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "table"));
     CHECK_ABS(model.mesh.ends[model.mesh.n], 1.25, 1e-2, "the widest zone");
 }

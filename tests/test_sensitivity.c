@@ -43,30 +43,29 @@ static const rb_case_derivative *of(const rb_case_derivatives *all, const char *
 static const words regimes[] = {
     {{PLANES, ROLLING, "similar", "yes", "creep-ratio", "0.5"}},
     {{PLANES, ROLLING, "young-b", "70000", "poisson-b", "0.33", "creep", "-1e-3"}},
-    {{PLANES, ROLLING, "similar", "yes", "force-ratio", "-0.6", "interlayer-tangential",
-      "1e-6", "interlayer-normal", "1e-7"}},
+    {{PLANES, ROLLING, "similar", "yes", "force-ratio", "-0.6", "interlayer-tangential", "1e-6",
+      "interlayer-normal", "1e-7"}},
     {{PLANES, ROLLING, "similar", "yes", "force", "90", "slip-operator", "second"}},
     {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
       "approach", "0.015", "creep-ratio", "0.3"}},
     {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
       "half-width", "0.9", "creep", "5e-4"}},
-    {{PLANES, ROLLING, "young-b", "70000", "creep", "-2e-3", "friction-law",
-      "exponential", "mu", "0.2", "mu-fall", "0.2", "slip-scale", "5", "speed", "1000",
-      "tol", "1e-13"}},
+    {{PLANES, ROLLING, "young-b", "70000", "creep", "-2e-3", "friction-law", "exponential", "mu",
+      "0.2", "mu-fall", "0.2", "slip-scale", "5", "speed", "1000", "tol", "1e-13"}},
     {{PLANES,     ROLLING, "similar", "yes",     "creep", "-1e-3",      "friction-law",
       "rational", "mu",    "0.2",     "mu-fall", "0.2",   "slip-scale", "5",
       "speed",    "1000",  "memory",  "0.1",     "tol",   "1e-13"}},
-    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
-      "hardening", "100", "interlayer-tangential", "1e-6"}},
-    {{PLANES, ROLLING, "young-b", "70000", "creep", "1.5e-3", "conductivity", "50",
-      "heat-capacity", "3.5", "speed", "1000"}},
+    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30", "hardening", "100",
+      "interlayer-tangential", "1e-6"}},
+    {{PLANES, ROLLING, "young-b", "70000", "creep", "1.5e-3", "conductivity", "50", "heat-capacity",
+      "3.5", "speed", "1000"}},
     {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "relaxation-time", "1e-3",
       "relaxation-ratio", "1", "speed", "1000"}},
     {{PLANES, ROLLING, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
       "base-poisson", "0.3"}},
     {{PLANES, "formulation", "static", "shift", "1e-3"}},
-    {{"support", "hub", "load", "500", "mesh", "uniform", "zone", "1.5",
-      "contact-elements", "30", ROLLING, "creep-ratio", "0.4"}},
+    {{"support", "hub", "load", "500", "mesh", "uniform", "zone", "1.5", "contact-elements", "30",
+      ROLLING, "creep-ratio", "0.4"}},
 };
 
 /* Five values around that of the case; 1: all have its zones. */
@@ -84,8 +83,7 @@ static int differences(const words *w, const rb_case_derivative *d, double step,
     return same;
 }
 
-static int compare_input(const words *w, const rb_case_derivative *d,
-                         const rb_rolling_solution *at)
+static int compare_input(const words *w, const rb_case_derivative *d, const rb_rolling_solution *at)
 {
     static const double weight[] = {1.0, -8.0, 8.0, -1.0};
     rb_case_result r[4];
@@ -96,8 +94,7 @@ static int compare_input(const words *w, const rb_case_derivative *d,
     const int same = differences(w, d, step, at, r);
     for (int k = 0; k < rb_rolling_solution_scalars.n && same; k++) {
         const rb_rolling_result *q = &rb_rolling_solution_scalars.row[k];
-        const double x = rb_rolling_number(q, at),
-                     got = rb_rolling_number(q, &d->d.value[0]);
+        const double x = rb_rolling_number(q, at), got = rb_rolling_number(q, &d->d.value[0]);
         double want = 0.0;
         if (!rb_sensitivity_has(q) || isnan(x) || strncmp(q->name, "contact_", 8) == 0 ||
             strcmp(q->name, "half_width") == 0) /* edges end at midpoints: kinks */
@@ -109,8 +106,8 @@ static int compare_input(const words *w, const rb_case_derivative *d,
                              : strcmp(q->name, "resistance_ratio") == 0 ? moment / 2.5e4
                                                                         : 0.0;
         const double scale = fmax(fabs(x), least);
-        CHECK_ABS(got, want, 1e-8 * fabs(want) + 3e-9 * scale / fabs(d->value),
-                  "%s by %s", q->name, d->name);
+        CHECK_ABS(got, want, 1e-8 * fabs(want) + 3e-9 * scale / fabs(d->value), "%s by %s", q->name,
+                  d->name);
     }
     for (int i = 0; i < at->n && same; i++) {
         double p = 0.0, q = 0.0;
@@ -153,11 +150,10 @@ TEST(derivatives_are_those_of_solutions)
 /* A layer that yields needs the matrix that its solution has not. */
 TEST(a_model_without_a_matrix_is_given_one)
 {
-    static const words w[] = {
-        {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
-          "contact-elements", "160"}},
-        {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
-          "contact-elements", "160", "tol", "1e-13"}}};
+    static const words w[] = {{{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress",
+                                "30", "contact-elements", "160"}},
+                              {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress",
+                                "30", "contact-elements", "160", "tol", "1e-13"}}};
     rb_case_result r[2];
     rb_case_derivatives all[2];
     for (int k = 0; k < 2; k++) {
@@ -174,8 +170,8 @@ TEST(a_model_without_a_matrix_is_given_one)
         const rb_rolling_solution *a = all[0].of[j].d.value, *b = all[1].of[j].d.value;
         assert_string_equal(all[0].of[j].name, all[1].of[j].name);
         CHECK_STATUS(all[0].of[j].status, RB_OK);
-        CHECK_ABS(a->tangential_load, b->tangential_load,
-                  1e-6 * fabs(b->tangential_load) + 1e-12, "Q by %s", all[0].of[j].name);
+        CHECK_ABS(a->tangential_load, b->tangential_load, 1e-6 * fabs(b->tangential_load) + 1e-12,
+                  "Q by %s", all[0].of[j].name);
     }
     for (int k = 0; k < 2; k++) {
         rb_case_derivatives_free(&all[k]);
@@ -210,20 +206,18 @@ TEST(forward_is_adjoint)
         CHECK_STATUS(rb_sensitivity_adjoint(s, &weight, &adjoint, &why), RB_OK);
         for (int j = 0; j < n; j++) {
             rb_sensitivity_derivative d;
-            CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why),
-                         RB_OK);
+            CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why), RB_OK);
             const int side = d.has[0] ? 0 : 1;
             rb_contact_state y;
             CHECK_STATUS(rb_contact_state_alloc(p->n, &y), RB_OK);
-            CHECK_STATUS(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &why),
-                         RB_OK);
+            CHECK_STATUS(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &why), RB_OK);
             double want = 1e5 * y.xi + 1e3 * y.delta, size = fabs(want);
             for (int i = 0; i < p->n; i++) {
                 want += p->force_N[i] * y.p[i] + p->force_T[i] * y.q[i];
                 size += fabs(p->force_T[i] * y.q[i]);
             }
-            CHECK_ABS(rb_sensitivity_dot(&adjoint, &d.rate), want, 1e-11 * size,
-                      "regime %d by %s", (int)some[k], number[j].name);
+            CHECK_ABS(rb_sensitivity_dot(&adjoint, &d.rate), want, 1e-11 * size, "regime %d by %s",
+                      (int)some[k], number[j].name);
             rb_contact_state_free(&y);
             rb_sensitivity_derivative_free(&d);
         }
@@ -241,14 +235,13 @@ TEST(forward_is_adjoint)
 TEST(vectors_add_up)
 {
     static const words some[] = {
-        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola",
-          "load", "500", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
-          "creep", "1e-3"}},
-        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola",
-          "load", "500", "mesh", "uniform", "zone", "1.2", ROLLING, "young-b", "70000",
-          "force-ratio", "-0.5"}},
-        {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03",
-          "mesh", "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}},
+        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola", "load",
+          "500", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes", "creep", "1e-3"}},
+        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola", "load",
+          "500", "mesh", "uniform", "zone", "1.2", ROLLING, "young-b", "70000", "force-ratio",
+          "-0.5"}},
+        {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03", "mesh",
+          "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}},
         /* solved without a matrix */
         {{"support", "halfplane", "datum",    "100",  "datum-b",
           "100",     "gap",       "parabola", "load", "500",
@@ -274,11 +267,11 @@ TEST(vectors_add_up)
                 by_mu += mu[i];
             }
             CHECK_ABS(by_radius, value_of(&of(&all, "radius")->d.value[0], name),
-                      1e-7 * size + 1e-12 * fabs(value_of(&r.solution, name)),
-                      "%s by radius", name);
+                      1e-7 * size + 1e-12 * fabs(value_of(&r.solution, name)), "%s by radius",
+                      name);
             CHECK_ABS(by_mu, value_of(&of(&all, "mu")->d.value[0], name),
-                      1e-8 * fabs(by_mu) + 1e-9 * fabs(value_of(&r.solution, name)),
-                      "%s by mu", name);
+                      1e-8 * fabs(by_mu) + 1e-9 * fabs(value_of(&r.solution, name)), "%s by mu",
+                      name);
         }
         rb_case_derivatives_free(&all);
         rb_case_result_free(&r);
@@ -296,8 +289,8 @@ static double carter_error(const char *elements, const char *mesh)
     for (int k = 0; k < 19; k++) {
         static const char *const names[] = {"creep-ratio"};
         const double s = 0.05 * (k + 1);
-        const words w = {{"support", "halfplane", "similar", "yes", "load", "20", ROLLING,
-                          "mesh", mesh, "contact-elements", elements}};
+        const words w = {{"support", "halfplane", "similar", "yes", "load", "20", ROLLING, "mesh",
+                          mesh, "contact-elements", elements}};
         rb_message why = {""};
         rb_case_result r;
         rb_case_derivatives all;
@@ -326,12 +319,12 @@ TEST(carter_slopes)
 TEST(equal_elements_move_with_their_zone)
 {
     static const words moving[] = {
-        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "similar",
-          "yes", "creep-ratio", "0.5"}},
-        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "young-b",
-          "70000", "force", "60"}},
-        {{"support", "hub", "load", "500", "mesh", "uniform", "contact-elements", "30",
-          ROLLING, "creep-ratio", "0.4", "outer-elements", "60"}},
+        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "similar", "yes",
+          "creep-ratio", "0.5"}},
+        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "young-b", "70000",
+          "force", "60"}},
+        {{"support", "hub", "load", "500", "mesh", "uniform", "contact-elements", "30", ROLLING,
+          "creep-ratio", "0.4", "outer-elements", "60"}},
     };
     for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
         rb_message why = {""};
@@ -354,18 +347,17 @@ TEST(fitted_elements_move_with_the_edges)
 {
     static const char *const meshes[] = {"uniform", "aligned", "fitted"};
     for (int k = 0; k < 6; k++) {
-        const words w = {{"support", "halfplane", "gap", "parabola", "load", "500",
-                          ROLLING, "mesh", meshes[k % 3], "creep-ratio", "0.5", "young",
-                          "94500", k < 3 ? "poisson-b" : "young-b",
-                          k < 3 ? "0.1" : "70000", "young-b", k < 3 ? "94500" : "70000"}};
+        const words w = {{"support", "halfplane", "gap", "parabola", "load", "500", ROLLING, "mesh",
+                          meshes[k % 3], "creep-ratio", "0.5", "young", "94500",
+                          k < 3 ? "poisson-b" : "young-b", k < 3 ? "0.1" : "70000", "young-b",
+                          k < 3 ? "94500" : "70000"}};
         rb_message why = {""};
         rb_case_result r;
         rb_case_derivatives all;
         rb_case *c = solved(&w, NULL, 0.0, &r);
         const rb_rolling_solution *s = &r.solution;
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
-        assert_int_equal(all.elements,
-                         k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
+        assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
         const rb_rolling_solution *by_P = &of(&all, "load")->d.value[0],
                                   *by_R = &of(&all, "radius")->d.value[0];
         CHECK_REL(by_P->tangential_load, s->tangential_load / 500.0, 1e-6, "Q by P");
@@ -399,10 +391,8 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
         rb_case_free(solved(&w, names[k], d->value - step, &left));
         rb_case_free(solved(&w, names[k], d->value + step, &right));
         CHECK_ABS(d->d.value[0].tangential_load,
-                  (right.solution.tangential_load - left.solution.tangential_load) /
-                      (2.0 * step),
-                  4e-3 * fabs(r.solution.tangential_load / d->value), "Q by %s",
-                  names[k]);
+                  (right.solution.tangential_load - left.solution.tangential_load) / (2.0 * step),
+                  4e-3 * fabs(r.solution.tangential_load / d->value), "Q by %s", names[k]);
         rb_case_result_free(&left);
         rb_case_result_free(&right);
     }
@@ -445,12 +435,12 @@ TEST(both_sides_of_a_border)
     rb_case *a = solved(&w, "creep", low * (1.0 - 1e-6), &left),
             *b = solved(&w, "creep", low * (1.0 + 1e-6), &right);
     CHECK_STATUS(rb_case_differentiate(a, &left.model, 1, names, &one, &why), RB_OK);
-    CHECK_REL(d->d.value[0].tangential_load,
-              of(&one, "creep")->d.value[0].tangential_load, 1e-9, "left");
+    CHECK_REL(d->d.value[0].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
+              "left");
     rb_case_derivatives_free(&one);
     CHECK_STATUS(rb_case_differentiate(b, &right.model, 1, names, &one, &why), RB_OK);
-    CHECK_REL(d->d.value[1].tangential_load,
-              of(&one, "creep")->d.value[0].tangential_load, 1e-9, "right");
+    CHECK_REL(d->d.value[1].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
+              "right");
     assert_true(fabs(d->d.value[1].tangential_load - d->d.value[0].tangential_load) >
                 1e-3 * fabs(d->d.value[0].tangential_load));
     rb_case_derivatives_free(&one);

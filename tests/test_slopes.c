@@ -13,23 +13,21 @@
 static const words histories[] = {
     {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}},
     {{PLANES, ROLLS, "young-b", "70000", "creep", "-2e-3", "steps", "9"}},
-    {{PLANES, ROLLS, "similar", "yes", "force", "60", "interlayer-tangential", "1e-6",
-      "zone", "1.3"}},
+    {{PLANES, ROLLS, "similar", "yes", "force", "60", "interlayer-tangential", "1e-6", "zone",
+      "1.3"}},
     {{PLANES, ROLLS, "young-b", "70000", "force-ratio", "-0.5"}},
-    {{PLANES, "formulation", "static", "young-b", "70000", "increments", "4", "shift",
-      "1e-3"}},
-    {{PLANES, "formulation", "static", "similar", "yes", "increments", "5", "force-ratio",
-      "0.6"}},
-    {{"support", "hub", "load", "500", "contact-elements", "20", "outer-elements", "60",
-      ROLLS, "creep-ratio", "0.5"}},
+    {{PLANES, "formulation", "static", "young-b", "70000", "increments", "4", "shift", "1e-3"}},
+    {{PLANES, "formulation", "static", "similar", "yes", "increments", "5", "force-ratio", "0.6"}},
+    {{"support", "hub", "load", "500", "contact-elements", "20", "outer-elements", "60", ROLLS,
+      "creep-ratio", "0.5"}},
     {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "relaxation-time", "1e-3",
       "relaxation-ratio", "1", "speed", "1000", "zone", "2"}},
-    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "conductivity", "50",
-      "heat-capacity", "3.5", "speed", "1000"}},
+    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "conductivity", "50", "heat-capacity",
+      "3.5", "speed", "1000"}},
     {{PLANES, ROLLS, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
       "base-poisson", "0.3"}},
-    {{"support", "halfplane", "contact-elements", "30", "formulation", "transient",
-      "similar", "yes", "history", "tests/data/slopes_history.tsv"}},
+    {{"support", "halfplane", "contact-elements", "30", "formulation", "transient", "similar",
+      "yes", "history", "tests/data/slopes_history.tsv"}},
 };
 
 TEST(histories_have_derivatives)
@@ -52,17 +50,16 @@ TEST(histories_have_derivatives)
 TEST(single_cases_have_derivatives)
 {
     static const words cases[] = {
-        {{PLANES, "formulation", "steady", "young-b", "70000", "creep", "1e-3", "mesh",
-          "fitted"}},
+        {{PLANES, "formulation", "steady", "young-b", "70000", "creep", "1e-3", "mesh", "fitted"}},
         {{PLANES, "formulation", "steady", "similar", "yes", "creep-ratio", "0.4", "mesh",
           "aligned"}},
-        {{PLANES, "formulation", "steady", "creep-ratio", "0.4", "mesh", "fitted",
-          "plane", "stress", "layer-thickness", "2"}},
-        {{"support", "hub", "load", "500", "contact-elements", "24", "formulation",
-          "steady", "force-ratio", "0.4", "mesh", "fitted", "outer-elements", "60"}},
-        {{"support", "halfplane", "formulation", "steady", "similar", "yes",
-          "creep-ratio", "-0.4", "half-width", "1", "yield-stress", "200", "hardening",
-          "-2000", "mu", "3", "contact-elements", "20"}}};
+        {{PLANES, "formulation", "steady", "creep-ratio", "0.4", "mesh", "fitted", "plane",
+          "stress", "layer-thickness", "2"}},
+        {{"support", "hub", "load", "500", "contact-elements", "24", "formulation", "steady",
+          "force-ratio", "0.4", "mesh", "fitted", "outer-elements", "60"}},
+        {{"support", "halfplane", "formulation", "steady", "similar", "yes", "creep-ratio", "-0.4",
+          "half-width", "1", "yield-stress", "200", "hardening", "-2000", "mu", "3",
+          "contact-elements", "20"}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};
@@ -88,11 +85,11 @@ TEST(refusals_of_histories)
         {{{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "yield-stress", "30",
            "interlayer-tangential", "1e-6"}},
          "interface that yields"},
-        {{{PLANES, ROLLS, "similar", "yes", "creep", "-1e-3", "friction-law", "rational",
-           "mu", "0.2", "mu-fall", "0.1", "slip-scale", "5", "speed", "1000"}},
+        {{{PLANES, ROLLS, "similar", "yes", "creep", "-1e-3", "friction-law", "rational", "mu",
+           "0.2", "mu-fall", "0.1", "slip-scale", "5", "speed", "1000"}},
          "friction that depends on the state"},
-        {{{"support", "halfplane", ROLLS, "similar", "yes", "creep", "1e-3", "approach",
-           "0.01", "contact-elements", "30"}},
+        {{{"support", "halfplane", ROLLS, "similar", "yes", "creep", "1e-3", "approach", "0.01",
+           "contact-elements", "30"}},
          "give a load"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -114,17 +111,17 @@ TEST(points_are_single_cases)
         words w;
         rb_rolling_range range;
         const char *over;
-    } curve[] = {{{{PLANES, "mesh", "uniform", "similar", "yes", "zone", "1.2"}},
-                  {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3},
-                  "creep-ratio"},
-                 {{{PLANES, "mesh", "uniform", "young-b", "70000",
-                    "interlayer-tangential", "1e-6"}},
-                  {RB_OVER_CREEP, -2e-3, 1e-3, 4},
-                  "creep"},
-                 {{{PLANES, "mesh", "uniform", "similar", "yes", "relaxation-time",
-                    "1e-3", "relaxation-ratio", "1", "creep", "1e-3", "zone", "2"}},
-                  {RB_OVER_SPEED, 100, 10000, 3},
-                  "speed"}};
+    } curve[] = {
+        {{{PLANES, "mesh", "uniform", "similar", "yes", "zone", "1.2"}},
+         {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3},
+         "creep-ratio"},
+        {{{PLANES, "mesh", "uniform", "young-b", "70000", "interlayer-tangential", "1e-6"}},
+         {RB_OVER_CREEP, -2e-3, 1e-3, 4},
+         "creep"},
+        {{{PLANES, "mesh", "uniform", "similar", "yes", "relaxation-time", "1e-3",
+           "relaxation-ratio", "1", "creep", "1e-3", "zone", "2"}},
+         {RB_OVER_SPEED, 100, 10000, 3},
+         "speed"}};
     for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
         rb_message why = {""};
         rb_case_slopes s, want = {0};
@@ -133,8 +130,8 @@ TEST(points_are_single_cases)
             curve[k].range.over == RB_OVER_SPEED ? RB_CASE_SPEEDS : RB_CASE_CURVE;
         rb_case *c = case_of(purpose, &curve[k].w, NULL, 0.0);
         if (rb_case_curve_choose(c, &curve[k].range, "all", &s, &why) != RB_OK ||
-            rb_case_curve_solve(c, &curve[k].range, rb_case_resolved(c)->rc.mu, &points,
-                                &s, &why) != RB_OK)
+            rb_case_curve_solve(c, &curve[k].range, rb_case_resolved(c)->rc.mu, &points, &s,
+                                &why) != RB_OK)
             fail_msg("curve %d: %s", (int)k, why.text);
         assert_int_equal(s.rows, curve[k].range.points);
         for (int row = 0; row < s.rows; row++) {
@@ -145,19 +142,16 @@ TEST(points_are_single_cases)
                 at += 2;
             one.word[at] = "formulation";
             one.word[at + 1] = "steady";
-            const double value = curve[k].range.over == RB_OVER_SPEED ? points.speed[row]
-                                 : curve[k].range.over == RB_OVER_CREEP
-                                     ? points.creepage[row]
-                                     : points.creep_ratio[row];
+            const double value = curve[k].range.over == RB_OVER_SPEED   ? points.speed[row]
+                                 : curve[k].range.over == RB_OVER_CREEP ? points.creepage[row]
+                                                                        : points.creep_ratio[row];
             rb_case *single = case_of(RB_CASE_SINGLE, &one, curve[k].over, value);
-            CHECK_STATUS(rb_case_solve(rb_case_resolved(single), NULL, NULL, &r, &why),
-                         RB_OK);
-            CHECK_STATUS(rb_case_slopes_choose(single, s.table, "all", RB_CASE_SLOPES_MAX,
-                                               &want, &why),
-                         RB_OK);
+            CHECK_STATUS(rb_case_solve(rb_case_resolved(single), NULL, NULL, &r, &why), RB_OK);
+            CHECK_STATUS(
+                rb_case_slopes_choose(single, s.table, "all", RB_CASE_SLOPES_MAX, &want, &why),
+                RB_OK);
             CHECK_STATUS(rb_case_slopes_alloc(1, &want), RB_OK);
-            CHECK_STATUS(rb_case_slopes_at(single, &r.model, &want, want.value, &why),
-                         RB_OK);
+            CHECK_STATUS(rb_case_slopes_at(single, &r.model, &want, want.value, &why), RB_OK);
             assert_int_equal(want.n, s.n);
             for (int j = 0; j < s.n; j++) {
                 const double x = rb_case_slope_value(&s, row, j),
@@ -172,8 +166,8 @@ TEST(points_are_single_cases)
                         scale = number[i].input.scale;
                 if (!(isnan(x) && isnan(y)))
                     CHECK_ABS(x, y, 1e-8 * fabs(y) + 1e-8 * size / scale,
-                              "curve %d, %s by %s, point %d", (int)k,
-                              s.of[j].result->name, s.of[j].input, row);
+                              "curve %d, %s by %s, point %d", (int)k, s.of[j].result->name,
+                              s.of[j].input, row);
             }
             rb_case_slopes_free(&want);
             rb_case_result_free(&r);

@@ -123,21 +123,17 @@ TEST(places_outside_are_refused)
     OWNED(rb_sparse) a;
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = row, .col = col, .x = x},
-            &a),
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = row, .col = col, .x = x}, &a),
         RB_EINVAL);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = col, .x = x},
-            &a),
+            &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = col, .x = x}, &a),
         RB_EINVAL);
     CHECK_STATUS(
         rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 3, .nz = 2, .row = row, .col = low, .x = x},
-            &a),
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 2, .row = row, .col = low, .x = x}, &a),
         RB_EINVAL);
-    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = -1, .cols = 3}, &a),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = -1, .cols = 3}, &a), RB_EINVAL);
     CHECK_STATUS(rb_sparse_from_dense(3, 1, x, 2, &a), RB_EINVAL);
     rb_sparse_free(NULL);
 }
@@ -286,8 +282,7 @@ static rb_status build_and_factor(void)
     rb_sparse_lu *lu = NULL;
     rb_sparse_cholesky *f = NULL;
     rb_status s = rb_sparse_from_triplets(
-        &(rb_triplets){.rows = 2, .cols = 2, .nz = 3, .row = row, .col = col, .x = v},
-        &a);
+        &(rb_triplets){.rows = 2, .cols = 2, .nz = 3, .row = row, .col = col, .x = v}, &a);
     if (s == RB_OK)
         s = rb_sparse_copy(&a, &b);
     if (s == RB_OK)
@@ -354,10 +349,9 @@ TEST(suitesparse_without_memory_is_reported)
     SuiteSparse_config.malloc_func = no_memory;
     SuiteSparse_config.calloc_func = no_zeroed_memory;
     SuiteSparse_config.realloc_func = no_more_memory;
-    const rb_status of[] = {
-        rb_sparse_rank(&a, &rank),         rb_sparse_lu_create(&a, &early),
-        rb_sparse_lu_factor(lu, &a, NULL), rb_sparse_cholesky_create(&a, &none),
-        rb_sparse_cholesky_solve(f, b, x), rb_sparse_lu_estimate(&a, &flops)};
+    const rb_status of[] = {rb_sparse_rank(&a, &rank),         rb_sparse_lu_create(&a, &early),
+                            rb_sparse_lu_factor(lu, &a, NULL), rb_sparse_cholesky_create(&a, &none),
+                            rb_sparse_cholesky_solve(f, b, x), rb_sparse_lu_estimate(&a, &flops)};
     SuiteSparse_config = as_it_was;
     for (size_t k = 0; k < sizeof of / sizeof *of; k++)
         if (of[k] != RB_ENOMEM)
@@ -466,8 +460,7 @@ TEST(only_square_matrices_have_components)
     CHECK_STATUS(rb_sparse_from_dense(1, 2, dense, 1, &wide), RB_OK);
     CHECK_STATUS(rb_sparse_components(&wide, &count, part), RB_EINVAL);
     assert_int_equal(count, 0);
-    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.status = RB_ENOMEM}, &none),
-                 RB_ENOMEM);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.status = RB_ENOMEM}, &none), RB_ENOMEM);
     rb_sparse_free(&wide);
 }
 

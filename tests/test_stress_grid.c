@@ -25,18 +25,16 @@ TEST(grid_holds_the_stress_of_its_points)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_stress_grid) grid;
         assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
-        assert_int_equal(rb_rolling_stress_on_grid(&model, 9, 4, 6.0, &grid, NULL),
-                         RB_OK);
+        assert_int_equal(rb_rolling_stress_on_grid(&model, 9, 4, 6.0, &grid, NULL), RB_OK);
         for (int i = 0; i < 36; i++) {
             const rb_rolling_stress *at = &grid.at[i];
             const double xy[] = {at->x, at->y};
             rb_rolling_stress alone;
-            CHECK_ABS(at->y - rb_rolling_surface(&rc, at->x), 2.0 * (i / 9), 1e-12,
-                      "depth of %d", i);
+            CHECK_ABS(at->y - rb_rolling_surface(&rc, at->x), 2.0 * (i / 9), 1e-12, "depth of %d",
+                      i);
             assert_true(grid.inside[i]);
             assert_int_equal(rb_rolling_stress_at(&model, 1, xy, &alone, NULL), RB_OK);
-            CHECK_ABS(at->von_mises, alone.von_mises, 1e-9 * model.problem.stress,
-                      "point %d", i);
+            CHECK_ABS(at->von_mises, alone.von_mises, 1e-9 * model.problem.stress, "point %d", i);
         }
     }
 }
@@ -65,8 +63,7 @@ TEST(inside_is_where_there_is_stress)
 TEST(linear_tractions_are_the_limit_of_strips)
 {
     enum { STRIPS = 2000 };
-    static const double nodes[] = {-1.0, 0.25, 1.0}, p[] = {0.0, 1.0, 0.0},
-                        q[] = {0.0, -0.3, 0.0};
+    static const double nodes[] = {-1.0, 0.25, 1.0}, p[] = {0.0, 1.0, 0.0}, q[] = {0.0, -0.3, 0.0};
     static const double xy[] = {0.0, 0.5, 0.9, 0.1, -2.0, 0.3, 0.2, 3.0};
     static double ends[STRIPS + 1], ps[STRIPS], qs[STRIPS];
     double linear[12], strips[12];
@@ -98,9 +95,9 @@ TEST(sliding_pulls_at_the_edge)
         q[j] = -0.3 * p[j];
         xy[2 * j] = x[j];
     }
-    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){N, x, p, q},
-                                                    (rb_bem_points){N, xy}, s),
-                     RB_OK);
+    assert_int_equal(
+        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){N, x, p, q}, (rb_bem_points){N, xy}, s),
+        RB_OK);
     for (int j = 0; j < N; j++) {
         CHECK_ABS(s[3 * j], -p[j] + 0.6 * x[j], 5e-3, "sxx at %g", x[j]);
         CHECK_ABS(s[3 * j + 1], -p[j], 1e-10, "syy at %g", x[j]);
@@ -113,18 +110,15 @@ TEST(bad_linear_tractions_are_refused)
     const double nodes[] = {0.0, 1.0}, back[] = {1.0, 0.0}, none[] = {0.0, 0.0},
                  above[] = {0.0, -1.0}, xy[] = {0.0, 1.0};
     double s[3];
-    assert_int_equal(
-        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){1, nodes, none, none},
-                                       (rb_bem_points){1, xy}, s),
-        RB_EINVAL);
-    assert_int_equal(
-        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, back, none, none},
-                                       (rb_bem_points){1, xy}, s),
-        RB_EINVAL);
-    assert_int_equal(
-        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, nodes, none, none},
-                                       (rb_bem_points){1, above}, s),
-        RB_EINVAL);
+    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){1, nodes, none, none},
+                                                    (rb_bem_points){1, xy}, s),
+                     RB_EINVAL);
+    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, back, none, none},
+                                                    (rb_bem_points){1, xy}, s),
+                     RB_EINVAL);
+    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, nodes, none, none},
+                                                    (rb_bem_points){1, above}, s),
+                     RB_EINVAL);
     alloc_fail_after(0);
     const rb_status status = rb_bem_halfplane_stress_linear(
         &(rb_bem_edge_load){2, nodes, none, none}, (rb_bem_points){1, xy}, s);
@@ -139,11 +133,10 @@ TEST(bad_grids_are_refused)
     OWNED(rb_rolling_stress_grid) grid;
     rb_message why = {""};
     assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
-    assert_int_equal(rb_rolling_stress_on_grid(&model, 1, 4, 0.0, &grid, &why),
-                     RB_EINVAL);
+    assert_int_equal(rb_rolling_stress_on_grid(&model, 1, 4, 0.0, &grid, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "got 1 x 4"));
-    assert_int_equal(
-        rb_rolling_stress_on_grid(&model, 1 << 20, 1 << 20, 0.0, &grid, NULL), RB_EINVAL);
+    assert_int_equal(rb_rolling_stress_on_grid(&model, 1 << 20, 1 << 20, 0.0, &grid, NULL),
+                     RB_EINVAL);
 }
 
 /* Grid and maxima, then the ParaView file, on each failing allocation. */

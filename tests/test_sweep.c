@@ -74,8 +74,8 @@ TEST(rows_are_those_of_single_solutions)
 /* The memory killer of the system may have taken it. */
 TEST(a_case_is_tried_again_after_its_process_died)
 {
-    int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
-                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    int *deaths =
+        mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     record r = {.kill_at = 9, .deaths = deaths};
     CHECK_STATUS(run(&r, 2, NULL), RB_OK);
     assert_int_equal(*deaths, 2); /* once, and once more alive */
@@ -89,9 +89,7 @@ TEST(a_process_that_dies_loses_one_case)
     record r = {.kill_at = 9};
     CHECK_STATUS(run(&r, 2, NULL), RB_OK);
     for (int i = 0; i < CASES; i++)
-        assert_int_equal(r.row[i].status, i == 9   ? RB_ENOMEM
-                                          : i == 5 ? RB_EINVAL
-                                                   : RB_OK);
+        assert_int_equal(r.row[i].status, i == 9 ? RB_ENOMEM : i == 5 ? RB_EINVAL : RB_OK);
 }
 
 TEST(stops_when_told)
@@ -119,8 +117,7 @@ static const struct {
     {"--vary-1 'mu 0.1 x'", 64, "got 'mu 0.1 x'"},
     {"--vary-1 'mu 0:1:1'", 64, "got 'mu 0:1:1'"},
     {"--vary-1 'mu 0:1:5:log'", 64, "got 'mu 0:1:5:log'"},
-    {"--vary-1 'solver 1'", 64,
-     "'solver' is not an option of a case with a number as value"},
+    {"--vary-1 'solver 1'", 64, "'solver' is not an option of a case with a number as value"},
     {"--vary-1 'friction 1'", 64, "'friction' is not an option of a case"},
     {"--vary-1 'mu 0.1 -1'", 64, "case 2: mu: expected a number >= 0"},
     {"--vary-1 'mu 0.1' --vary-2 'mu 0.2'", 64, "'mu' varies already"},
@@ -128,15 +125,13 @@ static const struct {
     {"--vary-1 'mu 0.1' --accuracy 1e-3", 64, "--accuracy: a study has error bars"},
     {"--vary-1 'mu 0.1' --results error_approach", 64, "'error_approach' needs --error"},
     {"--vary-1 'mu 0.1' --error --results error_peclet", 64, "peclet has no error bar"},
-    {"--vary-1 'mu 0.1' --error --results error_approch", 64,
-     "(did you mean 'error_approach'?)"},
+    {"--vary-1 'mu 0.1' --error --results error_approch", 64, "(did you mean 'error_approach'?)"},
     {"--vary-1 'mu 0.1' --support hub --cover-thickness 5 --core-young 2e5 "
      "--relaxation-time 1 --relaxation-ratio 1 --speed 100 --results von_mises",
      64, "on an elastic core it depends on the past"},
     {"--cases nowhere", 66, "nowhere: No such file"},
     {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 64, "at most 1e8"},
-    {"--vary-1 'mu 0.1' --output /no/such/file", 73,
-     "/no/such/file: cannot write: No such file"},
+    {"--vary-1 'mu 0.1' --output /no/such/file", 73, "/no/such/file: cannot write: No such file"},
     {"--vary-1 'mu 0.1' --jobs -1", 64, "--jobs: expected a whole number"},
 };
 
@@ -153,16 +148,14 @@ TEST(bad_studies_are_refused)
 TEST(grid_times_table)
 {
     OWNED(rb_io_table) t;
-    write_file("study.ini",
-               "support = halfplane\nformulation = steady\n[normal]\nload = 500\n"
-               "[sweep]\ncases = cases\nvary-1 = creep-ratio 0:1:3\n");
+    write_file("study.ini", "support = halfplane\nformulation = steady\n[normal]\nload = 500\n"
+                            "[sweep]\ncases = cases\nvary-1 = creep-ratio 0:1:3\n");
     write_file("cases", "mu young\n0.1 2e5\n0.2 1e5\n");
     assert_int_equal(rollbem("sweep study.ini --quiet --contact-elements 40"), 0);
     write_file("rows", out);
     CHECK_STATUS(rb_io_table_read("rows", &t, NULL), RB_OK);
     assert_int_equal(t.rows, 6);
-    const double *mu = rb_io_table_column(&t, "mu"),
-                 *young = rb_io_table_column(&t, "young"),
+    const double *mu = rb_io_table_column(&t, "mu"), *young = rb_io_table_column(&t, "young"),
                  *ratio = rb_io_table_column(&t, "creep_ratio"),
                  *force = rb_io_table_column(&t, "force_ratio");
     assert_true(mu && young && ratio && force);
@@ -185,8 +178,7 @@ TEST(options_may_need_the_one_that_varies)
         "--similar --relaxation-time .1 --relaxation-ratio 1 --vary-1 'speed 1 10'"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[400];
-        snprintf(line, sizeof line, STUDY "--contact-elements 20 --header bare %s",
-                 all[k]);
+        snprintf(line, sizeof line, STUDY "--contact-elements 20 --header bare %s", all[k]);
         if (rollbem(line) != 0)
             fail_msg("%s: %s", all[k], err);
         assert_non_null(strstr(out, "\n2\t"));
@@ -259,8 +251,7 @@ TEST(cases_that_fail_are_rows_and_an_exit_code)
                      1);
     assert_non_null(strstr(err, "2 cases"));
     assert_non_null(strstr(err, "not solved: 2 of 2"));
-    assert_non_null(
-        strstr(err, "rollbem: case 1 is not solved: zone: the contact is not"));
+    assert_non_null(strstr(err, "rollbem: case 1 is not solved: zone: the contact is not"));
 }
 
 /* Also where messages are not wanted; of the others nobody hears. */
@@ -269,9 +260,8 @@ TEST(the_first_case_that_fails_says_why)
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 10 8 20'"),
                      64);
-    assert_string_equal(err,
-                        "rollbem: case 2 is not solved: error bars compare with half "
-                        "the elements: expected 12 contact elements or more, got 10\n");
+    assert_string_equal(err, "rollbem: case 2 is not solved: error bars compare with half "
+                             "the elements: expected 12 contact elements or more, got 10\n");
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 20'"),
                      0);
@@ -294,15 +284,12 @@ TEST(what_is_no_row_of_the_study_is_refused)
     check_not_resumed("sed -i '7s/.*/hello/' s.tsv", "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i 6d s.tsv", "s.tsv:6: not the row of case 1");
     check_not_resumed("sed -i '7s/0.5/0.6/' s.tsv", "s.tsv:7: not the row of case 2");
-    check_not_resumed("sed -i '8s/\\t[^\\t]*$//' s.tsv",
-                      "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '8s/\\t[^\\t]*$//' s.tsv", "s.tsv:8: not the row of case 3");
     check_not_resumed("sed -i '8s/[^\\t]*$//' s.tsv", "s.tsv:8: not the row of case 3");
     check_not_resumed("sed -i '8s/$/x/' s.tsv", "s.tsv:8: not the row of case 3");
     check_not_resumed("sed -i '8s/$/\\t0/' s.tsv", "s.tsv:8: not the row of case 3");
-    check_not_resumed("sed -i '7s/\\t0\\t/\\tx\\t/' s.tsv",
-                      "s.tsv:7: not the row of case 2");
-    check_not_resumed("sed -i '7s/\\t0\\t/ 0\\t/' s.tsv",
-                      "s.tsv:7: not the row of case 2");
+    check_not_resumed("sed -i '7s/\\t0\\t/\\tx\\t/' s.tsv", "s.tsv:7: not the row of case 2");
+    check_not_resumed("sed -i '7s/\\t0\\t/ 0\\t/' s.tsv", "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i '1s/force_ratio/x/' s.tsv", "has other contents");
     check_not_resumed("sed -i '2s/$/x/' s.tsv", "has other contents");
     check_not_resumed("head -2 s.tsv >t; mv t s.tsv", "has other contents");
@@ -321,11 +308,10 @@ TEST(a_full_disk_leaves_whole_rows)
     assert_int_equal(rollbem(line), 0);
     slurp("whole.tsv", whole, sizeof whole);
     for (int blocks = 0; blocks < 3; blocks += 2) {
-        snprintf(
-            line, sizeof line,
-            "bash -c \"(ulimit -f %d; exec '$R' %s --output full.tsv 2>&1) | cat; exit "
-            "\\${PIPESTATUS[0]}\"",
-            blocks, study);
+        snprintf(line, sizeof line,
+                 "bash -c \"(ulimit -f %d; exec '$R' %s --output full.tsv 2>&1) | cat; exit "
+                 "\\${PIPESTATUS[0]}\"",
+                 blocks, study);
         assert_int_equal(shell(line), 73);
         assert_non_null(strstr(out, "rollbem: full.tsv: File too large"));
         if (blocks == 0) {
@@ -394,9 +380,8 @@ TEST(studies_name_their_papers)
 /* Quantities with units are values of the study in its own system. */
 TEST(values_may_have_units)
 {
-    json_t *root =
-        run_json(STUDY "--similar --contact-elements 20 --vary-1 'load 100kN/m "
-                       "200 0.3MN/m' --vary-2 'young 100GPa:0.2e6:2'");
+    json_t *root = run_json(STUDY "--similar --contact-elements 20 --vary-1 'load 100kN/m "
+                                  "200 0.3MN/m' --vary-2 'young 100GPa:0.2e6:2'");
     json_t *table = json_object_get(root, "table");
     for (size_t k = 0; k < 6; k++) {
         CHECK_ABS(entry(table, "load", k), 100.0 * (double)(1 + k / 2), 1e-12, "load");
@@ -418,8 +403,8 @@ TEST(values_may_have_units)
 
 /* ---- Pictures ---------------------------------------------------------------------- */
 
-#define GRID                                                                             \
-    STUDY "--similar --contact-elements 20 --vary-1 'load 100 400 900' "                 \
+#define GRID                                                                                       \
+    STUDY "--similar --contact-elements 20 --vary-1 'load 100 400 900' "                           \
           "--vary-2 'creep-ratio 0 0.5 0.9 1.2' "
 
 /* The numbers of a block of gnuplot's script, three a row or two; how many rows. */
@@ -436,8 +421,7 @@ static int read_block(const char *script, const char *name, int columns, double 
     for (char *end; strncmp(line, "EOD", 3) != 0; line = end + 1) {
         end = strchr(line, '\n');
         *end = '\0';
-        rows += sscanf(line, "%lf %lf %lf", &at[rows][0], &at[rows][1], &at[rows][2]) ==
-                columns;
+        rows += sscanf(line, "%lf %lf %lf", &at[rows][0], &at[rows][1], &at[rows][2]) == columns;
     }
     return rows;
 }
@@ -469,8 +453,7 @@ TEST(a_map_shows_the_table)
     double largest = 0.0;
     for (int i = 0; i < 12; i++)
         largest = fmax(largest, power[i]);
-    const double unit =
-        largest < 0.1 ? pow(10.0, floor(log10(largest))) : 1.0; /* of the scale */
+    const double unit = largest < 0.1 ? pow(10.0, floor(log10(largest))) : 1.0; /* of the scale */
     for (int i = 0; i < 12; i++) {
         CHECK_REL(at[i][0], ratio[i], 1e-8, "x of %d", i);
         CHECK_REL(at[i][1], load[i], 1e-8, "y of %d", i);
@@ -482,11 +465,9 @@ TEST(a_map_shows_the_table)
 TEST(a_table_of_cases_may_be_a_grid)
 {
     double at[20][3];
-    write_file("grid",
-               "load creep-ratio\n400 .5\n100 .9\n100 .5\n400 .2\n100 .2\n400 .9\n");
-    assert_int_equal(rollbem(STUDY
-                             "--similar --contact-elements 20 --cases grid --map "
-                             "g.png --over load --family creep-ratio --plot-script g.gp"),
+    write_file("grid", "load creep-ratio\n400 .5\n100 .9\n100 .5\n400 .2\n100 .2\n400 .9\n");
+    assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --cases grid --map "
+                                   "g.png --over load --family creep-ratio --plot-script g.gp"),
                      0);
     assert_true(begins_like_a_picture("g.png", "\x89PNG"));
     assert_int_equal(read_block("g.gp", "map", 3, at), 6);
@@ -556,13 +537,12 @@ TEST(files_of_studies_are_blamed_by_line)
 {
     static const struct {
         const char *line, *part;
-    } wrong[] = {
-        {"radius-b = -30", "f.ini:6: radius of body B: a bore must be larger"},
-        {"hardening = -3", "f.ini:6: hardening: only for an interface that yields"},
-        {"cover-thickness-b = 1", "f.ini:6: cover thickness of body B: its core"},
-        {"shift = 1", "f.ini:6: shift: rolling is driven by"},
-        {"zone = 1e30", "f.ini:6: zone: 1e+30 mm is wider than"},
-        {"force-ratio = 3", "f.ini:6: force ratio Q/(mu P) = 3"}};
+    } wrong[] = {{"radius-b = -30", "f.ini:6: radius of body B: a bore must be larger"},
+                 {"hardening = -3", "f.ini:6: hardening: only for an interface that yields"},
+                 {"cover-thickness-b = 1", "f.ini:6: cover thickness of body B: its core"},
+                 {"shift = 1", "f.ini:6: shift: rolling is driven by"},
+                 {"zone = 1e30", "f.ini:6: zone: 1e+30 mm is wider than"},
+                 {"force-ratio = 3", "f.ini:6: force ratio Q/(mu P) = 3"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char text[300];
         snprintf(text, sizeof text,
@@ -590,18 +570,15 @@ TEST(what_cannot_be_drawn_is_refused)
          "--map: cases 1 and 9 have the same mu and creep-ratio: more options vary"},
         {"--plot a.gif", "--plot: expected a name ending in .png, .svg or .pdf"},
         {"--plot-size 85mm", "--plot-size: there is no picture"},
-        {"--plot a.png --map b.png --plot-script c.gp",
-         "--plot-script: expected one picture"},
+        {"--plot a.png --map b.png --plot-script c.gp", "--plot-script: expected one picture"},
         {"--plot a.png --map a.png", "both would write 'a.png'"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[600];
         snprintf(line, sizeof line, GRID "%s", all[k].arguments);
         check_refused(line, 64, all[k].part);
     }
-    check_refused(STUDY "--vary-1 'mu .1 .2' --map a.png", 64,
-                  "--map: a map needs two options");
-    check_refused(STUDY "--vary-1 'mu .1 .1' --plot a.png", 64,
-                  "--plot: no option varies");
+    check_refused(STUDY "--vary-1 'mu .1 .2' --map a.png", 64, "--map: a map needs two options");
+    check_refused(STUDY "--vary-1 'mu .1 .1' --plot a.png", 64, "--plot: no option varies");
     check_refused(STUDY "--vary-1 'load 1:99:20' --vary-2 'mu .1 .2' --plot a.png "
                         "--family load",
                   64, "--plot: 20 values of load: at most 16 curves");
@@ -611,8 +588,8 @@ TEST(what_cannot_be_drawn_is_refused)
 /* The same numbers as those of a single case: its largest stresses and its error bars. */
 TEST(rows_have_stresses_and_error_bars)
 {
-#define SLIDING                                                                          \
-    "--support halfplane --similar --mu 0.3 --formulation steady "                       \
+#define SLIDING                                                                                    \
+    "--support halfplane --similar --mu 0.3 --formulation steady "                                 \
     "--creep-ratio 0.5 --contact-elements 40 --error "
     json_t *root = run_json("sweep " SLIDING "--vary-1 'load 100 400' --units si "
                             "--results max_shear,max_shear_y,tension");
@@ -627,12 +604,12 @@ TEST(rows_have_stresses_and_error_bars)
     json_decref(one);
     one = run_json(SLIDING "--load 400 --units si");
     const json_t *errors = json_object_get(json_object_get(one, "summary"), "errors");
-    CHECK_REL(entry(table, "error_half_width_m", 1), number_in(errors, "half_width"),
-              1e-12, "error bar of the half-width");
-    CHECK_REL(entry(table, "error_force_ratio", 1), number_in(errors, "force_ratio"),
-              1e-12, "error bar of the force");
-    CHECK_REL(entry(table, "max_shear_Pa", 1) / entry(table, "max_shear_Pa", 0), 2.0,
-              1e-6, "stress goes as the root of the load");
+    CHECK_REL(entry(table, "error_half_width_m", 1), number_in(errors, "half_width"), 1e-12,
+              "error bar of the half-width");
+    CHECK_REL(entry(table, "error_force_ratio", 1), number_in(errors, "force_ratio"), 1e-12,
+              "error bar of the force");
+    CHECK_REL(entry(table, "max_shear_Pa", 1) / entry(table, "max_shear_Pa", 0), 2.0, 1e-6,
+              "stress goes as the root of the load");
     json_decref(one);
     json_decref(root);
     double at[20][3];
@@ -661,21 +638,19 @@ TEST(an_empty_file_is_a_start)
 /* More than a page of command line, as a study of many values has. */
 TEST(a_long_command_line_is_resumed)
 {
-    assert_int_equal(
-        shell("v=$(seq -s' ' 0.0001 0.0001 0.1); "
-              "\"$R\" " STUDY "--contact-elements 10 --vary-1 \"mu $v\" "
-              "--output long.tsv && head -n 500 long.tsv >l && cp long.tsv w && "
-              "cp l long.tsv && \"$R\" " STUDY "--contact-elements 10 "
-              "--vary-1 \"mu $v\" --output long.tsv && cmp w long.tsv"),
-        0);
+    assert_int_equal(shell("v=$(seq -s' ' 0.0001 0.0001 0.1); "
+                           "\"$R\" " STUDY "--contact-elements 10 --vary-1 \"mu $v\" "
+                           "--output long.tsv && head -n 500 long.tsv >l && cp long.tsv w && "
+                           "cp l long.tsv && \"$R\" " STUDY "--contact-elements 10 "
+                           "--vary-1 \"mu $v\" --output long.tsv && cmp w long.tsv"),
+                     0);
 }
 
 TEST(files_of_the_case_belong_to_the_study)
 {
-    static const char study[] =
-        "sweep --support halfplane --formulation steady --load 100 "
-        "--quiet --gap gap.tsv --zone 0.4 --contact-elements 20 "
-        "--vary-1 'creep-ratio 0:1:3' --output g.tsv";
+    static const char study[] = "sweep --support halfplane --formulation steady --load 100 "
+                                "--quiet --gap gap.tsv --zone 0.4 --contact-elements 20 "
+                                "--vary-1 'creep-ratio 0:1:3' --output g.tsv";
     assert_int_equal(shell("seq -2 0.1 2 | awk '{print $1, $1*$1/100}' >gap.tsv"), 0);
     assert_int_equal(rollbem(study), 0);
     assert_int_equal(rollbem(study), 0);

@@ -7,8 +7,8 @@ static const char study[] = "support = halfplane\nformulation = steady\n"
                             "vary-2 = creep-ratio 0:1.5:400\n";
 
 /* Three processes on however few processors; leaks are those of Open MPI. */
-#define MPIRUN                                                                           \
-    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "                         \
+#define MPIRUN                                                                                     \
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "                                   \
     "ASAN_OPTIONS=detect_leaks=0 mpirun --oversubscribe -n 3 "
 
 static char whole[400000], got[400000];

@@ -67,8 +67,8 @@ static void add_declared(const char *path, names *all)
         while (isspace((unsigned char)*line))
             line++;
         const int is_type = strncmp(line, "typedef", 7) == 0;
-        const int is_extern = strncmp(line, "extern", 6) == 0 &&
-                              strchr(";,[", at[length + strspn(at + length, " ")]);
+        const int is_extern =
+            strncmp(line, "extern", 6) == 0 && strchr(";,[", at[length + strspn(at + length, " ")]);
         if (!is_type && (at[length] == '(' || is_extern))
             add(all, word);
     }
@@ -99,13 +99,11 @@ static void exported(names *all)
 {
     char command[300], line[400], name[WORD], kind;
 
-    snprintf(command, sizeof command, "nm -D --defined-only %s/librollbem.so",
-             build_folder());
+    snprintf(command, sizeof command, "nm -D --defined-only %s/librollbem.so", build_folder());
     FILE *nm = popen(command, "r");
     assert_non_null(nm);
     while (fgets(line, sizeof line, nm))
-        if (sscanf(line, "%*x %c %79s", &kind, name) == 2 &&
-            name[0] != '.') /* OpenMP's */
+        if (sscanf(line, "%*x %c %79s", &kind, name) == 2 && name[0] != '.') /* OpenMP's */
             add(all, name);
     assert_int_equal(pclose(nm), 0);
 }
@@ -141,10 +139,9 @@ TEST(exports_are_the_headers)
 
 TEST(one_header_has_them_all)
 {
-    assert_int_equal(
-        system("cd include && for h in rollbem/*.h; do [ $h = rollbem/rollbem.h ] || "
-               "grep -q \"include \\\"$h\\\"\" rollbem/rollbem.h || exit 1; done"),
-        0);
+    assert_int_equal(system("cd include && for h in rollbem/*.h; do [ $h = rollbem/rollbem.h ] || "
+                            "grep -q \"include \\\"$h\\\"\" rollbem/rollbem.h || exit 1; done"),
+                     0);
 }
 
 /* A C++ program with every header, linked to the shared library, solves a case. */
@@ -155,24 +152,23 @@ TEST(headers_serve_cxx)
     skip_under_sanitizers();
     if (system("g++ --version >/dev/null 2>&1") != 0)
         skip();
-    snprintf(
-        command, sizeof command,
-        "{ ls include/rollbem | sed 's|.*|#include <rollbem/&>|'; cat <<'END'\n"
-        "int main()\n"
-        "{\n"
-        "    rb_api *a = rb_api_create();\n"
-        "    const int ok = rb_api_set(a, \"contact-elements\", \"12\") == RB_OK &&\n"
-        "                   rb_api_solve(a) == RB_OK && rb_version() != nullptr;\n"
-        "    rb_api_free(a);\n"
-        "    return ok ? 0 : 1;\n"
-        "}\n"
-        "END\n"
-        "} > %s/tests/cxx.cpp && g++ -std=c++11 -Wall -Wextra -Wpedantic -Werror "
-        "-Iinclude -o %s/tests/cxx %s/tests/cxx.cpp %s/librollbem.so && "
-        "ln -sf ../librollbem.so %s/tests/librollbem.so.0 && "
-        "LD_LIBRARY_PATH=%s/tests %s/tests/cxx",
-        build_folder(), build_folder(), build_folder(), build_folder(), build_folder(),
-        build_folder(), build_folder());
+    snprintf(command, sizeof command,
+             "{ ls include/rollbem | sed 's|.*|#include <rollbem/&>|'; cat <<'END'\n"
+             "int main()\n"
+             "{\n"
+             "    rb_api *a = rb_api_create();\n"
+             "    const int ok = rb_api_set(a, \"contact-elements\", \"12\") == RB_OK &&\n"
+             "                   rb_api_solve(a) == RB_OK && rb_version() != nullptr;\n"
+             "    rb_api_free(a);\n"
+             "    return ok ? 0 : 1;\n"
+             "}\n"
+             "END\n"
+             "} > %s/tests/cxx.cpp && g++ -std=c++11 -Wall -Wextra -Wpedantic -Werror "
+             "-Iinclude -o %s/tests/cxx %s/tests/cxx.cpp %s/librollbem.so && "
+             "ln -sf ../librollbem.so %s/tests/librollbem.so.0 && "
+             "LD_LIBRARY_PATH=%s/tests %s/tests/cxx",
+             build_folder(), build_folder(), build_folder(), build_folder(), build_folder(),
+             build_folder(), build_folder());
     assert_int_equal(system(command), 0);
 }
 

@@ -21,20 +21,19 @@ typedef struct {
  */
 static const char *const words[CASES][16] = {
     {"contact-elements", "20", NULL},
-    {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4",
-     NULL},
+    {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4", NULL},
     {"support", "hub", "formulation", "steady", "load", "300", "creep-ratio", "0.4",
      "contact-elements", "24", NULL},
-    {"support", "halfplane", "formulation", "steady", "load", "300", "force-ratio",
-     "-0.5", "mesh", "uniform", "contact-elements", "1600", NULL},
-    {"support", "halfplane", "formulation", "transient", "load", "300", "creep-ratio",
-     "0.4", "distance", "1", "contact-elements", "30", NULL},
-    {"support", "halfplane", "formulation", "steady", "load", "300", "layer-thickness",
-     "5", "creep", "1e-4", "contact-elements", "30", NULL},
+    {"support", "halfplane", "formulation", "steady", "load", "300", "force-ratio", "-0.5", "mesh",
+     "uniform", "contact-elements", "1600", NULL},
+    {"support", "halfplane", "formulation", "transient", "load", "300", "creep-ratio", "0.4",
+     "distance", "1", "contact-elements", "30", NULL},
+    {"support", "halfplane", "formulation", "steady", "load", "300", "layer-thickness", "5",
+     "creep", "1e-4", "contact-elements", "30", NULL},
     {"support", "halfplane", "load", "300", "force-ratio", "0.5", "solver", "nsn-ac",
      "contact-elements", "30", NULL},
-    {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4",
-     "solver", "newton", "contact-elements", "150", NULL}};
+    {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4", "solver",
+     "newton", "contact-elements", "150", NULL}};
 
 static void solve(job *j)
 {
@@ -53,9 +52,9 @@ static void solve(job *j)
     if (j->status != RB_OK)
         print_error("case %d: %s\n", j->k, why.text);
     const rb_rolling_solution *s = &r.solution;
-    const double number[NUMBERS] = {
-        s->normal_load, s->tangential_load, s->max_pressure, s->half_width,
-        s->creepage,    s->approach,        s->stick_length, (double)s->iterations};
+    const double number[NUMBERS] = {s->normal_load,  s->tangential_load,   s->max_pressure,
+                                    s->half_width,   s->creepage,          s->approach,
+                                    s->stick_length, (double)s->iterations};
     memcpy(j->number, number, sizeof number);
     rb_case_free(c);
 }
@@ -99,8 +98,8 @@ TEST(threads_give_the_same_bytes)
         CHECK_STATUS(alone.jobs[k].status, RB_OK);
         for (int t = 0; t < THREADS; t++)
             for (int i = 0; i < NUMBERS; i++)
-                CHECK_REL(together[t].jobs[k].number[i], alone.jobs[k].number[i],
-                          tolerance(k), "case %d, thread %d, number %d", k, t, i);
+                CHECK_REL(together[t].jobs[k].number[i], alone.jobs[k].number[i], tolerance(k),
+                          "case %d, thread %d, number %d", k, t, i);
     }
 }
 

@@ -21,8 +21,8 @@ static double *equal_ends(int n, double from, double to)
 static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.5},
                              aluminium = {23000.0, 0.31};
 
-static rb_bem_flexibility built(make *by, int n, rb_bem_material a,
-                                const rb_bem_material *b, double datum)
+static rb_bem_flexibility built(make *by, int n, rb_bem_material a, const rb_bem_material *b,
+                                double datum)
 {
     SCRATCH double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
     rb_bem_flexibility f, of_a, of_b;
@@ -152,9 +152,8 @@ TEST(long_lines_work)
     for (int i = 0; i < f.m; i += 19997) {
         one[0] = f.x[i];
         one[1] = f.x[i] + 1.0;
-        CHECK_STATUS(
-            rb_bem_surface_displacement(HALFPLANE(steel, 10.0), 1, ends, 2, one, W),
-            RB_OK);
+        CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 10.0), 1, ends, 2, one, W),
+                     RB_OK);
         CHECK_REL(w[i], 3.0 * W[0] - 2.0 * W[4], 1e-9, "N of row %d", i);
         CHECK_REL(w[f.m + i], 3.0 * W[2] - 2.0 * W[6], 1e-9, "T of row %d", i);
     }
@@ -167,9 +166,8 @@ static void refuse(int n, const double *ends, rb_bem_material material, double d
 {
     OWNED(rb_bem_flexibility) f;
     rb_message why;
-    CHECK_STATUS(
-        rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, word));
     assert_null(f.x);
 }
@@ -184,14 +182,12 @@ static double *equal_arcs(int n, double radius, double from, double to)
     return ends;
 }
 
-static rb_bem_flexibility disc(int n, double radius, double from, double to,
-                               rb_bem_normals normals)
+static rb_bem_flexibility disc(int n, double radius, double from, double to, rb_bem_normals normals)
 {
     SCRATCH double *ends = equal_arcs(n, radius, from, to);
     rb_bem_flexibility f;
     rb_message why;
-    CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals,
-                                         &f, &why),
+    CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals, &f, &why),
                  RB_OK);
     return f;
 }
@@ -209,8 +205,8 @@ TEST(the_disc_is_symmetric)
             r[i] = sin(3.0 * i * i);
             for (int j = 0; j < i; j++) {
                 const int row = i < n ? i : i + 1, column = j < n ? j : j + 1;
-                CHECK_ABS(F[row + j * 2 * m], F[column + i * 2 * m], 1e-13 * scale,
-                          "entry %d, %d", i, j);
+                CHECK_ABS(F[row + j * 2 * m], F[column + i * 2 * m], 1e-13 * scale, "entry %d, %d",
+                          i, j);
             }
         }
         rb_bem_flexibility_apply(&f, r, w);
@@ -251,12 +247,12 @@ TEST(the_obstacles_frame_is_turned_by_the_angle)
                 double r[2], w[2], want[2];
                 turn(at, 1.0, load, r);
                 for (int a = 0; a < 2; a++)
-                    w[a] = own[a * m + i + j * 2 * m] * r[0] +
-                           own[a * m + i + (n + j) * 2 * m] * r[1];
+                    w[a] =
+                        own[a * m + i + j * 2 * m] * r[0] + own[a * m + i + (n + j) * 2 * m] * r[1];
                 turn(from + (i + 0.5) * h, -1.0, w, want);
                 for (int a = 0; a < 2; a++)
-                    CHECK_ABS(turned[a * m + i + (b * n + j) * 2 * m], want[a],
-                              1e-13 * scale, "%d%d of point %d, element %d", a, b, i, j);
+                    CHECK_ABS(turned[a * m + i + (b * n + j) * 2 * m], want[a], 1e-13 * scale,
+                              "%d%d of point %d, element %d", a, b, i, j);
             }
 }
 
@@ -273,13 +269,10 @@ TEST(the_disc_is_the_reference_but_for_a_translation)
     double first[2] = {0.0, 0.0};
     for (int i = 0; i < m; i++) {
         double u[4], angle = -1.1 + (i + 0.5) * h - 0.5 * M_PI;
-        CHECK_STATUS(
-            rb_bem_disc_response(&(rb_bem_disc){radius, steel}, h, (i - j) * h, u),
-            RB_OK);
+        CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){radius, steel}, h, (i - j) * h, u), RB_OK);
         const double dr = -w[i] - (0.6 * u[0] + 1.3 * u[2]);
         const double dt = w[m + i] - (0.6 * u[1] + 1.3 * u[3]);
-        const double dx = dr * cos(angle) - dt * sin(angle),
-                     dy = dr * sin(angle) + dt * cos(angle);
+        const double dx = dr * cos(angle) - dt * sin(angle), dy = dr * sin(angle) + dt * cos(angle);
         if (i == 0) {
             first[0] = dx;
             first[1] = dy;
@@ -297,8 +290,7 @@ TEST(a_short_arc_is_a_half_plane)
     SCRATCH double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
     OWNED(rb_bem_flexibility)
     half, f = disc(n, 1e4, -1e-7, 1e-7, RB_BEM_NORMALS_OBSTACLE);
-    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 1.0), &half, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 1.0), &half, NULL), RB_OK);
     for (int i = 0; i < n; i++) {
         r[i] = 1.0 + sin(i);
         r[n + i] = cos(i);
@@ -307,8 +299,7 @@ TEST(a_short_arc_is_a_half_plane)
     rb_bem_flexibility_apply(&half, r, v);
     for (int i = 1; i < m; i++) {
         CHECK_ABS(w[i] - w[0], v[i] - v[0], 1e-5 * fabs(v[n / 2] - v[0]), "N of %d", i);
-        CHECK_ABS(w[m + i] - w[m], v[m + i] - v[m], 1e-5 * fabs(v[n / 2] - v[0]),
-                  "T of %d", i);
+        CHECK_ABS(w[m + i] - w[m], v[m + i] - v[m], 1e-5 * fabs(v[n / 2] - v[0]), "T of %d", i);
     }
 }
 
@@ -360,9 +351,8 @@ TEST(equal_lengths_are_those_of_any_unit)
             OWNED(rb_bem_flexibility) f;
             for (int i = 0; i < n + 2; i++)
                 ends[i] = far + i * h;
-            CHECK_STATUS(
-                rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, h), &f, NULL),
-                RB_OK);
+            CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, h), &f, NULL),
+                         RB_OK);
             ends[2] += 1e-6 * h;
             refuse(n, ends, steel, h, "different lengths");
         }
@@ -370,8 +360,7 @@ TEST(equal_lengths_are_those_of_any_unit)
 
 TEST(bad_input)
 {
-    const double equal[] = {0, 1, 2, 3}, unequal[] = {0, 1, 2, 3.0001},
-                 falling[] = {0, 1, 1, 3};
+    const double equal[] = {0, 1, 2, 3}, unequal[] = {0, 1, 2, 3.0001}, falling[] = {0, 1, 1, 3};
     refuse(2, unequal, steel, 1.0, "different lengths");
     refuse(2, falling, steel, 1.0, "increasing");
     refuse(0, equal, steel, 1.0, "at least 1");
@@ -392,8 +381,7 @@ TEST(failing_allocations)
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;
         alloc_fail_after(k);
-        const rb_status s =
-            rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &why);
+        const rb_status s = rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &why);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);

@@ -42,8 +42,7 @@ int main(int argc, char **argv)
     const int only_q = argc == 3 && !strcmp(argv[1], "-q");
     const int m = argc == 2 + only_q ? atoi(argv[1 + only_q]) : 0;
     if (m < 1 || m > 10000) {
-        fprintf(stderr,
-                "obstacle: expected [-q] M, M points on a side from 1 to 10000\n");
+        fprintf(stderr, "obstacle: expected [-q] M, M points on a side from 1 to 10000\n");
         return 64;
     }
     if (only_q)

@@ -86,8 +86,7 @@ static void lay(pile *p, int a, int b)
         return;
     for (int end = 0; end < 2; end++)
         for (int side = 0; side < p->d - 1; side++) {
-            const double x[3] = {end ? high : low, xb[1] - 0.5,
-                                 p->d == 3 ? side - 0.5 : 0.0};
+            const double x[3] = {end ? high : low, xb[1] - 0.5, p->d == 3 ? side - 0.5 : 0.0};
             touch(p, a, b, x, up);
         }
 }
@@ -99,8 +98,8 @@ static void wall(pile *p, int bodies)
         const int below = first;
         first = p->bodies;
         for (int k = 0; k < wide && p->bodies < bodies; k++) {
-            const int b = add_body(p, LENGTH * (k + 0.5 * (row % 2)), row + 0.5, 0.0,
-                                   LENGTH, LENGTH * (LENGTH * LENGTH + 1.0) / 12.0);
+            const int b = add_body(p, LENGTH * (k + 0.5 * (row % 2)), row + 0.5, 0.0, LENGTH,
+                                   LENGTH * (LENGTH * LENGTH + 1.0) / 12.0);
             if (row == 0)
                 lay(p, GROUND, b);
             for (int a = below; row > 0 && a < before; a++)
@@ -147,8 +146,8 @@ static void discs(pile *p, int bodies)
         for (int k = 0; k < wide - row % 2 && p->bodies < bodies; k++) {
             if (row > 0 && uniform(p) > 0.8) /* taken out */
                 continue;
-            const int b = add_body(p, 0.5 + k + 0.5 * (row % 2), 0.5 + row * sqrt(0.75),
-                                   0.0, 1.0, 0.125);
+            const int b =
+                add_body(p, 0.5 + k + 0.5 * (row % 2), 0.5 + row * sqrt(0.75), 0.0, 1.0, 0.125);
             touch_plane(p, b, 0.0, 1.0, 0.0, 0.0);
             touch_plane(p, b, 1.0, 0.0, 0.0, 0.0);
             touch_plane(p, b, -1.0, 0.0, 0.0, -wide);
@@ -166,8 +165,8 @@ static void spheres(pile *p, int bodies)
                 break;
             const int side = wide - row % 2;
             const double shift = 0.5 + 0.5 * (row % 2);
-            const int b = add_body(p, shift + k % side, 0.5 + row * sqrt(0.5),
-                                   shift + k / side, 1.0, 0.1);
+            const int b =
+                add_body(p, shift + k % side, 0.5 + row * sqrt(0.5), shift + k / side, 1.0, 0.1);
             touch_plane(p, b, 0.0, 1.0, 0.0, 0.0);
             touch_plane(p, b, 1.0, 0.0, 0.0, 0.0);
             touch_plane(p, b, -1.0, 0.0, 0.0, -wide);
@@ -199,8 +198,7 @@ static void row_of(const pile *p, const contact *c, int k, const double t[3], do
 static void frame(const contact *c, double t[3][3])
 {
     const double *n = c->n;
-    const double other[3] = {fabs(n[2]) < 0.9 ? 0.0 : 1.0, 0.0,
-                             fabs(n[2]) < 0.9 ? 1.0 : 0.0};
+    const double other[3] = {fabs(n[2]) < 0.9 ? 0.0 : 1.0, 0.0, fabs(n[2]) < 0.9 ? 1.0 : 0.0};
     double size = 0.0;
     memcpy(t[0], n, sizeof t[0]);
     for (int i = 0; i < 3; i++) {
@@ -217,8 +215,7 @@ static void frame(const contact *c, double t[3][3])
 }
 
 /* W between two contacts that share body k */
-static void add_block(const pile *p, const contact *c, const contact *e, int k,
-                      double block[3][3])
+static void add_block(const pile *p, const contact *c, const contact *e, int k, double block[3][3])
 {
     double tc[3][3], te[3][3], hc[6], he[6];
     const body *b = &p->body[k];
@@ -255,8 +252,8 @@ static void block_of(const pile *p, int i, int j, double block[3][3])
 
 static void print_head(int rows, int cols, int nz)
 {
-    printf("2\n%d\n%d\n1\n(packings)\ntriplet: %d-by-%d, nzmax: %d nnz: %d\n", rows, cols,
-           rows, cols, nz, nz);
+    printf("2\n%d\n%d\n1\n(packings)\ntriplet: %d-by-%d, nzmax: %d nnz: %d\n", rows, cols, rows,
+           cols, nz, nz);
 }
 
 static void print_matrix(const pile *p)
@@ -367,16 +364,13 @@ int main(int argc, char **argv)
         const char *name;
         int d;
         void (*build)(pile *p, int bodies);
-    } kinds[] = {{"boxes", 2, wall},
-                 {"discs", 2, discs},
-                 {"bricks", 3, wall},
-                 {"spheres", 3, spheres}};
+    } kinds[] = {
+        {"boxes", 2, wall}, {"discs", 2, discs}, {"bricks", 3, wall}, {"spheres", 3, spheres}};
     static double v[MOST_BODIES][6];
     const int global = argc > 5 && !strcmp(argv[5], "global");
     if (argc < 5 || argc > 6 + global || (argc > 5 && !global))
-        fail(
-            "expected KIND BODIES MU SEED [global [LOOSE]], KIND boxes, discs, bricks or "
-            "spheres");
+        fail("expected KIND BODIES MU SEED [global [LOOSE]], KIND boxes, discs, bricks or "
+             "spheres");
     const int bodies = atoi(argv[2]);
     const double mu = atof(argv[3]);
     if (bodies < 1 || !(mu >= 0.0))

@@ -72,8 +72,7 @@ const char *rb_api_crack_option(int k, const char *field, char *text, int size);
 /* Field of result k of a table ("number", "column", "patch", "step", "point",
  * "wear", "stress", "maximum", "crack", "position" or "growth"): "name", "unit", "kind"
  * (number, whole, seconds), "meaning". */
-const char *rb_api_result(const char *table, int k, const char *field, char *text,
-                          int size);
+const char *rb_api_result(const char *table, int k, const char *field, char *text, int size);
 /* Value of an option after rb_api_resolve. */
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size);
 
@@ -173,8 +172,8 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
  * "dissipation", coefficient K [1/MPa], share of B.  A slides by `slide` [mm]; if that is
  * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps; quarter:
  * increments per quarter of a cycle of fretting (rollbem/rolling.h). */
-int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
-                double slide, double cycles, int steps, int quarter);
+int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, double slide,
+                double cycles, int steps, int quarter);
 /* Derivatives of every number and column of the solution with respect to every number of
  * the case, on the elements of the solution.  The case must have one step and no error
  * bars. */
@@ -207,9 +206,8 @@ int rb_api_friction_measure(rb_api *a, const char *measure);
  * normal one first; W column by column, one mu per contact.  solver: a name of `rollbem
  * friction`. The function has nine plain parameters so that other languages need no
  * struct. */
-int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
-                    const double *q, const double *mu, const char *solver, double tol,
-                    int max_iters);
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
+                    const double *mu, const char *solver, double tol, int max_iters);
 /* The same for the problem of a file, FCLib or Siconos. */
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
                          int max_iters);
@@ -218,8 +216,8 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 /* The same with a crack below each contact: handles for "crack", and the same m options
  * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
-int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m,
-                        const char *const *names, const char *const *values, int workers);
+int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                        const char *const *values, int workers);
 
 RB_PUBLIC_END
 

@@ -22,16 +22,15 @@ typedef struct {
 rb_bem_material rb_bem_material_from_young(double young, double poisson);
 /* Converts plane stress to plane strain (B2); nowhere else is this done.  young, poisson:
  * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
-rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young,
-                                         double poisson);
+rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
 
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
 typedef enum {
     RB_BEM_TRACTION,     /* traction given, displacement unknown */
     RB_BEM_DISPLACEMENT, /* displacement given, traction unknown */
-    RB_BEM_CONTACT /* traction and displacement are kept: the traction is an input of the
-                      condensed system */
+    RB_BEM_CONTACT       /* traction and displacement are kept: the traction is an input of the
+                            condensed system */
 } rb_bem_condition;
 
 /* A mesh of any number of closed polygons.  The body lies on the left of each polygon
@@ -69,14 +68,14 @@ typedef struct {
     rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
     double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
     double hub_ratio;       /* in (0, 1) */
-    double cover; /* RB_BEM_HUB: thickness of a cover [length]; only the cover is meshed,
-                     and it is fixed where it is bonded to its core; 0: no cover */
-    int outer_elements; /* number of elements on the outer circle outside the contact,
-                           including the upstream one; a symmetric mesh gets one more if
-                           the number is odd; 0: chosen so that neighbours differ in
-                           length by at most a fifth */
-    double refinement;  /* factor on the number of elements outside the contact and on the
-                           hub; 0: 1 */
+    double cover;           /* RB_BEM_HUB: thickness of a cover [length]; only the cover is meshed,
+                               and it is fixed where it is bonded to its core; 0: no cover */
+    int outer_elements;     /* number of elements on the outer circle outside the contact,
+                               including the upstream one; a symmetric mesh gets one more if
+                               the number is odd; 0: chosen so that neighbours differ in
+                               length by at most a fifth */
+    double refinement;      /* factor on the number of elements outside the contact and on the
+                               hub; 0: 1 */
 } rb_bem_cylinder;
 
 /* Height of a circle above its lowest point, R - sqrt(R^2 - x^2), |x| <= R, without
@@ -88,8 +87,8 @@ double rb_bem_circle_height(double radius, double x);
  * geometrically; symmetric ends give a symmetric mesh.  RB_EINVAL: the contact elements
  * reach the support, the ends do not increase, or the numbers of elements are out of
  * range. */
-rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
-                               const double *ends, rb_bem_mesh *mesh, rb_message *why);
+rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
+                               rb_bem_mesh *mesh, rb_message *why);
 
 /* Meshes the core of a covered cylinder (B11): a ring between the inner contour of the
  * cover's mesh, in reversed order, and a rigid hub of radius hub_ratio R.  RB_EINVAL: the
@@ -112,15 +111,15 @@ typedef struct {
 
 /* Integrals over one element for the source point p = (px, py).  self: p is the midpoint
  * of this element; H then includes the free term 1/2. */
-rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py,
-                                       int self, rb_bem_material material);
+rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py, int self,
+                                       rb_bem_material material);
 
 /* H u = G t (B1).  2n x 2n, column-major, ld >= 2n; dofs x0, y0, x1, y1, ...  G may be
  * NULL.  H [-], G [length/stress].  The logarithm in G is that of r divided by the
  * diagonal of the bounding box of the mesh: the choice does not matter for tractions in
  * equilibrium, and no result then depends on the unit of length.  Uses all processors. */
-rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H,
-                          double *G, int ld, rb_message *why);
+rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H, double *G,
+                          int ld, rb_message *why);
 
 /* ---- Mixed problems and condensation (B4-B6) -------------------------------------- */
 
@@ -149,8 +148,7 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
  * The matrix is dense at any size.  RB_EINVAL also if the two meshes do not match, or if
  * the cover is incompressible. */
 rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
-                                      const rb_bem_mesh *core,
-                                      rb_bem_material core_material,
+                                      const rb_bem_mesh *core, rb_bem_material core_material,
                                       rb_bem_system **system, rb_message *why);
 void rb_bem_system_free(rb_bem_system *system);
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
@@ -162,8 +160,8 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
 
 /* Displacement u and traction t of every element (2n each, global x, y) under the mesh's
  * given values and the contact tractions t_contact (2 contact_n, global; NULL: zero). */
-rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
-                              double *u, double *t);
+rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact, double *u,
+                              double *t);
 
 /* ---- Flexibility of the contact (B5) ---------------------------------------------- */
 
@@ -211,15 +209,15 @@ rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals
 typedef struct {
     rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
                                  (instantaneous) constants */
-    double datum; /* depth of zero displacement of the half-plane or elastic base */
-    double datum_tangential; /* the same for tangential displacement; only for a
-                                homogeneous half-plane stored as a matrix; 0: datum */
-    int terms; /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
-                  exp(-t/tau_k)) */
-    const double *ratio;  /* terms: f_k >= 0 */
-    const double *length; /* terms: rolling speed times tau_k [length], >= 0 */
-    double thickness;     /* of the layer; 0: half-plane */
-    int elastic_base;     /* of the layer; 0: rigid */
+    double datum;             /* depth of zero displacement of the half-plane or elastic base */
+    double datum_tangential;  /* the same for tangential displacement; only for a
+                                 homogeneous half-plane stored as a matrix; 0: datum */
+    int terms;                /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
+                                 exp(-t/tau_k)) */
+    const double *ratio;      /* terms: f_k >= 0 */
+    const double *length;     /* terms: rolling speed times tau_k [length], >= 0 */
+    double thickness;         /* of the layer; 0: half-plane */
+    int elastic_base;         /* of the layer; 0: rigid */
     rb_bem_material base;
 } rb_bem_surface;
 
@@ -228,17 +226,15 @@ typedef struct {
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
 
 /* ends as in rb_bem_mesh_cylinder, but without the bound R. */
-rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
-                                     const rb_bem_surface *body, rb_bem_flexibility *f,
-                                     rb_message *why);
+rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,
+                                     rb_bem_flexibility *f, rb_message *why);
 
 /* The same for equal elements, as a Toeplitz operator: products by Fourier transforms
  * take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
  * operators (rb_bem_flexibility_pair) is a Toeplitz operator.  Only one thread at a time
  * may call apply.  RB_EINVAL: as above, or elements of different lengths. */
-rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
-                                      const rb_bem_surface *body, rb_bem_flexibility *f,
-                                      rb_message *why);
+rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
+                                      rb_bem_flexibility *f, rb_message *why);
 
 /* A full disc, fixed at its centre. */
 typedef struct {
@@ -252,15 +248,13 @@ typedef struct {
  * translation of a point force and without mean rotation.  The operator is Toeplitz in
  * the directions of the surface.  RB_EINVAL: as above, or arcs of different lengths. */
 rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
-                                  rb_bem_normals normals, rb_bem_flexibility *f,
-                                  rb_message *why);
+                                  rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
 
 /* Matrix W of the displacements w = W r at any points x of the surface, for tractions r
  * constant on n strips with the n + 1 ends.  W: 2 points x 2n, column-major, rows (w_N,
  * w_T).  RB_EINVAL: invalid sizes or body; RB_ENOMEM. */
-rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
-                                      const double *ends, int points, const double *x,
-                                      double *W);
+rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n, const double *ends,
+                                      int points, const double *x, double *W);
 
 /* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
 typedef struct {
@@ -271,9 +265,8 @@ typedef struct {
 
 /* Adds to w the normal displacements w_N at the points x under tractions that are
  * constant on strips, without forming a matrix.  Errors as above. */
-rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
-                                    const rb_bem_edge_load *load, int points,
-                                    const double *x, double *w);
+rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
+                                    int points, const double *x, double *w);
 
 /* Weights of one step of a viscoelastic body (V6), for a load linear in time over the
  * step (or linear along a length): filtered load after the step = kept * (filtered load
@@ -288,7 +281,7 @@ rb_bem_fading rb_bem_fading_over(double time, double step);
  * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
  * viscoelastic.  Pointers are borrowed. */
 typedef struct {
-    double radius, inner; /* outer and inner radius of the material, bonded at `inner` */
+    double radius, inner;     /* outer and inner radius of the material, bonded at `inner` */
     rb_bem_material material; /* its glassy (instantaneous) constants */
     int terms;
     const double *ratio, *length;
@@ -301,36 +294,33 @@ typedef struct {
  * the elements are arcs, f->h holds their chords.  RB_EINVAL: invalid radii, materials or
  * ends; RB_SINGULAR: the core hardly holds the cover; RB_ENOMEM. */
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                                   rb_bem_normals normals, rb_bem_flexibility *f,
-                                   rb_message *why);
+                                   rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
 
 /* The same as products by Fourier transforms, n log n work, to 1e-10 of the largest
  * displacement.  apply serves one thread at a time.  A cover that is very thin against
  * its elements gets the dense matrix. */
-rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
-                                            const rb_bem_wheel *wheel,
+rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why);
 
 /* A homogeneous elastic half-plane with one datum in the same way, on elements of any
  * lengths, such as those of a wheel that it touches. */
 rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane,
-                                            rb_bem_flexibility *f, rb_message *why);
+                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
+                                            rb_message *why);
 
 /* Displacement w of points x on the lower half of the glassy wheel along the normal of
  * the obstacle, into the body, under strips of p and q along that normal and tangent.
  * RB_EINVAL, RB_ENOMEM. */
-rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
-                              int points, const double *x, double *w);
+rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load, int points,
+                              const double *x, double *w);
 
 /* Adds the viscoelastic part (V8) to the flexibility of the glassy wheel, which was
  * made with these normals.  ends: of the contact elements, as in
  * rb_bem_mesh_cylinder.  f becomes a dense matrix.  RB_EINVAL: invalid radii, materials
  * or relaxation terms; RB_ENOMEM. */
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
-                                        const double *ends, rb_bem_flexibility *f,
-                                        rb_message *why);
+                                        const double *ends, rb_bem_flexibility *f, rb_message *why);
 
 /* Two bodies in contact (4.5): F_A + F_B.  B is computed as an upper body and mirrored,
  * so its coupling blocks enter with the opposite sign.  Takes ownership of a and b and
@@ -363,12 +353,11 @@ typedef struct rb_bem_circulant rb_bem_circulant;
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
                                   const double local[4], rb_bem_circulant **circulant);
 void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r);
-void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
-                                       double *r);
+void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w, double *r);
 /* Approximate inverse of 1 + hardening F_TT, for an interface whose friction grows with
  * its plastic slip by the factor hardening. */
-void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
-                                     const double *w, double *r);
+void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening, const double *w,
+                                     double *r);
 void rb_bem_circulant_free(rb_bem_circulant *circulant);
 
 /* ---- Interior (B8) ---------------------------------------------------------------- */
@@ -391,8 +380,8 @@ typedef struct {
  * elements; u is therefore interpolated linearly between midpoints, so that the stress
  * stays accurate close to the boundary.  At points on the surface the stress follows from
  * the tractions, the tangential strain and Hooke's law. */
-rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
-                          double *displacement, double *stress, rb_message *why);
+rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
+                          double *stress, rb_message *why);
 
 /* Stress of a body under contact tractions, accurate up to the loaded surface: the
  * tractions are linear between the midpoints, and their near field is in closed form
@@ -401,8 +390,8 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
 typedef struct rb_bem_field rb_bem_field;
 rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
                               rb_bem_field **field, rb_message *why);
-rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
-                              double *stress, rb_message *why);
+rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
+                              rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
 /* Stress below tractions that are constant on n strips [x[i], x[i+1]].  stress: 3 per
@@ -414,8 +403,8 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
  * last node; sxx is then finite everywhere.  Use it for points within a few contact
  * widths: rounding errors grow with the ratio of their distance to the spacing of the
  * nodes. */
-rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
-                                         rb_bem_points points, double *stress);
+rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
+                                         double *stress);
 
 /* Stress in a layer or in the base below it under given tractions (L5).  load: tractions
  * at nodes.  The arrays of body and load must exist until the field is freed.  The first
@@ -423,14 +412,13 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
  * Fourier components of the field again.  RB_EINVAL: body is no layer, a point lies
  * outside, or the points extend too far for so thin a layer. */
 typedef struct rb_bem_layer_field rb_bem_layer_field;
-rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
-                                    const rb_bem_edge_load *load,
+rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                     rb_bem_layer_field **field, rb_message *why);
 /* stress: 3 per point.  On input it holds sxx, syy, sxy of a half-plane of the layer's
  * material.  For points in the layer the difference between layer and half-plane is
  * added; for points below the layer the stress is overwritten. */
-rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points,
-                                 double *stress, rb_message *why);
+rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points, double *stress,
+                                 rb_message *why);
 void rb_bem_layer_field_free(rb_bem_layer_field *field);
 
 /* ---- A reference ------------------------------------------------------------------- */
@@ -440,8 +428,7 @@ void rb_bem_layer_field_free(rb_bem_layer_field *field);
  * counter-clockwise) at `angle`, counter-clockwise from the middle of the arc, up to a
  * rigid motion.  A force and a couple at the centre balance the resultant.  response
  * [length/stress]: 2 x 2 column-major, rows (u_r, u_t), columns (p_r, p_t). */
-rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
-                               double response[4]);
+rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, double response[4]);
 
 RB_PUBLIC_END
 

@@ -66,8 +66,8 @@ const char *rb_option_text(const rb_option *option, const void *target, char buf
 const char *rb_option_path(const rb_option *option, const void *target);
 /* Writes the source of an option for messages: "--load", "case.ini:3: load".  Returns
  * buffer. */
-const char *rb_option_source(const rb_option *option, int given, const char *path,
-                             char *buffer, size_t size);
+const char *rb_option_source(const rb_option *option, int given, const char *path, char *buffer,
+                             size_t size);
 
 /* 1: the whole text is one finite number. */
 int rb_option_number(const char *text, double *value);
@@ -105,8 +105,8 @@ void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers
 void rb_case_confine(rb_case *c, const char *folder);
 /* Reads a file that an option or the command line names.  The text ends with a zero byte,
  * and the caller owns it.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
-rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
-                             size_t *size, rb_message *why);
+rb_status rb_case_read_input(const rb_case *c, const char *path, char **text, size_t *size,
+                             rb_message *why);
 /* Copies a case.  The copy borrows files and texts of c, so free it before c.  NULL: no
  * memory. */
 rb_case *rb_case_copy(const rb_case *c);
@@ -126,8 +126,7 @@ const char *rb_case_section(const rb_option *option);
 
 /* Sets an option.  by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is
  * copied.  RB_EINVAL: there is no such option, or the value is out of range. */
-rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
-                      rb_message *why);
+rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why);
 /* The same for options whose value is a number. */
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
 
@@ -137,8 +136,7 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
                        rb_message *why);
 
 /* The same from the text of a case file; name: name of the file in messages. */
-rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
-                            rb_message *why);
+rb_status rb_case_read_text(rb_case *c, const char *name, const char *text, rb_message *why);
 
 /* Computes rb_resolved_case from the given values: refuses contradictions, fills in body
  * B and the mesh, reads the files of gap and history, and checks the result.  Call it
@@ -176,8 +174,8 @@ typedef struct {
 /* Solves a case: steady and static cases at once, transients and histories step by step,
  * with error bars or to the accuracy given in the case.  step is called with the model
  * after each step; it may be NULL.  Free the result in any case. */
-rb_status rb_case_solve(const rb_resolved_case *resolved, rb_rolling_step *step,
-                        void *context, rb_case_result *result, rb_message *why);
+rb_status rb_case_solve(const rb_resolved_case *resolved, rb_rolling_step *step, void *context,
+                        rb_case_result *result, rb_message *why);
 /* The same, but result holds the result of an earlier case (or is {0}); its model is used
  * again as by rb_rolling_model_reuse.  Steps and error bars are computed from the
  * beginning. */
@@ -195,8 +193,7 @@ typedef struct {
     char name[40];    /* of the option; "mu-fall-2": the second number of its list */
     const char *unit; /* of the option */
     double value;     /* [unit] */
-    rb_status
-        status; /* RB_OK; otherwise there are no derivatives, and why has the reason */
+    rb_status status; /* RB_OK; otherwise there are no derivatives, and why has the reason */
     rb_message why;
     rb_sensitivity_derivative d;
 } rb_case_derivative;
@@ -214,20 +211,18 @@ enum { RB_CASE_NUMBERS_MAX = 64 };
 /* All numbers of a resolved case that can be varied; at most RB_CASE_NUMBERS_MAX. number:
  * array of RB_CASE_NUMBERS_MAX entries; it must not be moved, because its entries contain
  * pointers into it. RB_ENOMEM. */
-rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
-                          rb_message *why);
+rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_message *why);
 
 typedef struct {
     int n;
     rb_case_derivative *of;           /* in the order of the options; owned */
     int degenerate;                   /* number of elements on the border of two zones */
     rb_sensitivity_elements elements; /* whether elements move when an input changes */
-    int n_x; /* number of elements; 0: over_x was not computed (law that depends on the
-                state, an element on a border, or RB_ROLLING_LARGE elements and more) */
-    double
-        *over_x; /* for every rb_case_over_x in turn n_x derivatives with respect to the
-                    gap at each element [unit/length], then n_x with respect to its
-                    friction coefficient, with fixed elements and fixed creepage; owned */
+    int n_x;        /* number of elements; 0: over_x was not computed (law that depends on the
+                       state, an element on a border, or RB_ROLLING_LARGE elements and more) */
+    double *over_x; /* for every rb_case_over_x in turn n_x derivatives with respect to the
+                       gap at each element [unit/length], then n_x with respect to its
+                       friction coefficient, with fixed elements and fixed creepage; owned */
     rb_units units; /* of results and numbers; mm at first */
 } rb_case_derivatives;
 
@@ -266,11 +261,11 @@ typedef struct {
                                         rb_rolling_history_columns */
     int n, rows;
     rb_case_slope *of; /* n: columns; owned */
-    double *value;  /* rows x n x 2, row after row: for a falling and for a growing input
-                       (the same where both are alike; of histories always); NAN: none;
-                       owned */
-    int degenerate; /* of a history: steps in which elements stand between two zones */
-    rb_units units; /* mm at first */
+    double *value;     /* rows x n x 2, row after row: for a falling and for a growing input
+                          (the same where both are alike; of histories always); NAN: none;
+                          owned */
+    int degenerate;    /* of a history: steps in which elements stand between two zones */
+    rb_units units;    /* mm at first */
 } rb_case_slopes;
 
 /* Chooses the columns by words: "all", or a list, separated by commas, of RESULT (with
@@ -296,13 +291,11 @@ void rb_case_slopes_convert(rb_case_slopes *slopes, rb_units units);
 void rb_case_slopes_free(rb_case_slopes *slopes);
 
 /* Chooses the columns of a curve; the purpose of the case must be a curve. */
-rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
-                               const char *words, rb_case_slopes *slopes,
-                               rb_message *why);
+rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
+                               rb_case_slopes *slopes, rb_message *why);
 /* rb_rolling_curve_solve with these derivatives at each point. */
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
-                              rb_rolling_curve *curve, rb_case_slopes *slopes,
-                              rb_message *why);
+                              rb_rolling_curve *curve, rb_case_slopes *slopes, rb_message *why);
 /* Derivatives of the history whose states are given; if the two sides differ, those for
  * growing inputs.  RB_EINVAL: friction that depends on the state, an interface that
  * yields, or a given approach. */
@@ -315,14 +308,13 @@ enum { RB_CASE_TOLERANCES_MAX = 32 };
 typedef struct {
     int n;
     char name[RB_CASE_TOLERANCES_MAX][40];
-    double value[RB_CASE_TOLERANCES_MAX],
-        deviation[RB_CASE_TOLERANCES_MAX]; /* mm, N, MPa */
+    double value[RB_CASE_TOLERANCES_MAX], deviation[RB_CASE_TOLERANCES_MAX]; /* mm, N, MPa */
 } rb_case_tolerances;
 
 /* Reads such a text.  RB_EINVAL: a name is not a number of the case, or a deviation is
  * not >= 0; why names it. */
-rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
-                                  rb_case_tolerances *t, rb_message *why);
+rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_tolerances *t,
+                                  rb_message *why);
 /* Standard deviations of all results to first order, each in the field of the result
  * (NAN: none).  all: derivatives in mm, N, MPa that include these inputs.  RB_EINVAL: an
  * input has no derivatives. */
@@ -350,7 +342,7 @@ typedef struct {
     double paris;         /* C; NAN: the crack does not grow */
     rb_numbers paris_law; /* C and m, with lengths and K in the units of the case */
     int paris_range;      /* rb_case_crack_range */
-    int tension; /* 1: grows perpendicular to the largest tension, 0: straight ahead */
+    int tension;          /* 1: grows perpendicular to the largest tension, 0: straight ahead */
     double threshold, grow_to; /* [K]; length in half-widths, NAN: twice the length */
     int grow_steps;
 } rb_case_crack;
@@ -366,9 +358,9 @@ typedef enum {
 typedef struct {
     int n; /* 0: growth was not computed */
     double *length, *tip_x, *tip_y, *angle, *K_I_max, *delta_K_II, *delta_K, *rate,
-        *cycles; /* cycles until the crack has this length */
-    int rests; /* 1: the crack stops, because dK is below the threshold at the last length
-                */
+        *cycles;  /* cycles until the crack has this length */
+    int rests;    /* 1: the crack stops, because dK is below the threshold at the last length
+                   */
     int surfaced; /* 1: the crack has reached the surface again, so that a piece breaks
                      out */
     rb_crack_path path;
@@ -379,9 +371,9 @@ typedef struct {
     int from;
     double K_I_max, K_I_min, K_II_max, K_II_min, delta_K_I, delta_K_II;
     double K_I_max_at, K_II_max_at, K_II_min_at; /* x */
-    double K_II_at_K_I_max; /* K_II at the moment of the largest K_I */
-    double K_theta_max;     /* largest rb_crack_largest_tension of the pass */
-    double kink_angle;      /* its direction, from t towards n [degrees] */
+    double K_II_at_K_I_max;                      /* K_II at the moment of the largest K_I */
+    double K_theta_max;                          /* largest rb_crack_largest_tension of the pass */
+    double kink_angle;                           /* its direction, from t towards n [degrees] */
     double K_I_max_upper, K_I_min_upper, K_II_max_upper, K_II_min_upper; /* or NAN */
     double open_max, fluid_pressure_max;
     double pass_change;  /* largest change of K from the pass before; NAN with one pass */
@@ -389,8 +381,7 @@ typedef struct {
     double residual;
 } rb_case_crack_summary;
 
-rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *history,
-                                              int passes);
+rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *history, int passes);
 
 rb_case_crack rb_case_crack_defaults(void);
 /* The options of the section [crack]; their offsets refer to rb_case_crack. */
@@ -411,19 +402,18 @@ typedef struct {
     rb_case_crack_growth growth;
     int notes;
     char note[RB_CASE_CRACK_NOTES][200]; /* notes on how to read the result */
-    rb_units units; /* of all values except shape and contact.model */
+    rb_units units;                      /* of all values except shape and contact.model */
 } rb_case_crack_result;
 
 /* Checks the crack, the positions, and whether the case can load a crack. */
-rb_status rb_case_crack_check(const rb_resolved_case *resolved,
-                              const rb_case_crack *crack, rb_message *why);
+rb_status rb_case_crack_check(const rb_resolved_case *resolved, const rb_case_crack *crack,
+                              rb_message *why);
 /* Solves the contact and moves it over the crack; if the case wants error bars, this is
  * repeated with twice as many elements.  In transient rolling the position of the contact
  * is `from` plus the rolled distance; in a static history it stays at `from`. Free the
  * result in any case. */
-rb_status rb_case_crack_solve(const rb_resolved_case *resolved,
-                              const rb_case_crack *crack, rb_case_crack_result *result,
-                              rb_message *why);
+rb_status rb_case_crack_solve(const rb_resolved_case *resolved, const rb_case_crack *crack,
+                              rb_case_crack_result *result, rb_message *why);
 
 /* Where the contact stands, and its tractions there. */
 typedef struct {
@@ -437,9 +427,9 @@ typedef struct {
 /* The track of result->contact and result->states, whose arrays it borrows; also sets
  * half_width, shape, passes and notes of the result.  RB_EINVAL: a step of the contact
  * jumps over the crack. */
-rb_status rb_case_crack_follow(const rb_resolved_case *resolved,
-                               const rb_case_crack *crack, rb_case_crack_result *result,
-                               rb_case_crack_track *track, rb_message *why);
+rb_status rb_case_crack_follow(const rb_resolved_case *resolved, const rb_case_crack *crack,
+                               rb_case_crack_result *result, rb_case_crack_track *track,
+                               rb_message *why);
 void rb_case_crack_track_free(rb_case_crack_track *track);
 /* The passage of such a track without a wheel. */
 rb_crack_passage rb_case_crack_passage(const rb_case_crack *crack,
@@ -510,23 +500,21 @@ typedef struct {
     int iterations, degrees_of_freedom, unidentified;
     double chi_square, noise; /* noise: standard deviation of a force, as a multiple of
                                  sigma if sigma is given */
-    double kappa; /* the largest value; 0: friction does not depend on the state */
-    double *model,
-        *band; /* forces of the fit and half-widths of their intervals; owned */
-    char sentences[1000]; /* what the data do not determine, one line each */
+    double kappa;             /* the largest value; 0: friction does not depend on the state */
+    double *model, *band;     /* forces of the fit and half-widths of their intervals; owned */
+    char sentences[1000];     /* what the data do not determine, one line each */
 } rb_case_fit;
 
 typedef struct {
     /* Called after each step; a return value other than 0 ends the fit. */
-    int (*step)(int iteration, double chi_square, int n, const double *value,
-                void *context);
+    int (*step)(int iteration, double chi_square, int n, const double *value, void *context);
     void *context;
 } rb_case_fit_observer;
 
 /* Sets options that a fit needs and the case does not give: a velocity-dependent friction
  * law, a speed and related options.  Call it before rb_case_resolve. */
-rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
-                              const rb_case_fit *fit, rb_message *why);
+rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
+                              rb_message *why);
 /* Fits the parameters to the data; the given creepage or force of the case is ignored.
  * On entry fit has n, names, starts, bounds and level; free it in any case.  RB_EINVAL: a
  * name is not a number of the case, or there are too few points; RB_INACCURATE: kappa >
@@ -557,20 +545,18 @@ typedef struct {
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
 /* For a case that continues the case before (NULL: none) with this solution (n = 0: not
  * solved): sets runs to 0 if that is not possible. */
-void rb_case_contact_follow(const rb_case_contact *before,
-                            const rb_rolling_solution *solution, rb_case_contact *c);
+void rb_case_contact_follow(const rb_case_contact *before, const rb_rolling_solution *solution,
+                            rb_case_contact *c);
 /* Solves a case with runs = 1.  before: the solution of the case before; solution is
  * overwritten; free it in any case.  Errors as for rb_rolling_solve_between and
  * rb_rolling_step_between. */
-rb_status rb_case_contact_solve(const rb_case_contact *c,
-                                const rb_rolling_solution *before,
+rb_status rb_case_contact_solve(const rb_case_contact *c, const rb_rolling_solution *before,
                                 rb_rolling_solution *solution, rb_message *why);
 /* FRIC_POWER as defined in CONTACT [N m/s], < 0: sum over the elements of friction times
  * slip, without the power dissipated by plastic deformation of the third body.  NAN if
  * the case does not roll. */
 double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
-                             const rb_rolling_solution *before,
-                             const rb_rolling_solution *s);
+                             const rb_rolling_solution *before, const rb_rolling_solution *s);
 
 /* ---- Sources of errors ------------------------------------------------------------- */
 

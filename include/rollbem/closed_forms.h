@@ -35,14 +35,13 @@ double rb_closed_carter_force_ratio(double s);
 /* The creep ratio s at a given Q/(mu P) in [-1, 1]. */
 double rb_closed_carter_creep_ratio(double force_ratio);
 /* Traction on A at x; the stick strip adjoins the leading edge +a [stress]. */
-double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
-                                 double s, double x);
+double rb_closed_carter_traction(double mu, double max_pressure, double half_width, double s,
+                                 double x);
 
 /* Maximum temperature rise of the surfaces for the heat flux H0 sqrt(1 - x^2/a^2) at a
  * high Peclet number, 2.1883067 H0 sqrt(a)/((e1 + e2) sqrt(pi V)), at x = -0.65223 a;
  * effusivity: e1 + e2, e = sqrt(conductivity heat capacity). */
-double rb_closed_flash_temperature(double heat, double half_width, double speed,
-                                   double effusivity);
+double rb_closed_flash_temperature(double heat, double half_width, double speed, double effusivity);
 
 /* Elastic shakedown limit p0/k of a line contact that slides fully with Q = friction P
  * (Johnson): 1/max|sxy| below the surface, at most 1/friction. */
@@ -76,8 +75,7 @@ typedef struct {
     double mid_pressure; /* p(0) [stress] */
 } rb_closed_bentall_johnson;
 
-rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
-                                                          double hertz_half_width,
+rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta, double hertz_half_width,
                                                           double radius, double modulus);
 
 RB_PUBLIC_END

@@ -28,8 +28,7 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
 typedef struct {
     /* r: 2n; *gap, *slip: n each, owned by the context and valid until its next
      * product. */
-    void (*apply)(void *context, const double *r, const double **gap,
-                  const double **slip);
+    void (*apply)(void *context, const double *r, const double **gap, const double **slip);
     /* Approximate inverse of F_NN (tangential 0) or A F_TT (1); line: n, overwritten. */
     void (*precondition)(void *context, int tangential, double *line);
     void (*free)(void *context);
@@ -45,15 +44,14 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *product
 /* Adds products of the same operator to `dense`, so that large systems are solved with
  * GMRES; if GMRES does not converge, the matrices are used.  `dense` takes ownership of
  * the products and frees earlier ones.  NULL: matrices only. */
-void rb_contact_operator_add_products(rb_contact_operator *dense,
-                                      rb_contact_operator *products);
+void rb_contact_operator_add_products(rb_contact_operator *dense, rb_contact_operator *products);
 
 /* Like all functions that free something, this one accepts NULL. */
 void rb_contact_operator_free(rb_contact_operator *op);
 
 /* gap += F_N (p, q), slip += S (p, q); all n. */
-void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q,
-                             double *gap, double *slip);
+void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
+                             double *slip);
 
 /* The matrices of an operator; F is NULL if it has none. */
 typedef struct {
@@ -68,9 +66,8 @@ rb_contact_matrix rb_contact_operator_matrix(const rb_contact_operator *op);
 typedef struct {
     double gap, slip;    /* mean of the diagonals of F_NN and of A F_TT */
     double coupled_slip; /* slip of the middle element under unit pressures */
-    double
-        reach;   /* sum of a row of F_NN divided by its diagonal entry; 0 with matrices */
-    int coupled; /* 0: pressure causes no slip and friction no gap */
+    double reach;        /* sum of a row of F_NN divided by its diagonal entry; 0 with matrices */
+    int coupled;         /* 0: pressure causes no slip and friction no gap */
 } rb_contact_response;
 rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
 
@@ -87,10 +84,10 @@ typedef void rb_contact_newton_trace(const struct rb_contact_state *state, void 
 typedef struct {
     int n;
     rb_contact_operator *op; /* owned, like the arrays; copies of the struct share them */
-    double *bound;     /* n: friction coefficient of each element, |r_T| <= bound r_N */
-    double mu;         /* largest of the bounds; scale of friction */
-    double *d_N, *d_T; /* n [length] */
-    double *e_T;       /* n: [length] per unit of xi */
+    double *bound;           /* n: friction coefficient of each element, |r_T| <= bound r_N */
+    double mu;               /* largest of the bounds; scale of friction */
+    double *d_N, *d_T;       /* n [length] */
+    double *e_T;             /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */
     double *moment_N, *moment_T;                 /* n [length^2] */
 
@@ -105,8 +102,8 @@ typedef struct {
      * each element.  u_i = recall[0] u_i+1 + recall[1] u_i+2 + own |plastic_i| is the
      * plastic slip accumulated in this problem; the plastic slip is a part of the slip
      * T_T lambda. */
-    double *yield;    /* n [stress]: the bound at u = 0; owned; NULL: no plastic layer */
-    double hardening; /* [stress/length]; < 0: softening */
+    double *yield;         /* n [stress]: the bound at u = 0; owned; NULL: no plastic layer */
+    double hardening;      /* [stress/length]; < 0: softening */
     double recall[2], own; /* u is transported with the material: 1, 0, 1 to first order,
                               4/3, -1/3, 2/3 to second order; 0, 0, 1: no transport */
 
@@ -137,11 +134,9 @@ void rb_contact_set_friction(rb_contact_problem *problem, double mu, const doubl
 
 /* Adds a plastic layer with the same yield stress everywhere; the caller sets recall and
  * own. RB_ENOMEM. */
-rb_status rb_contact_set_yield(rb_contact_problem *problem, double stress,
-                               double hardening);
+rb_status rb_contact_set_yield(rb_contact_problem *problem, double stress, double hardening);
 /* Accumulated plastic slip u (n values) from the plastic slips (n values). */
-void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic,
-                        double *u);
+void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic, double *u);
 /* Yield stress of element i at the accumulated plastic slip u; INFINITY without a plastic
  * layer. */
 double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);
@@ -185,8 +180,8 @@ rb_status rb_contact_state_alloc(int n, rb_contact_state *state);
 void rb_contact_state_free(rb_contact_state *state);
 
 /* Computes gap (n) and lambda (n) from p, q, delta and xi. */
-void rb_contact_kinematics(const rb_contact_problem *problem,
-                           const rb_contact_state *state, double *gap, double *lambda);
+void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,
+                           double *gap, double *lambda);
 
 /* Largest violations of (K1)-(K3) and of the given load and force, recomputed from p, q,
  * delta and xi alone. */
@@ -196,8 +191,7 @@ typedef struct {
     double friction;  /* [stress] */
 } rb_contact_violation;
 
-rb_status rb_contact_residual(const rb_contact_problem *problem,
-                              const rb_contact_state *state,
+rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contact_state *state,
                               rb_contact_violation *violation);
 
 /* Scale of the tangential tractions: mu times the pressure problem->stress; without
@@ -205,13 +199,11 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
 double rb_contact_friction_scale(const rb_contact_problem *problem);
 /* The largest friction force that the pressures of the state allow: mu P for one
  * coefficient. */
-double rb_contact_capacity(const rb_contact_problem *problem,
-                           const rb_contact_state *state);
+double rb_contact_capacity(const rb_contact_problem *problem, const rb_contact_state *state);
 /* P, Q and M of the state. */
 double rb_contact_load(const rb_contact_problem *problem, const rb_contact_state *state);
 double rb_contact_force(const rb_contact_problem *problem, const rb_contact_state *state);
-double rb_contact_moment(const rb_contact_problem *problem,
-                         const rb_contact_state *state);
+double rb_contact_moment(const rb_contact_problem *problem, const rb_contact_state *state);
 
 /* ---- The LCP (K4, K5, K6) ---------------------------------------------------------- */
 
@@ -223,19 +215,17 @@ typedef struct {
     double *M, *b;             /* size x size column-major, size; owned */
     double *z_scale, *w_scale; /* size; owned */
     rb_contact_lcp_form form;
-    int yields;   /* 1: after the first 3n unknowns follow plastic slips and distances to
-                     the yield stress */
-    int mirrored; /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
-                   */
-    double delta0,
-        xi0; /* values of delta and xi at which the unknowns of the borders are 0 (K6) */
+    int yields;         /* 1: after the first 3n unknowns follow plastic slips and distances to
+                           the yield stress */
+    int mirrored;       /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
+                         */
+    double delta0, xi0; /* values of delta and xi at which the unknowns of the borders are 0 (K6) */
     double *control_N, *control_T; /* n: row of the given force; owned */
 } rb_contact_lcp;
 
 /* RB_EINVAL: the operator has no matrices; RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
-                                rb_contact_lcp_form form, int mirrored, double xi0,
-                                rb_contact_lcp *lcp, rb_message *why);
+rb_status rb_contact_lcp_create(const rb_contact_problem *problem, rb_contact_lcp_form form,
+                                int mirrored, double xi0, rb_contact_lcp *lcp, rb_message *why);
 void rb_contact_lcp_free(rb_contact_lcp *lcp);
 /* Computes p, q, delta and xi from z, then lambda and the zones from the problem. */
 void rb_contact_lcp_recover(const rb_contact_problem *problem, const rb_contact_lcp *lcp,
@@ -260,8 +250,8 @@ typedef struct {
 } rb_contact_cone;
 
 /* RB_EINVAL: the operator has no matrices; RB_ENOMEM. */
-rb_status rb_contact_cone_create(const rb_contact_problem *problem, double delta,
-                                 double xi, rb_contact_cone *cone, rb_message *why);
+rb_status rb_contact_cone_create(const rb_contact_problem *problem, double delta, double xi,
+                                 rb_contact_cone *cone, rb_message *why);
 void rb_contact_cone_free(rb_contact_cone *cone);
 
 /* A set of cone solvers, called by their names; rb_friction_cone_solvers() returns
@@ -269,21 +259,20 @@ void rb_contact_cone_free(rb_contact_cone *cone);
 typedef struct {
     int (*knows)(const char *name);
     /* r: 2n, written; the iterations are added to *iterations. */
-    rb_status (*solve)(const char *name, const rb_contact_cone *cone, double tol,
-                       double *r, int *iterations, rb_message *why);
+    rb_status (*solve)(const char *name, const rb_contact_cone *cone, double tol, double *r,
+                       int *iterations, rb_message *why);
 } rb_contact_cone_solvers;
 
 typedef struct {
     rb_contact_solver solver;
-    const rb_contact_cone_solvers
-        *cone_solvers;            /* RB_SOLVER_CONE; borrowed, as the next */
-    const char *cone_solver;      /* name of the cone solver */
-    rb_contact_lcp_form lcp_form; /* the first one that Lemke tries */
+    const rb_contact_cone_solvers *cone_solvers; /* RB_SOLVER_CONE; borrowed, as the next */
+    const char *cone_solver;                     /* name of the cone solver */
+    rb_contact_lcp_form lcp_form;                /* the first one that Lemke tries */
     double tol; /* tolerance of the scaled natural residual; at least problem->rounding is
                    used */
     const char *force_unit; /* unit printed after forces in error messages; NULL: none */
-    double sliding; /* > 0: an |xi| at which the whole contact slides; searches start
-                       there */
+    double sliding;         /* > 0: an |xi| at which the whole contact slides; searches start
+                               there */
     /* called after every pivot of Lemke's method with trace_context; pivot->attempt is 0
      * for the pivoted form, 1 for its mirror image, 2 for Kwak's form; NULL: not
      * called */
@@ -298,21 +287,18 @@ rb_contact_options rb_contact_defaults(void);
 
 /* Solves with the chosen solver and, if it fails, with another one; state->solver is the
  * one that succeeded.  warm: 1 to start from the zones of the state. */
-rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,
-                           int warm, rb_contact_state *state, rb_message *why);
+rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options, int warm,
+                           rb_contact_state *state, rb_message *why);
 
 /* The LCP whose solution the state is, if Lemke's method found it; for any other state,
  * or NULL, the LCP that Lemke's method tries first. */
-rb_status rb_contact_lcp_first(const rb_contact_problem *problem,
-                               const rb_contact_options *options,
-                               const rb_contact_state *state, rb_contact_lcp *lcp,
-                               rb_message *why);
+rb_status rb_contact_lcp_first(const rb_contact_problem *problem, const rb_contact_options *options,
+                               const rb_contact_state *state, rb_contact_lcp *lcp, rb_message *why);
 
 /* Solves the linear equations for the zones given in the state, whether they are right or
  * wrong.  Writes p, q, lambda, delta and xi into the state, and the gap (n); the
  * conditions that they violate show where the zones are wrong. RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state,
-                               double *gap);
+rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state, double *gap);
 
 RB_PUBLIC_END
 

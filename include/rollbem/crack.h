@@ -53,8 +53,8 @@ int rb_crack_nodes(const rb_crack *crack);
 /* Places of these nodes, integrals e_j of their hat functions (their sum is the length of
  * the crack without the halves at the tips), and the direction t, n values each; any
  * pointer may be NULL. */
-void rb_crack_places(const rb_crack *crack, double *x, double *y, double *hat,
-                     double *t_x, double *t_y);
+void rb_crack_places(const rb_crack *crack, double *x, double *y, double *hat, double *t_x,
+                     double *t_y);
 /* F of (C3), 2n x 2n column-major, rows and columns (N, T): D = F r of nodal forces r.
  * Borrowed. */
 const double *rb_crack_flexibility(const rb_crack *crack);
@@ -81,10 +81,10 @@ typedef enum {
 
 typedef struct {
     int n;
-    double *D;        /* 2n [length]; owned, like all arrays here */
-    double *r;        /* 2n: nodal forces of the contact of the faces on the + side */
-    int *zone;        /* n: rb_contact_zone of contact.h */
-    double K_I, K_II; /* at the tip [stress x sqrt(length)] */
+    double *D;                    /* 2n [length]; owned, like all arrays here */
+    double *r;                    /* 2n: nodal forces of the contact of the faces on the + side */
+    int *zone;                    /* n: rb_contact_zone of contact.h */
+    double K_I, K_II;             /* at the tip [stress x sqrt(length)] */
     double K_I_upper, K_II_upper; /* at the upper end of a crack below the surface; NAN */
     double open_length, stick_length; /* [length] */
     double fluid_pressure;            /* [stress] */
@@ -100,9 +100,8 @@ void rb_crack_state_free(rb_crack_state *state);
 /* Computes the next state of a history from D_T and the fluid volume in `state`.
  * pressure: of the fluid, used with RB_CRACK_PRESSURE only; scale: typical stress, for
  * the residual. */
-rb_status rb_crack_step(rb_crack *crack, const double *T, rb_crack_fluid fluid,
-                        double pressure, double scale, rb_crack_state *state,
-                        rb_message *why);
+rb_status rb_crack_step(rb_crack *crack, const double *T, rb_crack_fluid fluid, double pressure,
+                        double scale, rb_crack_state *state, rb_message *why);
 
 /* ---- A passing load ---------------------------------------------------------------- */
 
@@ -120,7 +119,7 @@ typedef struct {
 typedef struct {
     int steps;
     const double *x; /* steps: position of the load [length] */
-    int loads; /* 0: none, 1: the same load in each step, or steps: one load per step */
+    int loads;       /* 0: none, 1: the same load in each step, or steps: one load per step */
     const rb_bem_edge_load *load; /* borrowed, as x */
     int passes;                   /* >= 1: how often the steps are repeated */
     rb_crack_fluid fluid;
@@ -128,9 +127,8 @@ typedef struct {
                            mouth (Bower); 1: the volume where the mouth closes between two
                            steps */
     double tension;
-    const rb_crack_wheel
-        *wheel; /* NULL: the tractions are those of `load`; otherwise they are computed
-                   together with the crack, and `load` gives the scale */
+    const rb_crack_wheel *wheel; /* NULL: the tractions are those of `load`; otherwise they are
+                                    computed together with the crack, and `load` gives the scale */
 } rb_crack_passage;
 
 /* One entry per step of all passes; owned. */
@@ -150,8 +148,8 @@ typedef struct {
 
 /* The history holds the finished steps also on a positive status; free it in any case.
  * RB_EINVAL: no steps; RB_RAY, RB_INACCURATE: a step was not solved; why names it. */
-rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage,
-                        rb_crack_history *history, rb_message *why);
+rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage, rb_crack_history *history,
+                        rb_message *why);
 /* Zeros for so many steps, n = 0; elements: of a coupled wheel, or 0.  RB_ENOMEM. */
 rb_status rb_crack_history_alloc(const rb_crack *crack, int steps, int elements,
                                  rb_crack_history *history);

@@ -37,8 +37,8 @@ typedef struct {
     const double *gap_x;          /* their places; borrowed from the case */
     int constraints;
     rb_design_constraint constraint[RB_DESIGN_CONSTRAINTS];
-    double span; /* half-width of the interval for the ripple [length]; 0: all elements */
-    int most;    /* maximum number of evaluations; 0: 200 */
+    double span;         /* half-width of the interval for the ripple [length]; 0: all elements */
+    int most;            /* maximum number of evaluations; 0: 200 */
     double start, value; /* of the result */
     int evaluations;
     rb_status status;
@@ -48,11 +48,9 @@ typedef struct {
  * gap: bounds on the change of every value of its table.  Allocates d->variable.
  * RB_EINVAL: a name is not a number of the case that can be varied, or its value is not
  * within the bounds. */
-rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
-                              rb_message *why);
+rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, rb_message *why);
 /* Reads constraints, for example "max_pressure<=400,tangential_load>=-50". */
-rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d,
-                                rb_message *why);
+rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why);
 /* Sets the objective: a result that has derivatives, or "pressure_ripple". */
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why);
 
@@ -65,8 +63,8 @@ typedef struct {
 /* Searches the optimum, starting from the values of the case.  RB_EINVAL: a case with
  * steps or error bars, or no NLopt; RB_MAXITER, RB_INTERRUPTED: d holds the best values
  * so far; RB_INACCURATE: the constraints cannot be satisfied. */
-rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
-                          rb_design *d, rb_message *why);
+rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, rb_design *d,
+                          rb_message *why);
 void rb_design_free(rb_design *d);
 
 RB_PUBLIC_END

@@ -25,10 +25,8 @@ typedef struct {
  * bricks bottom counter-clockwise, then top.  RB_EINVAL: zero length, or a Jacobian that
  * is not positive at a Gauss point. */
 rb_status rb_fem_bar_stiffness(const double x[6], const rb_fem_material *m, double K[36]);
-rb_status rb_fem_quad_stiffness(const double x[8], const rb_fem_material *m,
-                                double K[64]);
-rb_status rb_fem_brick_stiffness(const double x[24], const rb_fem_material *m,
-                                 double K[576]);
+rb_status rb_fem_quad_stiffness(const double x[8], const rb_fem_material *m, double K[64]);
+rb_status rb_fem_brick_stiffness(const double x[24], const rb_fem_material *m, double K[576]);
 /* Consistent mass of a brick. */
 rb_status rb_fem_brick_mass(const double x[24], const rb_fem_material *m, double M[576]);
 
@@ -43,8 +41,8 @@ typedef struct {
     int nodes, elements; /* counts */
     double *x;           /* dimension x nodes; owned */
     int *node;           /* element_nodes x elements; owned */
-    int *dof; /* dimension x nodes: number of the unknown, -1 if fixed; owned */
-    int dofs; /* unknowns; valid after rb_fem_mesh_number */
+    int *dof;            /* dimension x nodes: number of the unknown, -1 if fixed; owned */
+    int dofs;            /* unknowns; valid after rb_fem_mesh_number */
 } rb_fem_mesh;
 
 /* Allocates a mesh with all nodes at the origin and no fixed displacements.  RB_EINVAL:
@@ -56,11 +54,11 @@ void rb_fem_mesh_hold(rb_fem_mesh *mesh, int node, int direction);
 void rb_fem_mesh_number(rb_fem_mesh *mesh);
 
 /* dofs x dofs, both triangles.  RB_EINVAL with the element's number in why. */
-rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                           rb_sparse *K, rb_message *why);
+rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *K,
+                           rb_message *why);
 /* Bricks only. */
-rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                      rb_sparse *M, rb_message *why);
+rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *M,
+                      rb_message *why);
 
 /* ---- Structures that may touch obstacles ------------------------------------------- */
 
@@ -95,9 +93,8 @@ typedef struct {
  * reactions of the previous increment enter through f (equilibrium) and the gap. units:
  * written; the function chooses them such that forces and K are of order one, because the
  * error measure of the friction solvers adds quantities of different units. */
-rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
-                         const rb_fem_state *state, rb_friction_problem *problem,
-                         rb_fem_units *units);
+rb_status rb_fem_problem(const rb_fem_structure *s, const double *load, const rb_fem_state *state,
+                         rb_friction_problem *problem, rb_fem_units *units);
 
 /* ---- Condensation to the contact nodes --------------------------------------------- */
 
@@ -106,17 +103,15 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
 typedef struct rb_fem_condensation rb_fem_condensation;
 
 /* RB_SINGULAR: a part can move although all contact nodes are fixed. */
-rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **c,
-                          rb_message *why);
+rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **c, rb_message *why);
 void rb_fem_condensation_free(rb_fem_condensation *c);
 /* Borrowed. */
 const rb_fem_structure *rb_fem_condensed(const rb_fem_condensation *c);
 /* F_c = F_C - K_CF K_FF^-1 F_F. */
-rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load,
-                               double *load_c);
+rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load, double *load_c);
 /* u from u_C: u_F = K_FF^-1 (F_F - K_FC u_C). */
-rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load,
-                        const double *u_c, double *u);
+rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load, const double *u_c,
+                        double *u);
 
 /* ---- Models with a history of loads ------------------------------------------------ */
 
@@ -138,13 +133,12 @@ rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int cont
  * are zero.  In every contact N is along the last axis and T along the others.  A contact
  * whose tangential direction is fixed gets mu = 0, because its friction would be
  * undetermined. */
-rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material,
-                             double mu, int steps, rb_message *why);
+rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material, double mu,
+                             int steps, rb_message *why);
 void rb_fem_model_free(rb_fem_model *model);
 /* Adds a force on one direction of a node in increment step; forces on fixed directions
  * are ignored. */
-void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction,
-                       double force);
+void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction, double force);
 
 /* *Kanno* 3.2: half a bar of 400 x 40 x 10 mm, E = 5 MPa, nu = 0.48, mu = 1.3, plane
  * strain, nx x ny Q1 elements, ux = 0 on x = 0; 0.01 MPa on top and 0.01 k MPa on the
@@ -162,8 +156,7 @@ typedef enum {
 } rb_fem_layout;
 
 /* Published: n = 12.  RB_EINVAL: n < 2. */
-rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
-                             rb_message *why);
+rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model, rb_message *why);
 
 typedef enum { RB_FEM_SEPARATED, RB_FEM_STICK, RB_FEM_SLIP } rb_fem_contact;
 
@@ -207,13 +200,12 @@ void rb_fem_history_free(rb_fem_history *history);
  * the more finely meshed side of a joint; every one has its own node, so that H has full
  * rank. */
 typedef struct {
-    int fine[3];   /* nodes of a whole block in courses 1, 3, 5: along, across, up */
-    int coarse[3]; /* the same in courses 2 and 4 (half blocks have half the elements) */
-    int rigid; /* 1: rigid blocks with six degrees of freedom and the same contact points
-                */
-    double dt; /* [s] */
-    int press,
-        shear; /* numbers of steps with growing force and of steps with sideways motion */
+    int fine[3];      /* nodes of a whole block in courses 1, 3, 5: along, across, up */
+    int coarse[3];    /* the same in courses 2 and 4 (half blocks have half the elements) */
+    int rigid;        /* 1: rigid blocks with six degrees of freedom and the same contact points
+                       */
+    double dt;        /* [s] */
+    int press, shear; /* numbers of steps with growing force and of steps with sideways motion */
     /* NULL, or a function called while a step is solved; if it does not return 0, the
      * step ends with RB_INTERRUPTED. */
     int (*stopped)(void *context);
@@ -258,8 +250,7 @@ rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u);
 rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
                               rb_fem_wall_step *step, rb_message *why);
 /* The friction problem of a solved step (from 0), in global form. */
-rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
-                              rb_friction_problem *problem);
+rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step, rb_friction_problem *problem);
 /* Selects `count` of the solved steps except the first, evenly distributed over their
  * difficulty (iterations, then time), the easiest first.  RB_EINVAL: count < 1, or more
  * than were solved. */

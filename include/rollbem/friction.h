@@ -52,8 +52,8 @@ rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_messa
 /* Condenses the global form to W = H' K^-1 H, q = w + H' K^-1 f; W is stored as a sparse
  * matrix if there are unconnected bodies.  RB_SINGULAR: K is singular; why names its
  * nullity. */
-rb_status rb_friction_condense(const rb_friction_problem *global,
-                               rb_friction_problem *local, rb_message *why);
+rb_status rb_friction_condense(const rb_friction_problem *global, rb_friction_problem *local,
+                               rb_message *why);
 
 /* Eliminates bilateral constraints: the new problem has none, and the same r and u.
  * Global: K v = H r + G l + f, u = H' v + w, G' v + b = 0 (G: n x c, b: c); n - rank(G)
@@ -61,11 +61,10 @@ rb_status rb_friction_condense(const rb_friction_problem *global,
  * s: c); W becomes sparse.  Redundant constraints are dropped.  RB_EINVAL leaves the
  * problem unchanged: inconsistent sizes, NaN or infinity, contradictory constraints, no
  * motion left, or more than l undetermined; why names the reason. */
-rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
-                                const double *b, rb_message *why);
+rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G, const double *b,
+                                rb_message *why);
 rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_sparse *V,
-                                      const rb_sparse *R, const double *s,
-                                      rb_message *why);
+                                      const rb_sparse *R, const double *s, rb_message *why);
 
 /* Rolling friction, global form, dimension 5: [N, T1, T2, M1, M2] per contact, ||r_T|| <=
  * mu r_N and ||m|| <= mu_r r_N, the slip is opposite to r_T and the relative angular
@@ -77,8 +76,8 @@ rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *
                                     rb_message *why);
 /* Converts r and u (3 contacts) of the transformed problem to forces and velocities, five
  * per rolling contact.  force and velocity may be the same arrays as r and u. */
-void rb_friction_unite_rolling(const rb_friction_problem *problem, const double *r,
-                               const double *u, double *force, double *velocity);
+void rb_friction_unite_rolling(const rb_friction_problem *problem, const double *r, const double *u,
+                               double *force, double *velocity);
 
 /* Properties of a problem that help to choose a solver. */
 typedef struct {
@@ -98,27 +97,25 @@ rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
 /* ---- Files ------------------------------------------------------------------------- */
 
 typedef enum {
-    RB_FRICTION_FILE_ANY,     /* determined from the beginning of the file */
-    RB_FRICTION_FILE_FCLIB,   /* HDF5 */
-    RB_FRICTION_FILE_SICONOS, /* text: d, n_c, W, q, mu; read as SICONOS_GLOBAL if only
-                                 that format fits the whole file */
+    RB_FRICTION_FILE_ANY,            /* determined from the beginning of the file */
+    RB_FRICTION_FILE_FCLIB,          /* HDF5 */
+    RB_FRICTION_FILE_SICONOS,        /* text: d, n_c, W, q, mu; read as SICONOS_GLOBAL if only
+                                        that format fits the whole file */
     RB_FRICTION_FILE_SICONOS_SOCLCP, /* text: n, n_c, M, q, cones, slopes */
     RB_FRICTION_FILE_SICONOS_GLOBAL  /* text: d, n_c, M, H, q, b, mu */
 } rb_friction_file;
 
 /* Determines the format from the beginning of the file.  RB_ENOENT; RB_EFORMAT: none of
  * these formats. */
-rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind,
-                                rb_message *why);
+rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_message *why);
 
 /* Reads a problem.  RB_ENOENT; RB_EFORMAT: the file holds no friction problem, or an
  * invalid one (rb_friction_problem_check). */
-rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
-                           rb_message *why);
+rb_status rb_friction_read(const char *path, rb_friction_problem *problem, rb_message *why);
 /* Reads the file in the format `kind`, whatever its beginning looks like (ANY: as
  * rb_friction_read). */
-rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
-                              rb_friction_problem *problem, rb_message *why);
+rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_friction_problem *problem,
+                              rb_message *why);
 
 /* Writes the problem as an FCLib file (HDF5), with the solution unless that is NULL.
  * RB_EWRITE; RB_EINVAL: rolling friction. */
@@ -142,8 +139,8 @@ typedef struct {
 /* Computes the errors of a solution.  u is recomputed from r (in the global form by K v =
  * H r + f, or from the given v if K is singular; see docs/friction.md).  v: n, global
  * form only, otherwise NULL; u: m, written, or NULL. */
-rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
-                            const double *v, double *u, rb_friction_errors *error);
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r, const double *v,
+                            double *u, rb_friction_errors *error);
 
 /* ---- Solvers ----------------------------------------------------------------------- */
 
@@ -220,8 +217,8 @@ int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note)
  * the problem is refused by rb_friction_problem_check or by the solver; info->msg has the
  * reason. info: written, or NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
-                            const rb_friction_options *opt,
-                            const rb_friction_solution *solution, rb_friction_info *info);
+                            const rb_friction_options *opt, const rb_friction_solution *solution,
+                            rb_friction_info *info);
 
 /* The solvers for rolling contact (rb_rolling_case, rb_case_use_cone_solvers). */
 const rb_contact_cone_solvers *rb_friction_cone_solvers(void);
@@ -236,12 +233,10 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
  * at least *least (with the mean of all compliances instead of W_NN where that vanishes).
  * *least is INFINITY if there is no solution and 0 if y proves nothing. RB_EINVAL: global
  * form; RB_ENOMEM. */
-rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
-                                 double *least);
+rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least);
 /* Returns 1 if a problem of either form is proved to have no solution: the bound *least
  * is out of all proportion to *given, the sum of the given velocities. */
-int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least,
-                                double *given);
+int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given);
 
 /* ---- One structure, many loads ----------------------------------------------------- */
 
@@ -250,16 +245,15 @@ int rb_friction_has_no_solution(const rb_friction_problem *problem, double *leas
 typedef struct rb_friction_handle rb_friction_handle;
 
 /* RB_EINVAL, RB_SINGULAR as for rb_friction_solve, with the reason in why. */
-rb_status rb_friction_setup(const rb_friction_problem *problem,
-                            rb_friction_handle **handle, rb_message *why);
+rb_status rb_friction_setup(const rb_friction_problem *problem, rb_friction_handle **handle,
+                            rb_message *why);
 /* Call it after you changed q, or f and w, or mu of the problem; W, K and H must be
  * unchanged. */
 rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why);
 /* As rb_friction_solve; opt->r0 NULL: starts from the last solution, if there is one. */
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *solver,
                                    const rb_friction_options *opt,
-                                   const rb_friction_solution *solution,
-                                   rb_friction_info *info);
+                                   const rb_friction_solution *solution, rb_friction_info *info);
 void rb_friction_handle_free(rb_friction_handle *handle);
 
 /* ---- Performance profiles (Dolan and More) ----------------------------------------- */
@@ -268,8 +262,8 @@ void rb_friction_handle_free(rb_friction_handle *handle);
  * rho_s(tau), *Acary* (16): fraction of the problems that solver s solves at a cost of at
  * most tau times the smallest cost of all solvers.  Problems that no solver solves are
  * counted in the total.  rho: taus x solvers, written. */
-void rb_friction_profile(int problems, int solvers, const double *cost, int taus,
-                         const double *tau, double *rho);
+void rb_friction_profile(int problems, int solvers, const double *cost, int taus, const double *tau,
+                         double *rho);
 
 /* ---- The canonical SOCLCP, *Kanno* (1) --------------------------------------------- */
 
@@ -292,8 +286,7 @@ typedef struct {
     double *tau; /* cones */
 } rb_friction_soclcp_data;
 
-rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data,
-                                  rb_message *why);
+rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data, rb_message *why);
 void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data);
 
 /* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
@@ -304,13 +297,12 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
                              const rb_friction_options *opt, double *x, double *y,
                              rb_friction_info *info);
 /* y = M x + q and the residual. */
-double rb_friction_soclcp_error(const rb_friction_soclcp_problem *problem,
-                                const double *x, double *y);
+double rb_friction_soclcp_error(const rb_friction_soclcp_problem *problem, const double *x,
+                                double *y);
 
 /* "solved", "solved-to-rounding" (above tol, at or below the floor), or
  * rb_status_text(s). */
-const char *rb_friction_status_text(rb_status s, double tol,
-                                    const rb_friction_info *info);
+const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info);
 
 RB_PUBLIC_END
 

@@ -76,13 +76,11 @@ typedef struct {
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
 /* The same for a text that has already been read from path; the function changes the
  * text. */
-rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t,
-                            rb_message *why);
+rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why);
 /* The same for a table that must have exactly `columns` columns. */
 rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
                                      rb_message *why);
-rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
-                                   rb_message *why);
+rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t, rb_message *why);
 /* The `rows` numbers of a column; NULL if there is no such column. */
 const double *rb_io_table_column(const rb_io_table *t, const char *name);
 /* Converts column j, whose unit is `unit` in mm, N, MPa (rollbem/units.h), to this unit.
@@ -139,8 +137,7 @@ typedef enum {
  * ambiguous: one contact of d rows looks like one cone of d rows and is read as friction.
  * A global friction problem with as many degrees of freedom as contact rows is read as a
  * local one; with d degrees of freedom it is read as cones. */
-rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind,
-                              rb_message *why);
+rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why);
 
 /* w = M z + q.  Text after q in the file is a comment. */
 typedef struct {
@@ -157,16 +154,13 @@ void rb_io_lcp_free(rb_io_lcp *p);
 /* Reads the text format of Siconos, or plain text (n, the rows of M, q), or M in Matrix
  * Market with q in the file q_path; for the other formats q_path is NULL.  # starts a
  * comment.  "-": standard input.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
-rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
-                         rb_message *why);
+rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p, rb_message *why);
 /* n numbers in plain text or a Matrix Market matrix of n by 1; `what` names them in
  * messages.  x: owned by the caller, NULL after a failure.  Errors as above. */
-rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
-                            rb_message *why);
+rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x, rb_message *why);
 
 /* The same for bounds: inf and -inf are numbers, too. */
-rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x,
-                            rb_message *why);
+rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x, rb_message *why);
 
 /* A bimatrix game: m, n, the m rows of A, the m rows of B.  # starts a comment. */
 typedef struct {
@@ -186,8 +180,7 @@ typedef struct {
     double *mu; /* contacts */
 } rb_io_friction;
 
-rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
-                                      rb_message *why);
+rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p, rb_message *why);
 void rb_io_friction_free(rb_io_friction *p);
 
 /* M v = H r + f, u = H' v + w; in the file f is named q and w is named b. */

@@ -47,9 +47,8 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
 
 /* title and description may be NULL.  The file is written completely or not at all
  * (io.h). RB_EWRITE, RB_ENOMEM. */
-rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
-                            rb_io_fclib_layout layout, const char *title,
-                            const char *description, rb_message *why);
+rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem, rb_io_fclib_layout layout,
+                            const char *title, const char *description, rb_message *why);
 
 RB_PUBLIC_END
 

@@ -52,11 +52,11 @@ typedef struct {
     double ratio, z0;      /* step length; z0 after the pivot */
     int attempt;           /* options.attempt */
     int n;                 /* order of the problem */
-    const int *basis; /* n: basic variable of each row, after the pivot; NULL for bimatrix
-                         games; borrowed, like all arrays of this struct */
-    const double *value; /* n: the value of each basic variable */
-    const int *nonbasis; /* n + 1: variable of each column; NULL from rb_lcp_mixed, which
-                            has no tableau */
+    const int *basis;      /* n: basic variable of each row, after the pivot; NULL for bimatrix
+                              games; borrowed, like all arrays of this struct */
+    const double *value;   /* n: the value of each basic variable */
+    const int *nonbasis;   /* n + 1: variable of each column; NULL from rb_lcp_mixed, which
+                              has no tableau */
     const double *tableau; /* n x (n + 2) column-major after the pivot: basic = last
                               column + columns times nonbasic; NULL unless
                               options.trace_tableau */
@@ -69,15 +69,14 @@ typedef struct {
     double seconds;      /* time limit; 0: none */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
-    const double
-        *start; /* newton and mixed, n: the z of a similar problem; z_i is basic at the
-                   start if start_i lies between its bounds.  NULL: newton starts with the
-                   z_i of q_i < 0 basic, mixed with none; borrowed */
+    const double *start; /* newton and mixed, n: the z of a similar problem; z_i is basic at the
+                            start if start_i lies between its bounds.  NULL: newton starts with the
+                            z_i of q_i < 0 basic, mixed with none; borrowed */
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
-    int attempt; /* passed on to trace, so that the caller can tell several problems apart
-                  */
+    int attempt;       /* passed on to trace, so that the caller can tell several problems apart
+                        */
     int trace_tableau; /* 1: pass the whole tableau to trace (slow) */
 } rb_lcp_options;
 
@@ -86,9 +85,9 @@ typedef struct {
     const char *solver; /* the solver that found z: static text, NULL if no solver ran */
     int iters;          /* pivots; newton: linear systems; auto: sum over all methods */
     double res;         /* max |min(z, Mz + q)|, recomputed from z alone */
-    double scaled;    /* rb_lcp_scaled_residual; decides whether the problem is solved */
-    int row;          /* the row of `scaled`; -1: none */
-    int ray_variable; /* RB_RAY: the entering variable that no row blocks; else -1 */
+    double scaled;      /* rb_lcp_scaled_residual; decides whether the problem is solved */
+    int row;            /* the row of `scaled`; -1: none */
+    int ray_variable;   /* RB_RAY: the entering variable that no row blocks; else -1 */
     rb_message msg;
 } rb_lcp_info;
 
@@ -109,8 +108,8 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
  * rule that makes it finite for every P-matrix.  It uses the options max_iters and start.
  * RB_OK, RB_MAXITER, RB_INACCURATE; RB_SINGULAR: a principal submatrix is singular, so
  * that M is not a P-matrix; RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM. */
-rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
-                        double *z, rb_lcp_info *info);
+rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt, double *z,
+                        rb_lcp_info *info);
 
 /* Lemke's method with a sparse LU factorisation, for the mixed problem.  Ties are broken
  * by a generic perturbation, with RB_LCP_FIRST_INDEX by the row number; trace_tableau has
@@ -119,8 +118,8 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
  * opt->start the path begins at the basis of that point; if it does not lead to a
  * solution, a second path begins at the bounds. Statuses as rb_lcp_lemke, and
  * RB_SINGULAR: a basis is singular up to rounding; RB_EINVAL: crossed bounds, too. */
-rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
-                       double *z, rb_lcp_info *info);
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info);
 
 /* The solvers that rb_lcp_solve accepts, auto first. */
 typedef struct {
@@ -135,8 +134,8 @@ const rb_lcp_solver *rb_lcp_solvers(int *count);
  * Lemke's method.  With a trace, a covering vector, a rule or bounds "auto" uses Lemke's
  * method.  Statuses as for the single solvers; RB_EINVAL also for an unknown solver and
  * for newton with bounds. */
-rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
-                       const rb_lcp_options *opt, double *z, rb_lcp_info *info);
+rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info);
 
 /* All solutions that belong to complementary bases, each once. */
 typedef struct {
@@ -148,8 +147,8 @@ typedef struct {
 
 /* lower, upper as in rb_lcp_mixed_problem.  RB_EINVAL: more than 2^22 bases (order 22 for
  * the LCP), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
-rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
-                           const double *upper, rb_lcp_solutions *all, rb_message *why);
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
+                           rb_lcp_solutions *all, rb_message *why);
 void rb_lcp_solutions_free(rb_lcp_solutions *all);
 
 /* An equilibrium of a game by the method of Lemke and Howson with a lexicographic rule.
@@ -157,8 +156,8 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all);
  * may lead to other equilibria.  It uses the options max_iters, seconds and trace; in the
  * trace z_k is the probability and w_k the regret of strategy k.  z = (x, y): m + n,
  * written.  RB_OK, RB_MAXITER, RB_INACCURATE, RB_EINVAL, RB_ENOMEM. */
-rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt,
-                          double *z, rb_lcp_info *info);
+rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt, double *z,
+                          rb_lcp_info *info);
 /* All equilibria that belong to complementary bases, as in rb_lcp_enumerate; m + n is at
  * most 22. */
 rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, rb_lcp_solutions *all,
@@ -179,12 +178,11 @@ double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, dou
  * with the same unknowns is divided by 1e-4 of their scale instead.  The residual does
  * not depend on the units of rows and columns.  row: the row of the maximum, or -1; may
  * be NULL.  RB_ENOMEM. */
-rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z,
-                                 double *scaled, int *row);
+rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z, double *scaled,
+                                 int *row);
 /* The residual that rounding errors of the data can cause: 1e-14 max_i (|M| |z| + |q|)_i;
  * work: n. */
-double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z,
-                             double *work);
+double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *work);
 
 RB_PUBLIC_END
 

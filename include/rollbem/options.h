@@ -57,25 +57,24 @@ typedef struct {
     const char *word; /* numbers: a word that is allowed instead of a number and means
                          word_value, or NULL */
     double word_value;
-    size_t
-        list; /* numbers: if not 0, several numbers separated by commas are allowed; all
-                 are stored at this offset (rb_numbers), and the first is the value */
+    size_t list; /* numbers: if not 0, several numbers separated by commas are allowed; all
+                    are stored at this offset (rb_numbers), and the first is the value */
     const rb_choice *choices; /* an entry with name NULL ends the list */
-    size_t path; /* choices: if not 0, any other word is a name; it is stored at this
-                    offset (const char *), and the value is path_value */
+    size_t path;              /* choices: if not 0, any other word is a name; it is stored at this
+                                 offset (const char *), and the value is path_value */
     int path_value;
     const char *path_name; /* placeholder of this name in the help: FILE, NAME */
     rb_option_file file;   /* texts, and choices with another word */
-    unsigned excludes; /* bit mask; of options with a common bit only one may be given */
-    int frozen; /* numbers: 1: a number of the mesh, the steps or the solver; there are no
-                   derivatives with respect to it */
-    const char *alone; /* texts: value if the option is given without one, that is, if the
-                          next argument is an option, a file, or has a dot or slash; NULL:
-                          a value is required */
-    size_t into;       /* number of a case: its place in rb_rolling_case if this is not
-                          `offset`;       0: it is */
-    size_t of_a; /* number of body B: place in rb_rolling_case of A's value, which it has
-                    if none is given; 0: none */
+    unsigned excludes;     /* bit mask; of options with a common bit only one may be given */
+    int frozen;           /* numbers: 1: a number of the mesh, the steps or the solver; there are no
+                             derivatives with respect to it */
+    const char *alone;    /* texts: value if the option is given without one, that is, if the
+                             next argument is an option, a file, or has a dot or slash; NULL:
+                             a value is required */
+    size_t into;          /* number of a case: its place in rb_rolling_case if this is not
+                             `offset`;       0: it is */
+    size_t of_a;          /* number of body B: place in rb_rolling_case of A's value, which it has
+                             if none is given; 0: none */
     int if_similar;       /* 1: only with the option `similar` */
     const char *unset;    /* help: text shown as the default; NULL: the value itself */
     const char *one_only; /* reason in the error message for several numbers; NULL: the
@@ -85,59 +84,58 @@ typedef struct {
 } rb_option;
 
 /* Macros for the ranges and rows of an option table: */
-#define RB_ANY                                                                           \
-    {                                                                                    \
-        -INFINITY, INFINITY, 1, 1                                                        \
+#define RB_ANY                                                                                     \
+    {                                                                                              \
+        -INFINITY, INFINITY, 1, 1                                                                  \
     }
-#define RB_ABOVE(x)                                                                      \
-    {                                                                                    \
-        x, INFINITY, 1, 1                                                                \
+#define RB_ABOVE(x)                                                                                \
+    {                                                                                              \
+        x, INFINITY, 1, 1                                                                          \
     }
-#define RB_FROM(x)                                                                       \
-    {                                                                                    \
-        x, INFINITY, 0, 1                                                                \
+#define RB_FROM(x)                                                                                 \
+    {                                                                                              \
+        x, INFINITY, 0, 1                                                                          \
     }
-#define RB_BETWEEN(x, y)                                                                 \
-    {                                                                                    \
-        x, y, 1, 1                                                                       \
+#define RB_BETWEEN(x, y)                                                                           \
+    {                                                                                              \
+        x, y, 1, 1                                                                                 \
     } /* (x, y) */
-#define RB_FROM_TO(x, y)                                                                 \
-    {                                                                                    \
-        x, y, 0, 0                                                                       \
+#define RB_FROM_TO(x, y)                                                                           \
+    {                                                                                              \
+        x, y, 0, 0                                                                                 \
     } /* [x, y] */
-#define RB_ABOVE_UPTO(x, y)                                                              \
-    {                                                                                    \
-        x, y, 1, 0                                                                       \
+#define RB_ABOVE_UPTO(x, y)                                                                        \
+    {                                                                                              \
+        x, y, 1, 0                                                                                 \
     } /* (x, y] */
 
-#define RB_GROUP_LINE(section, title)                                                    \
-    {                                                                                    \
-        .name = section, .kind = RB_OPTION_GROUP, .help = title                          \
+#define RB_GROUP_LINE(section, title)                                                              \
+    {                                                                                              \
+        .name = section, .kind = RB_OPTION_GROUP, .help = title                                    \
     }
-#define RB_NUMBER_LINE(name_, place, unit_, range_, ...)                                 \
-    {                                                                                    \
-        .name = name_, .kind = RB_OPTION_NUMBER, .offset = place, .unit = unit_,         \
-        .range = range_, .help = __VA_ARGS__                                             \
+#define RB_NUMBER_LINE(name_, place, unit_, range_, ...)                                           \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_NUMBER, .offset = place, .unit = unit_, .range = range_,  \
+        .help = __VA_ARGS__                                                                        \
     }
-#define RB_INTEGER_LINE(name_, place, range_, ...)                                       \
-    {                                                                                    \
-        .name = name_, .kind = RB_OPTION_INTEGER, .offset = place, .unit = "",           \
-        .range = range_, .help = __VA_ARGS__                                             \
+#define RB_INTEGER_LINE(name_, place, range_, ...)                                                 \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_INTEGER, .offset = place, .unit = "", .range = range_,    \
+        .help = __VA_ARGS__                                                                        \
     }
-#define RB_CHOICE_LINE(name_, place, choices_, ...)                                      \
-    {                                                                                    \
-        .name = name_, .kind = RB_OPTION_CHOICE, .offset = place, .unit = "",            \
-        .choices = choices_, .help = __VA_ARGS__                                         \
+#define RB_CHOICE_LINE(name_, place, choices_, ...)                                                \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_CHOICE, .offset = place, .unit = "", .choices = choices_, \
+        .help = __VA_ARGS__                                                                        \
     }
-#define RB_FLAG_LINE(name_, place, ...)                                                  \
-    {                                                                                    \
-        .name = name_, .kind = RB_OPTION_FLAG, .offset = place, .unit = "",              \
-        .help = __VA_ARGS__                                                              \
+#define RB_FLAG_LINE(name_, place, ...)                                                            \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_FLAG, .offset = place, .unit = "", .help = __VA_ARGS__    \
     }
-#define RB_TEXT_LINE(name_, place, metavar, ...)                                         \
-    {                                                                                    \
-        .name = name_, .kind = RB_OPTION_TEXT, .offset = place, .unit = metavar,         \
-        .help = __VA_ARGS__                                                              \
+#define RB_TEXT_LINE(name_, place, metavar, ...)                                                   \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_TEXT, .offset = place, .unit = metavar,                   \
+        .help = __VA_ARGS__                                                                        \
     }
 
 /* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
@@ -181,10 +179,9 @@ typedef struct {
     const char *history_file;      /* or NULL */
     rb_rolling_program program;    /* the history of that file; n = 0: none */
     int error;                     /* 1: estimate discretisation errors */
-    double accuracy; /* refine until the errors are below this; 0: no refinement */
-    rb_units
-        units; /* units of arguments without a unit and of printed results; a case file
-                  names its own units.  The values in this struct are in mm, N, MPa */
+    double accuracy;               /* refine until the errors are below this; 0: no refinement */
+    rb_units units; /* units of arguments without a unit and of printed results; a case file
+                       names its own units.  The values in this struct are in mm, N, MPa */
 } rb_resolved_case;
 
 /* Options with a common bit exclude each other. */

@@ -39,8 +39,7 @@ typedef struct {
 
 /* Writes the names of the columns, which are separated by blanks; if names is "", the
  * caller writes them as cells. */
-rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
-                                      const char *names);
+rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style, const char *names);
 /* Writes a text; it is quoted if it contains a separator, a blank, a quotation mark or
  * #. */
 void rb_report_cell_text(rb_report_cells *c, const char *text);
@@ -85,9 +84,8 @@ int rb_report_wrapped(FILE *out, const char *text, int width);
 
 /* One row per contact element; # lines with version, command, conventions, status,
  * residual, and the notes for rc (NULL: no notes).  RB_EWRITE: see errno. */
-rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
-                          const rb_rolling_solution *s, const char *command,
-                          const rb_report_style *style);
+rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
+                          const char *command, const rb_report_style *style);
 
 /* The steps of a transient or a static history, one row each; error bars, if any, are in
  * additional columns error_*. */
@@ -113,8 +111,7 @@ struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* The value of an option in the struct of its table. */
-struct json_t *rb_report_json_option(const rb_option *option, const void *values,
-                                     rb_units units);
+struct json_t *rb_report_json_option(const rb_option *option, const void *values, rb_units units);
 /* Every value that the resolved case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name; it tells if two
@@ -156,14 +153,13 @@ typedef struct {
  * case with default values, which receives them) and computes all printed results again
  * from pressures, friction, approach and creepage.  Each violation is written to out in
  * one line. RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
-rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
-                            rb_case *words, rb_report_certificate *found,
-                            rb_message *why);
+rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root, rb_case *words,
+                            rb_report_certificate *found, rb_message *why);
 /* The same for a result of --all-solutions: checks each solution, and that the solutions
  * differ.  For any other result it calls rb_report_certify. */
-rb_status rb_report_certify_solutions(FILE *out, const char *name,
-                                      const struct json_t *root, rb_case *words,
-                                      rb_report_certificate *found, rb_message *why);
+rb_status rb_report_certify_solutions(FILE *out, const char *name, const struct json_t *root,
+                                      rb_case *words, rb_report_certificate *found,
+                                      rb_message *why);
 /* The same for a table of rb_report_table.  words: the resolved inputs of the command
  * line in the comments of the table (rb_report_table_command). */
 rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
@@ -187,17 +183,14 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 /* Values with their error bars, as many in a line as its width has room for; 0: one. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_errors *e,
                       int width);
-void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
-                               const rb_rolling_history *h);
+void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_rolling_history *h);
 /* The notes of rb_rolling_find_notes as an array of JSON, or as lines of text. */
-struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
-                                    const rb_rolling_solution *s);
+struct json_t *rb_report_json_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                      int colour);
 
 /* References to the methods used; s NULL: the solver is not known. */
-void rb_report_citations(FILE *out, const rb_rolling_case *rc,
-                         const rb_rolling_solution *s);
+void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
@@ -256,15 +249,15 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
  * picture; h: in mm, N, MPa.  RB_ENOMEM. */
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps);
-rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,
-                                 const rb_report_wear *w, rb_message *why);
+rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas, const rb_report_wear *w,
+                                 rb_message *why);
 void rb_report_wear_free(rb_report_wear *w);
 
 /* ---- Cracks ------------------------------------------------------------------------ */
 
 /* One row per position of the contact, all passes.  RB_EWRITE: see errno. */
-rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
-                                const char *command, const rb_report_style *style);
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
+                                const rb_report_style *style);
 void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *crack,
                                  rb_units units);
 /* Sets "crack", "contact", "summary", "table", and adds to "notes". */
@@ -279,12 +272,12 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
 /* Pictures of the last pass: K over the position with the zones of the faces below; K_II
  * over K_I; the crack at the position nearest to `at` [half-widths] with magnified
  * displacements of its faces. */
-rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_case_crack_result *r, rb_message *why);
-rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
-                                const rb_case_crack_result *r, rb_message *why);
-rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas,
-                               const rb_case_crack_result *r, double at, rb_message *why);
+rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                  rb_message *why);
+rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                rb_message *why);
+rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                               double at, rb_message *why);
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 
@@ -297,21 +290,18 @@ typedef struct {
     rb_rolling_curve curve[RB_REPORT_CURVES];
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
-    const rb_rolling_case
-        *rc; /* case of `last` of the last curve, for notes; NULL: none */
-    rb_case_slopes
-        slopes[RB_REPORT_CURVES]; /* derivatives of each point; n = 0: not computed */
+    const rb_rolling_case *rc; /* case of `last` of the last curve, for notes; NULL: none */
+    rb_case_slopes slopes[RB_REPORT_CURVES]; /* derivatives of each point; n = 0: not computed */
 } rb_report_curves;
 
 /* Writes the model's problem, at its approach and creepage, and its tractions as an FCLib
  * file. RB_EINVAL: too large for a dense W; RB_EWRITE. */
-rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
-                          rb_message *why);
+rb_status rb_report_fclib(const char *path, const rb_rolling_model *model, rb_message *why);
 
 /* One row per mu and creepage; errors are in additional columns.  RB_EWRITE: see
  * errno. */
-rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
-                                const char *command, const rb_report_style *style);
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
+                                const rb_report_style *style);
 /* Sets "curve" to the curve of the first mu and, if there are several, "curves" to
  * all. */
 void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves);
@@ -319,10 +309,9 @@ void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves)
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
 /* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
  * law dashed; errors as bands. */
-rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_rolling_case *rc,
-                                  const rb_report_curves *curves,
-                                  rb_rolling_variable over, rb_message *why);
+rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                                  const rb_report_curves *curves, rb_rolling_variable over,
+                                  rb_message *why);
 
 /* ---- Subsurface stress ------------------------------------------------------------- */
 
@@ -330,7 +319,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
  * nx = 0, n points.  Grid points outside the body are left out. */
 typedef struct {
     int nx, ny, n;
-    double depth; /* of the grid and of the maxima [length]; 0: 2.5 half-widths */
+    double depth;                /* of the grid and of the maxima [length]; 0: 2.5 half-widths */
     const rb_rolling_stress *at; /* n; borrowed, as all here */
     const int *inside;           /* n; NULL: all */
     const rb_rolling_stress_maxima *maxima;
@@ -342,8 +331,8 @@ typedef struct {
 } rb_report_stress;
 
 /* One row per point; the maxima are in the header.  RB_EWRITE: see errno. */
-rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
-                                 const char *command, const rb_report_style *style);
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress, const char *command,
+                                 const rb_report_style *style);
 /* Sets "depth", "maxima", and "grid" or "points". */
 void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress);
 /* The maxima, with their errors where known. */
@@ -356,9 +345,8 @@ rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas,
                                   const rb_report_stress *stress, rb_message *why);
 /* Photoelastic fringes: dark where sigma_1 - sigma_2 is a multiple of fringe [stress]; 0:
  * about ten of them. */
-rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas,
-                            const rb_report_stress *stress, double fringe,
-                            rb_message *why);
+rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_stress *stress,
+                            double fringe, rb_message *why);
 
 /* Files of the Visualization Toolkit, for ParaView. */
 typedef enum {
@@ -367,21 +355,18 @@ typedef enum {
 } rb_report_vtk_kind;
 
 /* By the end of the name.  RB_EINVAL: neither .vti nor .vtu. */
-rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind,
-                                rb_message *why);
+rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind, rb_message *why);
 /* RB_EINVAL: .vti for points or for the grid of a wheel, which follows its surface. */
 rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *stress,
                               rb_message *why);
 /* RB_EWRITE: see errno.  RB_ENOMEM. */
-rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
-                        const rb_report_stress *stress);
+rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *stress);
 
 /* ---- Steps ------------------------------------------------------------------------- */
 
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
  * a static history; errors as bands. */
-rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
-                                    const rb_rolling_case *rc,
+rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                                     const rb_rolling_history *history, rb_message *why);
 
 /* ---- Parameter studies ------------------------------------------------------------- */
@@ -389,17 +374,15 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
 /* A column of a study's table. */
 typedef struct {
     const char *name, *unit; /* unit in which it is shown; "": none */
-    const double
-        *value; /* value for every case; NAN: not solved; NULL: no such quantity */
+    const double *value;     /* value for every case; NAN: not solved; NULL: no such quantity */
 } rb_report_quantity;
 
 typedef struct {
     int n; /* cases, at least one */
     rb_report_quantity x,
         y; /* the varied quantities; one curve for each y, or the y axis of a map */
-    rb_report_quantity shown; /* the result */
-    const rb_rolling_case
-        *rc; /* a case with the bodies of all cases; NULL: the bodies differ */
+    rb_report_quantity shown;  /* the result */
+    const rb_rolling_case *rc; /* a case with the bodies of all cases; NULL: the bodies differ */
     rb_units units;
 } rb_report_study;
 
@@ -408,8 +391,8 @@ typedef struct {
  * a combination of x and y is missing. */
 rb_status rb_report_study_check(const rb_report_study *study, int map, rb_message *why);
 /* Curves of the result over x, one for each y; or a map of it over x and y. */
-rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_report_study *study, int map, rb_message *why);
+rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_report_study *study,
+                                  int map, rb_message *why);
 
 /* ---- Performance profiles ---------------------------------------------------------- */
 
@@ -435,8 +418,7 @@ rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
  * columns of F are written.  The folder is made if necessary, files of an older dump are
  * removed, and either all files are written or none.  docs/report.md describes each file.
  * RB_EWRITE, RB_ENOMEM. */
-rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
-                         rb_message *why);
+rb_status rb_report_dump(const char *folder, const rb_rolling_model *model, rb_message *why);
 
 /* Repeats Lemke's method and writes one line per pivot; with a folder also the tableau
  * after each pivot as tableau_1.mtx, ...  If another method found the solution, the LCP
@@ -458,8 +440,7 @@ typedef struct {
 
 /* Reads a list of names of results, or "all".  RB_EINVAL: there is no such result, or it
  * has no derivatives. */
-rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
-                                   rb_message *why);
+rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, rb_message *why);
 /* Sets derivatives: {result: {input: number, or [left, right]}}; columns have a list of
  * numbers instead of a number. */
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
@@ -473,13 +454,11 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
 /* A short version on a terminal: the first rows of each result. */
 rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
                                       const rb_report_derivatives *d);
-void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
-                          const rb_report_derivatives *d);
+void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_report_derivatives *d);
 
 /* The table of a history with derivatives: a row per step. */
-rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h,
-                                const rb_case_slopes *s, const char *command,
-                                const rb_report_style *style);
+rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
+                                const char *command, const rb_report_style *style);
 /* derivatives: {result: {input: numbers, or where the two sides differ [left, right]}},
  * an entry per row. */
 void rb_report_json_slopes(struct json_t **owner, const rb_case_slopes *s);
@@ -496,8 +475,8 @@ typedef struct {
 /* ---- Designs ----------------------------------------------------------------------- */
 
 /* A row per variable, below comments with the result and the constraints. */
-rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units,
-                                 const char *command, const rb_report_style *style);
+rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, const char *command,
+                                 const rb_report_style *style);
 void rb_report_json_design(struct json_t **root, const rb_design *d, rb_units units);
 
 /* parameters, residuals, fit (the curve and its band) and what belongs to them. */
@@ -508,8 +487,8 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
 void rb_report_fit_summary(FILE *out, const rb_report_fit *f);
 /* Points, fitted curve and its band.  RB_EINVAL: no band, because some number is not
  * identified. */
-rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas,
-                                const rb_report_fit *f, rb_message *why);
+rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
+                                rb_message *why);
 
 RB_PUBLIC_END
 

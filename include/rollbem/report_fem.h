@@ -11,20 +11,17 @@ RB_PUBLIC_BEGIN
 
 /* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6).
  */
-rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas,
-                                const rb_fem_model *model, const rb_fem_history *history,
-                                rb_message *why);
+rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
+                                const rb_fem_history *history, rb_message *why);
 
 /* Displacement increments of a quarter of the contact nodes and their displacements at
  * the end (*Kanno*, figures 3, 4). */
-rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
-                                  const rb_fem_model *model,
+rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
                                   const rb_fem_history *history, rb_message *why);
 
 /* The deformed wall; the shear force and the iterations of the solver over the drift. */
-rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
-                                 const rb_fem_wall *wall, int steps,
-                                 const rb_fem_wall_step *step, rb_message *why);
+rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,
+                                 int steps, const rb_fem_wall_step *step, rb_message *why);
 
 /* Corner, sums and maxima of one increment. */
 typedef struct {

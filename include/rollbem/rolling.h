@@ -33,11 +33,7 @@ typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
  * fast at 300, twice as fast at 600, 2 to 5 times at 1200).  Below RB_ROLLING_LARGE a
  * matrix can be added where something needs it (rb_rolling_model_add_matrix); from there
  * on it would take seconds. */
-enum {
-    RB_ROLLING_TRANSFORMS = 150,
-    RB_ROLLING_TRANSFORMS_STEPS = 400,
-    RB_ROLLING_LARGE = 1500
-};
+enum { RB_ROLLING_TRANSFORMS = 150, RB_ROLLING_TRANSFORMS_STEPS = 400, RB_ROLLING_LARGE = 1500 };
 /* How displacements of a wheel close to a load are computed: by its boundary elements
  * alone, as in *Addi*, or by the exact solution of a strip load on the half-plane plus
  * boundary elements for the remainder (B10). */
@@ -67,18 +63,18 @@ typedef struct {
 typedef struct {
     double young, poisson; /* [stress], [-]; of a viscoelastic body the glassy
                               (instantaneous) modulus */
-    double radius; /* [length]; of body B also INFINITY: a plane; < 0: a bore around A */
+    double radius;         /* [length]; of body B also INFINITY: a plane; < 0: a bore around A */
     rb_bem_support support;
     double arc;              /* half-angle of the clamped arc [degrees] */
     double hub_ratio;        /* radius of the rigid hub / radius */
     double datum;            /* half-plane: depth of zero displacement; 0: 2R/e */
     double datum_tangential; /* homogeneous half-plane: the same for tangential
                                 displacements, as for the strips of CONTACT; 0: datum */
-    double layer; /* half-plane: thickness of a layer of this material, bonded to a
-                     base [length]; 0: no layer */
+    double layer;            /* half-plane: thickness of a layer of this material, bonded to a
+                                base [length]; 0: no layer */
     double base_young, base_poisson; /* of the base; young 0: rigid */
-    double cover; /* hub: thickness of a cover of this material, bonded to a core
-                     [length]; 0: none */
+    double cover;                    /* hub: thickness of a cover of this material, bonded to a core
+                                        [length]; 0: none */
     double core_young, core_poisson; /* of the core, a ring on the rigid hub; young 0:
                                         everything below the cover is rigid */
     rb_rolling_memory memory;        /* viscoelasticity of the material; n = 0: elastic */
@@ -92,8 +88,7 @@ typedef enum {
                                 the formulas of heat conduction, too */
     RB_BODY_ELASTIC = 8,     /* elastic: no hysteresis */
     RB_BODY_STRESS = 16,     /* the stress inside can be computed */
-    RB_BODY_TURNS =
-        32 /* rotationally symmetric: its stiffness is the same at every angle */
+    RB_BODY_TURNS = 32       /* rotationally symmetric: its stiffness is the same at every angle */
 } rb_rolling_ability;
 
 /* An option that applies to some bodies only; the option of body B has the suffix
@@ -125,13 +120,11 @@ typedef struct {
  * does not increase, or the smallest gap is at an end, so that the table does not enclose
  * a contact; why names the row.  RB_ENOMEM. */
 typedef struct rb_rolling_profile rb_rolling_profile;
-rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
-                                    double noise, rb_rolling_profile **profile,
-                                    rb_message *why);
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why);
 void rb_rolling_profile_free(rb_rolling_profile *profile);
 /* The first and the last x of the profile. */
-void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
-                              double *to);
+void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, double *to);
 /* The gap at any x.  Beyond the ends it is extrapolated by straight lines; a contact
  * there is not accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
@@ -142,10 +135,10 @@ double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
  * temperature.  Each row of this table has the name of a law and one line about it.  The
  * function of the law is in src/rolling/law.c; option, help, JSON and messages are made
  * from the row.  mu: the coefficient of the case; m and s: fall and slip_scale below. */
-#define RB_ROLLING_FRICTION_LAWS(LAW)                                                    \
-    LAW(constant, "mu everywhere")                                                       \
-    LAW(exponential, "mu + sum m 2^(-v/s) at the slip velocity v")                       \
-    LAW(rational, "mu + m1/(1 + v/s1) + m2/(1 + (v/s2)^2)")                              \
+#define RB_ROLLING_FRICTION_LAWS(LAW)                                                              \
+    LAW(constant, "mu everywhere")                                                                 \
+    LAW(exponential, "mu + sum m 2^(-v/s) at the slip velocity v")                                 \
+    LAW(rational, "mu + m1/(1 + v/s1) + m2/(1 + (v/s2)^2)")                                        \
     LAW(linear, "mu + sum m max(0, 1 - v/(2s))")
 
 #define RB_FRICTION_LAW_NAME(name, help) RB_FRICTION_##name,
@@ -162,8 +155,7 @@ typedef struct {
     /* RB_FRICTION_table: mu over x, linear between the points and constant beyond them;
      * mu of the case is ignored. */
     rb_rolling_table table;
-    double fall[2],
-        slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; a term with m = 0 is absent */
+    double fall[2], slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; a term with m = 0 is absent */
     /* Friction memory with the sliding distance d: dmu/dt = -(max(v, s0)/d)(mu -
      * mu(v)). */
     double memory, memory_slip; /* d [length], 0: none; s0 > 0 [length/s] */
@@ -222,22 +214,21 @@ typedef struct {
                       creepage and force are not given */
 
     rb_rolling_formulation formulation;
-    int increments; /* static, transient: if above 1, the bodies are first pressed and
-                       then loaded tangentially, each in this number of increments
-                       (theory.md 5.3) */
-    double
-        speed; /* rolling speed [length/s]; must be > 0 if a rolling body is viscoelastic
-                  or conducts heat, or if friction depends on the slip velocity */
+    int increments;   /* static, transient: if above 1, the bodies are first pressed and
+                         then loaded tangentially, each in this number of increments
+                         (theory.md 5.3) */
+    double speed;     /* rolling speed [length/s]; must be > 0 if a rolling body is viscoelastic
+                         or conducts heat, or if friction depends on the slip velocity */
     double time_step; /* static program of viscoelastic bodies: longest time step between
                          two rows [s]; 0: one step per row */
     double distance;  /* transient: rolled distance / Hertz half-width */
     int steps;        /* transient */
 
     rb_rolling_mesh_kind mesh;
-    int contact_elements; /* uniform: in the potential contact; fitted: across the contact
-                           */
-    double zone;          /* half-width of the potential contact [length]; 0: automatic */
-    int outer_elements;   /* 0: automatic */
+    int contact_elements;    /* uniform: in the potential contact; fitted: across the contact
+                              */
+    double zone;             /* half-width of the potential contact [length]; 0: automatic */
+    int outer_elements;      /* 0: automatic */
     double outer_refinement; /* factor on the number of elements of wheels outside the
                                 contact; 0: 1 */
     rb_bem_normals normals;
@@ -253,10 +244,8 @@ rb_rolling_case rb_rolling_case_defaults(void);
 
 /* The elastic constants of a body for the plane problem of the case; the second function:
  * those of the base or core below its layer or cover. */
-rb_bem_material rb_rolling_material(const rb_rolling_case *rc,
-                                    const rb_rolling_body *body);
-rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
-                                         const rb_rolling_body *body);
+rb_bem_material rb_rolling_material(const rb_rolling_case *rc, const rb_rolling_body *body);
+rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc, const rb_rolling_body *body);
 
 /* The largest coefficient of the friction law; it is the mu of Q/(mu P) and of xi R/(mu
  * a). */
@@ -278,12 +267,12 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
 
 /* Quantities that follow from a case without solving it. */
 typedef struct {
-    double radius;   /* 1/R = 1/R_A + 1/R_B [length] */
-    double modulus;  /* E* [stress] */
-    double dundurs;  /* beta [-] */
-    double load;     /* given, or computed from the given half-width; NAN: the approach is
-                        given */
-    double approach; /* given, or R/2; NAN: the load is given */
+    double radius;     /* 1/R = 1/R_A + 1/R_B [length] */
+    double modulus;    /* E* [stress] */
+    double dundurs;    /* beta [-] */
+    double load;       /* given, or computed from the given half-width; NAN: the approach is
+                          given */
+    double approach;   /* given, or R/2; NAN: the load is given */
     double half_width; /* a: Hertz's half-width of the load, or an estimate from the
                           approach */
     double stress;     /* E* a/(2R), Hertz's p0: the scale of the tractions */
@@ -324,13 +313,11 @@ typedef struct {
 
 /* Equal elements between from and to. */
 rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                  double from, double to, rb_rolling_mesh *mesh,
-                                  rb_message *why);
+                                  double from, double to, rb_rolling_mesh *mesh, rb_message *why);
 /* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, and
  * growing ones outside each edge (theory.md 5.1). */
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                 double from, double to, rb_rolling_mesh *mesh,
-                                 rb_message *why);
+                                 double from, double to, rb_rolling_mesh *mesh, rb_message *why);
 /* The elements of a result; borrowed. */
 typedef struct {
     int n;
@@ -340,8 +327,7 @@ typedef struct {
 
 /* Reconstructs the mesh of a result: equal elements from the two outer ends, fitted
  * elements from every element. */
-rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
-                                    const rb_rolling_elements *elements,
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 /* The undeformed gap of the profile at x, including the worn depth. */
@@ -357,9 +343,9 @@ typedef struct {
                         products with f are used instead (large contacts) */
     rb_bem_flexibility transforms; /* the same operator as products, if Newton's method is
                                       faster with them than with F; n = 0: none; owned */
-    double *memory[2]; /* of A and B, 2m x 2n each, in the frame of the body: the
-                          viscoelastic part of its flexibility; NULL if the body is
-                          elastic or no body is a wheel; owned */
+    double *memory[2];             /* of A and B, 2m x 2n each, in the frame of the body: the
+                                      viscoelastic part of its flexibility; NULL if the body is
+                                      elastic or no body is a wheel; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -368,8 +354,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
                                    rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
-rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
-                                  const double *q, double *w);
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
+                                  double *w);
 
 /* A row of the table of bodies (src/rolling/body.c).  A body has the row of its support
  * and one row for each addition (layer, cover, viscoelasticity).  It has those properties
@@ -391,8 +377,8 @@ const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kin
 
 /* The state from which a step of a static history or of transient rolling starts. */
 typedef struct {
-    const double *w_T; /* displacements before the step: transient: at the former places x
-                          + c; static: at the same places */
+    const double *w_T;     /* displacements before the step: transient: at the former places x
+                              + c; static: at the same places */
     const double *yielded; /* accumulated plastic slip of the interface at these places;
                               NULL: zero */
     double step;           /* rolled distance c of a transient step [length] */
@@ -400,16 +386,14 @@ typedef struct {
 
 /* Builds the contact problem with A and d_T of the case's formulation; the solvers are
  * the same for all formulations.  past NULL: the step starts from rest. */
-rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
-                                    const rb_rolling_mesh *mesh,
-                                    const rb_rolling_bodies *bodies,
-                                    const rb_rolling_past *past,
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies, const rb_rolling_past *past,
                                     rb_contact_problem *problem, rb_message *why);
 
 /* Solves the problem with the solver of the case.  warm: 1 to start from the zones of the
  * state. */
-rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,
-                                   int warm, rb_contact_state *state, rb_message *why);
+rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
+                                   rb_contact_state *state, rb_message *why);
 
 /* ---- Solution -------------------------------------------------------------------- */
 
@@ -417,7 +401,7 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
 typedef struct {
     double from, to; /* edges [length] */
     double normal_load,
-        tangential_load; /* the part of P and Q that this patch carries [force/length] */
+        tangential_load;       /* the part of P and Q that this patch carries [force/length] */
     double max_pressure, peak; /* largest pressure [stress] and its place [length] */
     int contact, stick;        /* elements */
 } rb_rolling_patch;
@@ -448,56 +432,54 @@ typedef struct {
     rb_contact_solver solver; /* the solver that found the solution */
     const char *cone_solver;  /* name of the cone solver if solver is RB_SOLVER_CONE;
                                  borrowed from the case */
-    int large;             /* 1: solved with Fourier transforms; no matrix was formed */
-    int boundary_elements; /* of both bodies; 0: half-planes have none */
-    int hierarchical;      /* 1: a boundary element matrix was hierarchical */
+    int large;                /* 1: solved with Fourier transforms; no matrix was formed */
+    int boundary_elements;    /* of both bodies; 0: half-planes have none */
+    int hierarchical;         /* 1: a boundary element matrix was hierarchical */
     rb_contact_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,
                         shift */
     double residual_gap,
-        residual_slip; /* largest violations of the gap and slip conditions [length] */
+        residual_slip;        /* largest violations of the gap and slip conditions [length] */
     double residual_friction; /* and of the friction condition [stress] */
 
     double normal_load, tangential_load; /* P = sum p h, Q = sum q h [force/length] */
-    double load_error;                 /* |P - wanted|/wanted; NAN without load control */
-    double support_balance;            /* (reaction + load)/P; NAN for half-planes */
-    double approach, tangential_shift; /* delta; rigid shift (static) [length] */
-    double creepage, free_creepage;  /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
-                                        such xi was found */
-    double hertz_half_width;         /* a of the load P and the combined radius; used in
-                                        creep_ratio */
-    double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
-    double half_width;               /* of the contact, from edge to edge [length] */
-    double datum;                    /* of A; NAN where it has none [length] */
-    double contact_from, contact_to; /* outermost edges (theory.md 5.1) */
-    double nip_width;                /* contact_to - contact_from [length] */
-    int edges_bounded; /* 1: at some edge p does not fall to zero like (E1) of theory.md;
-                          this edge is only known to lie within one element */
-    int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
-                          contact edges did not converge */
+    double load_error;                   /* |P - wanted|/wanted; NAN without load control */
+    double support_balance;              /* (reaction + load)/P; NAN for half-planes */
+    double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
+    double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
+                                            such xi was found */
+    double hertz_half_width;             /* a of the load P and the combined radius; used in
+                                            creep_ratio */
+    double creep_ratio, force_ratio;     /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
+    double half_width;                   /* of the contact, from edge to edge [length] */
+    double datum;                        /* of A; NAN where it has none [length] */
+    double contact_from, contact_to;     /* outermost edges (theory.md 5.1) */
+    double nip_width;                    /* contact_to - contact_from [length] */
+    int edges_bounded;            /* 1: at some edge p does not fall to zero like (E1) of theory.md;
+                                     this edge is only known to lie within one element */
+    int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
+                                     contact edges did not converge */
     double max_pressure;          /* p0 [stress] */
     int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
     int yielding; /* number of elements whose interface yields; -1: no yield stress */
     double stick_from,
-        stick_to; /* outermost ends of the sticking elements; NAN if nothing sticks */
-    double stick_length; /* total length of the sticking elements, less than stick_to -
-                            stick_from if some in between slip [length] */
-    int slip_violations; /* number of elements whose slip does not oppose the friction */
-    double dissipation;  /* power per unit speed [force/length] */
-    double resistance_moment; /* M = int x p dx [force]; NAN in static, like the ratio */
-    double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
-    double hysteresis;        /* power per unit speed that viscoelasticity dissipates
-                                 [force/length]; steady only, otherwise NAN */
-    double torque_a; /* M + Q R_A: external torque on A's axle [force]; > 0: in the
-                        direction in which A rolls, so it drives A; NAN in static */
-    double torque_b; /* M - Q R_B: the same for B; NAN also if B is a plane */
-    double
-        strain_energy; /* of both bodies per unit thickness, from w_N = w_T = 0 [force];
-                          NAN for viscoelastic bodies and for an interface that yields */
-    double
-        max_strain; /* compression of a layer, cover or rim divided by its thickness, the
-                       larger value of both bodies; for bodies without one a/(2R) */
+        stick_to;              /* outermost ends of the sticking elements; NAN if nothing sticks */
+    double stick_length;       /* total length of the sticking elements, less than stick_to -
+                                  stick_from if some in between slip [length] */
+    int slip_violations;       /* number of elements whose slip does not oppose the friction */
+    double dissipation;        /* power per unit speed [force/length] */
+    double resistance_moment;  /* M = int x p dx [force]; NAN in static, like the ratio */
+    double resistance_ratio;   /* M/(P R), the coefficient of rolling resistance */
+    double hysteresis;         /* power per unit speed that viscoelasticity dissipates
+                                  [force/length]; steady only, otherwise NAN */
+    double torque_a;           /* M + Q R_A: external torque on A's axle [force]; > 0: in the
+                                  direction in which A rolls, so it drives A; NAN in static */
+    double torque_b;           /* M - Q R_B: the same for B; NAN also if B is a plane */
+    double strain_energy;      /* of both bodies per unit thickness, from w_N = w_T = 0 [force];
+                                  NAN for viscoelastic bodies and for an interface that yields */
+    double max_strain;         /* compression of a layer, cover or rim divided by its thickness, the
+                                  larger value of both bodies; for bodies without one a/(2R) */
     double max_temperature;    /* maximum in the contact; this and the next two are NAN if
                                   the case has no heat conduction */
     double max_temperature_at; /* [length] */
@@ -559,10 +541,9 @@ typedef struct {
     const char *unit; /* "mm"; NULL: none */
     rb_rolling_result_kind kind;
     size_t offset; /* of the value, or of the pointer to the column, in its struct */
-    rb_rolling_error_scale
-        error_bar;     /* RB_SCALE_NONE: no discretisation error is estimated
-                        */
-    int study;         /* number of its column in a study; 0: none */
+    rb_rolling_error_scale error_bar; /* RB_SCALE_NONE: no discretisation error is estimated
+                                       */
+    int study;                        /* number of its column in a study; 0: none */
     int is_mean;       /* in a rolled step: 1: mean over the step, 0: value at its end */
     int no_derivative; /* 1: has no derivative: a residual, or a place known only to
                           within one element */
@@ -631,8 +612,7 @@ typedef struct {
     int n;
     char text[RB_ROLLING_NOTES][200];
 } rb_rolling_note_list;
-rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
-                                           const rb_rolling_solution *s);
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
 /* 1: the friction power is negative by more than rounding errors, which is an error of
  * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);
@@ -641,8 +621,7 @@ extern const char rb_rolling_below_zero[];
 /* Temperature rise at a point of the surface caused by a unit heat flux that enters the
  * body between the distances `from` < `to` upstream of the point (T1), at any Peclet
  * number; conductivity > 0. */
-double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
-                                double to);
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to);
 
 /* ---- The model of a case
  * ---------------------------------------------------------------- */
@@ -651,11 +630,10 @@ double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, doubl
  * over from the step before, besides the displacements. */
 typedef struct {
     double *temperature; /* n: of both surfaces after a rolled step; NULL: not computed */
-    double
-        *yielded; /* n: accumulated plastic slip of the interface before the last step, at
-                     the places where the particles were then [length]; NULL: zero */
-    const double *mu; /* n: friction coefficients of the particles before the step; NULL:
-                         those at rest; borrowed, like heat */
+    double *yielded;     /* n: accumulated plastic slip of the interface before the last step, at
+                            the places where the particles were then [length]; NULL: zero */
+    const double *mu;    /* n: friction coefficients of the particles before the step; NULL:
+                            those at rest; borrowed, like heat */
     struct rb_rolling_heat_track *heat; /* heat of the earlier steps; NULL: none */
 } rb_rolling_carried;
 
@@ -668,19 +646,18 @@ typedef struct rb_rolling_model {
     rb_rolling_bodies bodies;
     rb_contact_problem problem;
     rb_contact_state state;
-    double shift; /* in a history: rigid shift of the earlier steps, to be added to the
-                     state's [length] */
+    double shift;      /* in a history: rigid shift of the earlier steps, to be added to the
+                          state's [length] */
     int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
                           contact edges did not converge */
-    double first_from,
-        first_to; /* ends of the equal elements with which the search for the edges began;
-                     the same value twice: none [length] */
-    double half_width; /* Hertz's half-width of the last computed load; used in the creep
-                          ratio */
+    double first_from, first_to; /* ends of the equal elements with which the search for the edges
+                                    began; the same value twice: none [length] */
+    double half_width;           /* Hertz's half-width of the last computed load; used in the creep
+                                    ratio */
     double seconds_lcp;
-    int iterations; /* of all solves so far */
-    int follows; /* 1: friction and creepage are, until the next solve, those of the case
-                    on other elements */
+    int iterations;  /* of all solves so far */
+    int follows;     /* 1: friction and creepage are, until the next solve, those of the case
+                        on other elements */
     int same_bodies; /* 1: `bodies` need not be built again for `rc` on the same mesh */
     rb_rolling_carried carried;
     struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was
@@ -710,8 +687,7 @@ rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_pla
                                  rb_rolling_model *model, rb_message *why);
 /* Takes ownership of the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and
  * the contact does not end within the mesh. */
-rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
-                                 rb_message *why);
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why);
 /* Solves the model's problem again and adds to its times and counts; warm: 1 to start
  * from its zones.  RB_ZONE as above.  Every solve on any mesh calls this function. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
@@ -720,15 +696,14 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 /* Builds bodies and contact problem on the elements of a result, with a state of zeros,
  * and solves nothing.  model: all zeros before; free it in any case. */
-rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
-                                     const rb_rolling_elements *elements,
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
 /* The boundary elements of A or B; n = 0 for half-planes and rigid bodies.  RB_EINVAL,
  * RB_ENOMEM. */
-rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b,
-                                   rb_bem_mesh *boundary, rb_message *why);
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_bem_mesh *boundary,
+                                   rb_message *why);
 
 /* Forms the matrices of the flexibility and of the problem if the model was solved
  * without them and has fewer than RB_ROLLING_LARGE elements; other models are not
@@ -737,8 +712,7 @@ rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why);
 
 /* The LCP whose solution is the model's state, or the one that Lemke's method tries
  * first. */
-rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
-                               rb_message *why);
+rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why);
 
 /* Sets the friction coefficients of the model's problem to those that the friction law
  * gives for its state, and likewise a given force; the residual of the state then
@@ -749,8 +723,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
 rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc);
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
  * solution is not changed, but the data that it keeps for further solves is. */
-rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
-                                   rb_message *why);
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why);
 
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
@@ -762,11 +735,11 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
                               const rb_contact_state *state, double *from, double *to);
 /* Computes the solution from the state: tractions, slip, zones, forces and their
  * residuals. */
-rb_status rb_rolling_model_solution(const rb_rolling_model *model,
-                                    rb_rolling_solution *solution, rb_message *why);
+rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                    rb_message *why);
 /* The same without the residuals, which stay 0. */
-rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
-                                      rb_rolling_solution *solution, rb_message *why);
+rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                      rb_message *why);
 
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If
@@ -774,8 +747,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
  * of elements outside the contact differs.  results: 0 if only the equations are needed.
  * variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, rb_rolling_model *variant,
-                                    rb_message *why);
+                                    int results, rb_rolling_model *variant, rb_message *why);
 /* A variant with the model's case on elements whose ends x are moved to shift + scale
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
@@ -792,17 +764,17 @@ rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_
                                    rb_rolling_model *variant, rb_message *why);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */
-rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of,
-                                         rb_rolling_model *variant, rb_message *why);
+rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,
+                                         rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
 /* Sets the state of a variant to that of its model plus `part` times `along` (NULL: 0):
  * p, q, delta and xi; zones are the model's. */
-void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *along,
-                            double part, rb_contact_state *variant);
+void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *along, double part,
+                            rb_contact_state *variant);
 /* Computes from them slip (0 in stick), friction coefficients and Hertz's half-width of
  * the variant.  gap, slip: n, of all elements; NULL: not wanted. */
-rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap,
-                                      double *slip, rb_message *why);
+rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap, double *slip,
+                                      rb_message *why);
 
 /* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
  * single element, or a step, may have several solutions.  RB_ENOMEM. */
@@ -851,15 +823,14 @@ typedef struct {
 typedef struct {
     const char *name;
     size_t column; /* offset of its pointer in rb_rolling_program */
-    size_t value; /* offset in rb_rolling_case of the value that it replaces; distance and
-                     time: SIZE_MAX */
-    int is_mean;  /* 1: a rolled step uses the mean over the step, 0: the value at its end
-                   */
+    size_t value;  /* offset in rb_rolling_case of the value that it replaces; distance and
+                      time: SIZE_MAX */
+    int is_mean;   /* 1: a rolled step uses the mean over the step, 0: the value at its end
+                    */
 } rb_rolling_program_column;
 
 enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };
-extern const rb_rolling_program_column
-    rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
+extern const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
 /* The case that results of the program refer to; if the program has a column mu, its mu
  * is the largest value. */
@@ -877,25 +848,24 @@ typedef struct rb_rolling_history {
     double *residual;
     double *max_pressure;              /* p0 [stress]; 0 without contact */
     double *contact_from, *contact_to; /* edges [length]; NAN without contact */
-    double *dissipation;   /* power per unit speed [force/length]; 0 at rest */
-    double *moment;        /* int x p dx [force]; > 0: the pressure is shifted towards the
-                              leading edge */
-    int *stick, *slipping; /* elements */
+    double *dissipation;               /* power per unit speed [force/length]; 0 at rest */
+    double *moment;          /* int x p dx [force]; > 0: the pressure is shifted towards the
+                                leading edge */
+    int *stick, *slipping;   /* elements */
     double *max_temperature; /* at the end of the step; NULL if the case has no heat
                                 conduction */
-    double *time;      /* at the end of the step [s]; NULL if no body is viscoelastic */
-    double *lost_work; /* energy dissipated by viscoelasticity so far [force]; NULL
-                          likewise */
-    double *mu; /* mu of the case at the end of the step; NULL if it is the same in all
-                   steps */
+    double *time;            /* at the end of the step [s]; NULL if no body is viscoelastic */
+    double *lost_work;       /* energy dissipated by viscoelasticity so far [force]; NULL
+                                likewise */
+    double *mu;              /* mu of the case at the end of the step; NULL if it is the same in all
+                                steps */
     double *torque_a,
-        *torque_b; /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
+        *torque_b;     /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
     double half_width; /* unit of the distances [length] */
     double step;       /* c [length]; 0 in a static history */
-    int steady_from; /* first step from which the state is steady until the end, or -1 */
-    rb_units units;  /* of all values here */
-    struct rb_rolling_history
-        *errors; /* error bar of every entry; NULL: not computed; owned */
+    int steady_from;   /* first step from which the state is steady until the end, or -1 */
+    rb_units units;    /* of all values here */
+    struct rb_rolling_history *errors; /* error bar of every entry; NULL: not computed; owned */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
@@ -904,9 +874,8 @@ void rb_rolling_history_free(rb_rolling_history *history);
 int rb_rolling_has_steps(const rb_rolling_case *rc);
 
 /* Called with the model after every step; a return value other than 0 ends the run. */
-typedef int rb_rolling_step(const rb_rolling_model *model,
-                            const rb_rolling_history *history, int step, int steps,
-                            void *context);
+typedef int rb_rolling_step(const rb_rolling_model *model, const rb_rolling_history *history,
+                            int step, int steps, void *context);
 
 typedef struct {
     rb_rolling_step *step; /* NULL: not called */
@@ -921,46 +890,39 @@ typedef struct {
  * NULL.  model and history are overwritten; they hold the finished steps also on
  * RB_INTERRUPTED and other positive statuses.  model->rc is the case of the last step.
  * Free both in any case. */
-rb_status rb_rolling_history_run(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program,
-                                 const rb_rolling_observer *observer,
-                                 rb_rolling_model *model, rb_rolling_history *history,
-                                 rb_message *why);
+rb_status rb_rolling_history_run(const rb_rolling_case *rc, const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer, rb_rolling_model *model,
+                                 rb_rolling_history *history, rb_message *why);
 
 /* The solutions of the steps of a history: n elements, `steps` states. */
 typedef struct {
     const rb_rolling_program
         *program; /* the program of the history; NULL: the values of the case; borrowed */
     int n, steps;
-    double *x, *h; /* n: midpoints and lengths [length]; owned, like all arrays here */
+    double *x, *h;          /* n: midpoints and lengths [length]; owned, like all arrays here */
     double *p, *q, *lambda; /* steps x n, one step after the other */
     int *zone;
-    double *delta; /* steps: approach */
-    double
-        *xi; /* steps: rigid shift of a static step [length], creepage of a rolled step */
+    double *delta;     /* steps: approach */
+    double *xi;        /* steps: rigid shift of a static step [length], creepage of a rolled step */
     double half_width; /* unit of the distances [length] */
 } rb_rolling_states;
 
 /* On RB_ENOMEM states is empty. */
 rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
 /* Copies the state and the elements of the model into states; step is counted from 0. */
-void rb_rolling_states_set(const rb_rolling_model *model, int step,
-                           rb_rolling_states *states);
+void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_states *states);
 /* Copies tractions, slip, zones, delta and xi of a step into a state of as many elements;
  * its status becomes RB_OK. */
-void rb_rolling_states_get(const rb_rolling_states *states, int step,
-                           rb_contact_state *state);
+void rb_rolling_states_get(const rb_rolling_states *states, int step, rb_contact_state *state);
 void rb_rolling_states_free(rb_rolling_states *states);
 
 /* Goes through the program of the given states without solving.  After each step the
  * model has the contact problem of the step, which depends on the earlier states, and the
  * given state with its residual.  Otherwise like rb_rolling_history_run.  RB_EINVAL: the
  * number of steps differs, friction depends on the state, or an interface yields. */
-rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
-                                    const rb_rolling_states *states,
-                                    const rb_rolling_observer *observer,
-                                    rb_rolling_model *model, rb_rolling_history *history,
-                                    rb_message *why);
+rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,
+                                    const rb_rolling_observer *observer, rb_rolling_model *model,
+                                    rb_rolling_history *history, rb_message *why);
 
 /* The same step by step, with states that the caller sets: opaque. */
 typedef struct rb_rolling_follower rb_rolling_follower;
@@ -968,8 +930,7 @@ typedef struct rb_rolling_follower rb_rolling_follower;
 /* of: another follower, before its first step, whose bodies are borrowed where rc has the
  * same (NULL: none), and which lives longer; scale: of the elements of the states, which
  * are borrowed.  Free it in any case. */
-rb_status rb_rolling_follower_create(const rb_rolling_case *rc,
-                                     const rb_rolling_states *states,
+rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling_states *states,
                                      const rb_rolling_follower *of, double scale,
                                      rb_rolling_follower **follower, rb_message *why);
 /* The model has the problem of the next step, with the past that the states before it
@@ -980,8 +941,7 @@ rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *follower);
 /* Takes the state that the model has, complete, as that of the step. */
 void rb_rolling_follower_end(rb_rolling_follower *follower);
 /* Of the steps so far; borrowed. */
-const rb_rolling_history *
-rb_rolling_follower_history(const rb_rolling_follower *follower);
+const rb_rolling_history *rb_rolling_follower_history(const rb_rolling_follower *follower);
 void rb_rolling_follower_free(rb_rolling_follower *follower);
 
 /* ---- Wear -------------------------------------------------------------------------- */
@@ -1001,16 +961,16 @@ typedef struct {
     double coefficient; /* K [1/stress], of both bodies together */
     double share;       /* of B, 0 ... 1 */
     int slides;
-    double way; /* total sliding distance [length], or number of cycles or turns */
-    int steps;  /* number of equal steps; each is implicit and stable for any length */
+    double way;     /* total sliding distance [length], or number of cycles or turns */
+    int steps;      /* number of equal steps; each is implicit and stable for any length */
     int increments; /* fretting: number of increments per quarter of a cycle */
 } rb_rolling_wear;
 
 /* One entry per step; the first entry is the state before any wear.  Arrays are owned. */
 typedef struct {
     int n;
-    double *way;  /* sliding distance so far [length], or number of cycles or turns */
-    double *worn; /* volume of A per unit width [length^2] */
+    double *way;       /* sliding distance so far [length], or number of cycles or turns */
+    double *worn;      /* volume of A per unit width [length^2] */
     double *max_depth; /* [length] */
     double *radius;    /* of A [length] */
     /* The same of B; NULL if B does not wear, radius_b also if B is a plane.  If A slides
@@ -1032,8 +992,8 @@ void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units 
 /* Called with the solution after each step (0: before the first one); the function may
  * convert the solution to other units.  A return value other than 0 ends the run. */
 typedef int rb_rolling_wear_step(rb_rolling_solution *solution,
-                                 const rb_rolling_wear_history *history, int step,
-                                 int steps, void *context);
+                                 const rb_rolling_wear_history *history, int step, int steps,
+                                 void *context);
 
 typedef struct {
     rb_rolling_wear_step *step;
@@ -1074,10 +1034,8 @@ typedef struct {
     double stick_step;   /* largest change of stick_ratio by one element */
     double *dissipation; /* power per unit speed */
     double *residual;
-    double
-        *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
-    double *resistance_moment, *resistance_ratio,
-        *hysteresis;             /* as in rb_rolling_solution */
+    double *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
+    double *resistance_moment, *resistance_ratio, *hysteresis; /* as in rb_rolling_solution */
     double *torque_a, *torque_b; /* likewise; torque_b: NULL if B is a plane */
     double *max_temperature;     /* NULL if the case has no heat conduction */
     int *branch;   /* 1: computed in the direction from `from` to `to`, 2: in the opposite
@@ -1086,10 +1044,9 @@ typedef struct {
     int rising;    /* number of points of branch 1, which come first */
     double free_creepage, half_width, seconds;
     int iterations;
-    rb_rolling_solution
-        last; /* solution at the last point, for notes, but with the largest kappa and the
-                 smallest dissipation of all points; n = 0: none */
-    rb_units units; /* of all values here */
+    rb_rolling_solution last; /* solution at the last point, for notes, but with the largest kappa
+                                 and the smallest dissipation of all points; n = 0: none */
+    rb_units units;           /* of all values here */
 } rb_rolling_curve;
 
 /* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells
@@ -1114,9 +1071,8 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
 typedef rb_status rb_rolling_point(const rb_rolling_model *model, int k, void *context,
                                    rb_message *why);
 /* The same, watched. */
-rb_status rb_rolling_curve_observe(const rb_rolling_case *rc,
-                                   const rb_rolling_range *range, rb_rolling_point *point,
-                                   void *context, rb_rolling_curve *curve,
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                   rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                                    rb_message *why);
 
 /* ---- Subsurface stress of body A --------------------------------------------------- */
@@ -1156,14 +1112,13 @@ typedef struct {
 } rb_rolling_stress_maxima;
 
 /* From mm, N, MPa to other units. */
-void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
-                               rb_rolling_stress_maxima *maxima, rb_units units);
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *maxima,
+                               rb_units units);
 
 /* Finds the maxima below the contact and half a width on either side of it, to the given
  * depth (0: 2.5 half-widths). */
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
-                                        rb_rolling_stress_maxima *maxima,
-                                        rb_message *why);
+                                        rb_rolling_stress_maxima *maxima, rb_message *why);
 /* Computes the values again at the places given in maxima.  RB_EINVAL: a place lies
  * outside A. */
 rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
@@ -1171,40 +1126,36 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
 
 /* inside[k] = 1 if point k lies in A or on its surface, so that rb_rolling_stress_at can
  * compute the stress there.  RB_ENOMEM. */
-rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
-                            int *inside);
+rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy, int *inside);
 
 /* Stress on a grid that follows A's surface, row by row; the first row is on the
  * surface. */
 typedef struct {
     int nx, ny;
-    rb_rolling_stress
-        *at;     /* nx x ny; stresses of points that are not inside are NAN; owned */
-    int *inside; /* nx x ny; owned */
+    rb_rolling_stress *at; /* nx x ny; stresses of points that are not inside are NAN; owned */
+    int *inside;           /* nx x ny; owned */
 } rb_rolling_stress_grid;
 
 /* Shakedown of A, a half-plane under repeated rolling (theory.md S1): the yield stress in
  * shear k at which it just shakes down to elastic behaviour, the place that decides, and
  * the residual stress along x that rolling leaves there. */
 typedef struct {
-    double
-        shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
+    double shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
     double x, y;
     double residual; /* [stress] */
 } rb_rolling_shakedown;
 
 /* RB_EINVAL: a wheel, a layer; RB_NO_CONTACT, RB_ENOMEM. */
-rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
-                                    rb_rolling_shakedown *shakedown, rb_message *why);
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                    rb_message *why);
 /* Computes shear_yield again from the stress at x, y and the given residual stress. */
-rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
-                                  rb_rolling_shakedown *shakedown, rb_message *why);
+rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                  rb_message *why);
 
 /* Computes the stress on a grid over the same width and depth as the maxima; nx, ny >= 2.
  * grid: overwritten. */
-rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
-                                    double depth, rb_rolling_stress_grid *grid,
-                                    rb_message *why);
+rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
+                                    rb_rolling_stress_grid *grid, rb_message *why);
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 
 /* Solves a case on equal elements between from and to; the contact may lie anywhere in
@@ -1226,26 +1177,22 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
 
 /* Estimated discretisation errors. */
 typedef struct {
-    rb_rolling_solution
-        scalar; /* the error of each result with an error bar, in the field of the result;
-                   NAN if the result is NAN in the solution or in a coarser run, or if
-                   there is no estimate; no columns */
-    rb_rolling_stress_maxima
-        stress; /* errors of values and places; NAN unless requested */
+    rb_rolling_solution scalar; /* the error of each result with an error bar, in the field of the
+                                   result; NAN if the result is NAN in the solution or in a coarser
+                                   run, or if there is no estimate; no columns */
+    rb_rolling_stress_maxima stress; /* errors of values and places; NAN unless requested */
 } rb_rolling_errors;
 
 /* Solves a case and estimates errors from the spread over n/2, 0.7 n and n contact
  * elements, and from the change when wheels have half as many elements outside the
  * contact.  On a positive status the solution holds the last iterate; free it in any
  * case. */
-rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
-                                       rb_rolling_solution *solution,
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why);
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
  * MPa.  stress: its maxima down to the default depth if error bars for them are wanted,
  * otherwise NULL. */
-rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
-                                     const rb_rolling_solution *solution,
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
                                      rb_rolling_errors *errors, rb_message *why);
 
@@ -1254,9 +1201,8 @@ rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
  * end; 0: nothing was solved.  RB_INACCURATE, with the best estimate, if memory, 6400
  * contact elements or 64 times the default boundary elements do not suffice. */
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
-                                       rb_rolling_solution *solution,
-                                       rb_rolling_errors *errors, int *elements,
-                                       rb_message *why);
+                                       rb_rolling_solution *solution, rb_rolling_errors *errors,
+                                       int *elements, rb_message *why);
 
 /* The number of coarser runs whose differences are the error bars: 2, with wheels 3. */
 int rb_rolling_error_runs(const rb_rolling_case *rc);
@@ -1265,8 +1211,7 @@ int rb_rolling_error_runs(const rb_rolling_case *rc);
  * the k-th creepage; errors->residual has no meaning.  This takes twice as long as the
  * curve alone.  point (may be NULL) also sees the points of the coarser curves.  Free
  * both in any case. */
-rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
-                                       const rb_rolling_range *range,
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolling_range *range,
                                        rb_rolling_point *point, void *context,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);
@@ -1278,8 +1223,8 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          const rb_rolling_program *program,
                                          const rb_rolling_observer *observer,
-                                         rb_rolling_model *model,
-                                         rb_rolling_history *history, rb_message *why);
+                                         rb_rolling_model *model, rb_rolling_history *history,
+                                         rb_message *why);
 
 /* Solves a case in one call; of a case with several steps the solution is that of the
  * last step.  On a positive status it holds the last iterate.  solution is overwritten;
@@ -1311,7 +1256,7 @@ typedef struct {
     rb_rolling_solution solution;    /* with the status of the case */
     rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
     rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
-    double own[RB_ROW_OWN]; /* values computed by `measure` of the sweep; otherwise NAN */
+    double own[RB_ROW_OWN];          /* values computed by `measure` of the sweep; otherwise NAN */
 } rb_rolling_row;
 
 enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
@@ -1352,16 +1297,14 @@ rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
 
 /* A pool of worker processes, as seen by the process that distributes the cases. */
 typedef struct rb_rolling_pool {
-    int (*idle)(struct rb_rolling_pool
-                    *pool); /* number of further cases that the pool accepts now */
+    int (*idle)(
+        struct rb_rolling_pool *pool); /* number of further cases that the pool accepts now */
     rb_status (*submit)(struct rb_rolling_pool *pool,
                         int k); /* submits case k; idle() must be > 0 */
     /* 1: case *k is done, and row is written; 0: no case was done within the given
      * milliseconds; a negative status: the pool has failed. */
-    int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_row *row);
-    void (*stop)(
-        struct rb_rolling_pool *pool); /* ends all processes at once and frees the pool */
+    int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row);
+    void (*stop)(struct rb_rolling_pool *pool); /* ends all processes at once and frees the pool */
 } rb_rolling_pool;
 
 /* Starts the pool of rb_rolling_sweep_run: sweep->workers processes, at most

@@ -27,8 +27,8 @@ typedef struct rb_sensitivity rb_sensitivity;
  * one step; with 0 it may be a step of a history, whose earlier steps are kept fixed.
  * RB_EINVAL: a case with steps, or a case without derivatives (why has the reason);
  * RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
-rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
-                                rb_sensitivity **s, rb_message *why);
+rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
+                                rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
 /* How the elements move while an input changes. */
 typedef enum {
@@ -67,8 +67,8 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
 /* D2: J y' = -R'.  y': derivatives of p, q, delta, xi for a growing (side 1) or falling
  * (-1) input; both are equal if no element is degenerate.  RB_MAXITER: the zones of a
  * degenerate element were not found. */
-rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                                 int side, rb_contact_state *tangent, rb_message *why);
+rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
+                                 rb_contact_state *tangent, rb_message *why);
 
 /* D3: weights of rates in the derivative of a number f = weight . (p, q, delta, xi): f' =
  * f_input + adjoint . R'.  One transposed solve per number, for any number of inputs.
@@ -76,8 +76,7 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
  * two zones the zones of the state are used.  RB_EINVAL: a problem without matrices. */
 rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
                                  rb_sensitivity_rate *adjoint, rb_message *why);
-double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint,
-                          const rb_sensitivity_rate *rate);
+double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint, const rb_sensitivity_rate *rate);
 
 /* ---- With respect to numbers of a case --------------------------------------------- */
 
@@ -119,10 +118,8 @@ typedef struct {
 } rb_sensitivity_derivative;
 
 /* derivative: overwritten; free it in any case. */
-rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
-                                       const rb_sensitivity_input *input,
-                                       rb_sensitivity_derivative *derivative,
-                                       rb_message *why);
+rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                       rb_sensitivity_derivative *derivative, rb_message *why);
 void rb_sensitivity_derivative_free(rb_sensitivity_derivative *derivative);
 
 /* Multiplies all derivatives of one side by factor. */

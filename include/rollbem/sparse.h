@@ -36,17 +36,15 @@ void rb_triplets_free(rb_triplets *t);
 /* Leaves t unchanged.  RB_EINVAL: an index out of range; RB_ENOMEM. */
 rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a);
 /* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
-rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
-                               rb_sparse *a);
+rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda, rb_sparse *a);
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 void rb_sparse_free(rb_sparse *a);
 
 /* y = alpha A x + beta y, and the same with the transpose. */
-void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta,
-                     double *y);
-void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
-                                double beta, double *y);
+void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta, double *y);
+void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x, double beta,
+                                double *y);
 
 /* C = A B.  RB_EINVAL: the number of columns of A is not the number of rows of B;
  * RB_ENOMEM. */
@@ -80,8 +78,7 @@ rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
 rb_status rb_sparse_lu_solve_once(const rb_sparse_lu *lu, const double *b, double *x);
 /* Number of entries of both factors, after the numerical factorisation. */
 double rb_sparse_lu_entries(const rb_sparse_lu *lu);
-rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
-                                        double *x);
+rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b, double *x);
 void rb_sparse_lu_free(rb_sparse_lu *lu);
 
 /* ---- Cholesky of a symmetric positive definite matrix (CHOLMOD) -------------------- */
@@ -91,8 +88,7 @@ typedef struct rb_sparse_cholesky rb_sparse_cholesky;
 /* Factors K (both triangles stored; the upper one is read).  RB_SINGULAR: not positive
  * definite to rounding (a pivot below 1e-11 of the largest, with unit diagonal). */
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor);
-rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
-                                   double *x);
+rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, double *x);
 /* W = H' K^-1 H, symmetric to the last digit: the function solves with a few columns of H
  * at a time and forms no inverse.  If K consists of separate blocks (unconnected bodies),
  * W stays sparse. */

@@ -48,8 +48,7 @@ api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
     return made;
 }
 
-api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
-                             const double *x)
+api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x)
 {
     api_array *made = x ? rb_api_make_array(a, name, rows, columns) : NULL;
     if (made)
@@ -73,8 +72,7 @@ static rb_status add_column(rb_api *a, const char *name, int rows, const double 
     return RB_OK;
 }
 
-static const rb_rolling_result *find_result(const rb_rolling_results *table,
-                                            const char *name)
+static const rb_rolling_result *find_result(const rb_rolling_results *table, const char *name)
 {
     for (int k = 0; k < table->n; k++)
         if (strcmp(table->row[k].name, name) == 0)
@@ -88,8 +86,7 @@ int rb_api_ended(rb_api *a, rb_status s)
 {
     a->status = s;
     if (s == RB_OK || !a->why.text[0])
-        snprintf(a->why.text, sizeof a->why.text, "%s",
-                 s == RB_OK ? "" : rb_status_text(s));
+        snprintf(a->why.text, sizeof a->why.text, "%s", s == RB_OK ? "" : rb_status_text(s));
     return s;
 }
 
@@ -119,9 +116,8 @@ static void begin(rb_api *a)
 /* Options that change neither bodies nor mesh: the flexibility may serve again. */
 static int drives(const char *name)
 {
-    static const char *const driving[] = {"mu",          "load",  "approach",
-                                          "half-width",  "shift", "creep",
-                                          "creep-ratio", "force", "force-ratio"};
+    static const char *const driving[] = {"mu",    "load",        "approach", "half-width", "shift",
+                                          "creep", "creep-ratio", "force",    "force-ratio"};
     for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
         if (strcmp(name, driving[k]) == 0)
             return 1;
@@ -156,9 +152,8 @@ rb_api *rb_api_create_for(const char *purpose)
     static const struct {
         const char *name;
         rb_case_purpose purpose;
-    } known[] = {{"solve", RB_CASE_SINGLE},  {"curve", RB_CASE_CURVE},
-                 {"stress", RB_CASE_STRESS}, {"crack", RB_CASE_CRACK},
-                 {"wear", RB_CASE_WEAR},     {"sweep", RB_CASE_STUDY}};
+    } known[] = {{"solve", RB_CASE_SINGLE}, {"curve", RB_CASE_CURVE}, {"stress", RB_CASE_STRESS},
+                 {"crack", RB_CASE_CRACK},  {"wear", RB_CASE_WEAR},   {"sweep", RB_CASE_STUDY}};
     rb_api *a = calloc(1, sizeof *a);
 
     gsl_set_error_handler_off(); /* GSL's own one ends the program */
@@ -193,8 +188,7 @@ void rb_api_free(rb_api *a)
 static int took(rb_api *a, const char *name, rb_status s)
 {
     int k = 0;
-    while (k < a->refusals &&
-           strncmp(a->refused[k].name, name, sizeof a->refused[k].name - 1) != 0)
+    while (k < a->refusals && strncmp(a->refused[k].name, name, sizeof a->refused[k].name - 1) != 0)
         k++;
     if (k < a->refusals && s == RB_OK)
         a->refused[k] = a->refused[--a->refusals];
@@ -222,8 +216,7 @@ int rb_api_read(rb_api *a, const char *path)
 
 static rb_status check_refusals(const rb_api *a, rb_message *why)
 {
-    return a->refusals > 0 ? rb_fail(why, RB_EINVAL, "%s", a->refused[0].why.text)
-                           : RB_OK;
+    return a->refusals > 0 ? rb_fail(why, RB_EINVAL, "%s", a->refused[0].why.text) : RB_OK;
 }
 
 int rb_api_resolve(rb_api *a)
@@ -235,8 +228,8 @@ int rb_api_resolve(rb_api *a)
     return rb_api_ended(a, s);
 }
 
-static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
-                     int step, int steps, void *context)
+static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                     int steps, void *context)
 {
     (void)history;
     rb_api *a = context;
@@ -275,8 +268,8 @@ int rb_api_solve(rb_api *a)
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
     rb_api_call_begins();
-    rb_status s = rb_case_solve_again(rb_case_resolved(a->words), keep_step, a,
-                                      &a->result, &a->why);
+    rb_status s =
+        rb_case_solve_again(rb_case_resolved(a->words), keep_step, a, &a->result, &a->why);
     rb_api_call_ends();
     if (s == RB_INTERRUPTED && a->status == RB_ENOMEM) /* a step could not be kept */
         s = rb_fail(&a->why, RB_ENOMEM, "out of memory");
@@ -313,15 +306,13 @@ static const char *written(const char *what, char *text, int size)
 }
 
 /* values: the struct of the option's table; NULL: defaults of a case. */
-static const char *write_default(const rb_option *o, const void *values, char *text,
-                                 int size)
+static const char *write_default(const rb_option *o, const void *values, char *text, int size)
 {
     rb_case *c = values ? NULL : rb_case_create(RB_CASE_SINGLE);
     char buffer[64];
     if (!values && !c)
         return NULL;
-    written(o->unset ? o->unset
-                     : rb_option_text(o, values ? values : rb_case_resolved(c), buffer),
+    written(o->unset ? o->unset : rb_option_text(o, values ? values : rb_case_resolved(c), buffer),
             text, size);
     rb_case_free(c);
     return text;
@@ -362,13 +353,11 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
         int used = 0;
         text[0] = '\0';
         for (const rb_choice *c = o->choices; c && c->name && used < size; c++)
-            used += snprintf(text + used, (size_t)(size - used), "%s%s", used ? " " : "",
-                             c->name);
+            used += snprintf(text + used, (size_t)(size - used), "%s%s", used ? " " : "", c->name);
         return text;
     }
     if (strcmp(field, "expected") == 0)
-        return is_group ? written("", text, size)
-                        : rb_option_expected(o, text, (size_t)size);
+        return is_group ? written("", text, size) : rb_option_expected(o, text, (size_t)size);
     if (strcmp(field, "from") == 0)
         return written_number(o->range.from, text, size);
     if (strcmp(field, "to") == 0)
@@ -390,12 +379,11 @@ const char *rb_api_option(int k, const char *field, char *text, int size)
 const char *rb_api_crack_option(int k, const char *field, char *text, int size)
 {
     const rb_case_crack defaults = rb_case_crack_defaults();
-    return describe_option(rb_case_crack_options_n, rb_case_crack_options, &defaults, k,
-                           field, text, size);
+    return describe_option(rb_case_crack_options_n, rb_case_crack_options, &defaults, k, field,
+                           text, size);
 }
 
-const char *rb_api_result(const char *table, int k, const char *field, char *text,
-                          int size)
+const char *rb_api_result(const char *table, int k, const char *field, char *text, int size)
 {
     static const char *const kinds[] = {[RB_RESULT_NUMBER] = "number",
                                         [RB_RESULT_WHOLE] = "whole",
@@ -438,8 +426,7 @@ const char *rb_api_word(const rb_api *a, const char *name)
     if (strcmp(name, "lcp-form") == 0)
         return rb_case_word(name, (int)s->lcp_form);
     if (strcmp(name, "solver") == 0)
-        return s->solver == RB_SOLVER_CONE ? s->cone_solver
-                                           : rb_case_word(name, (int)s->solver);
+        return s->solver == RB_SOLVER_CONE ? s->cone_solver : rb_case_word(name, (int)s->solver);
     return NULL;
 }
 
@@ -452,8 +439,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
     }
     if (s->n == 0 || k < 0 || a->note.text[0])
         return NULL;
-    const rb_rolling_note_list list =
-        rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
+    const rb_rolling_note_list list = rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
     if (k >= list.n)
         return NULL;
     snprintf(text, (size_t)size, "%s", list.text[k]);
@@ -475,8 +461,8 @@ double rb_api_number(const rb_api *a, const char *name)
     if (strcmp(name, "hertz_load") == 0)
         return c->derived.load;
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
-    const rb_rolling_result *r = find_result(&rb_rolling_solution_scalars,
-                                             is_error ? name + strlen(error_) : name);
+    const rb_rolling_result *r =
+        find_result(&rb_rolling_solution_scalars, is_error ? name + strlen(error_) : name);
     if (!r) {
         /* Of the last curve, or of the problem that was handed over. */
         if (strcmp(name, "curve.free_creepage") == 0 && a->curve.n > 0)
@@ -509,10 +495,8 @@ static api_array *boundary_array(rb_api *a, const char *name)
     const struct {
         const char *name;
         const double *at;
-    } places[] = {{"mesh.x0", mesh.x0},
-                  {"mesh.y0", mesh.y0},
-                  {"mesh.x1", mesh.x1},
-                  {"mesh.y1", mesh.y1}};
+    } places[] = {
+        {"mesh.x0", mesh.x0}, {"mesh.y0", mesh.y0}, {"mesh.x1", mesh.x1}, {"mesh.y1", mesh.y1}};
     for (size_t k = 0; k < sizeof places / sizeof *places && mesh.n > 0; k++)
         if (strcmp(name, places[k].name) == 0)
             made = rb_api_copy_array(a, name, mesh.n, 1, places[k].at);
@@ -521,8 +505,8 @@ static api_array *boundary_array(rb_api *a, const char *name)
         api_array *H = rb_api_make_array(a, "H", 2 * mesh.n, 2 * mesh.n);
         api_array *G = rb_api_make_array(a, "G", 2 * mesh.n, 2 * mesh.n);
         if (!H || !G ||
-            rb_bem_assemble(&mesh, rb_rolling_material(rc, &rc->a), H->at, G->at,
-                            2 * mesh.n, &a->why) != RB_OK) {
+            rb_bem_assemble(&mesh, rb_rolling_material(rc, &rc->a), H->at, G->at, 2 * mesh.n,
+                            &a->why) != RB_OK) {
             rb_api_forget_arrays(a, "H");
             rb_api_forget_arrays(a, "G");
             made = NULL;
@@ -567,9 +551,8 @@ static api_array *closed_array(rb_api *a, const char *name)
     api_array *made = rb_api_make_array(a, name, s->n, 1);
     const double creep = mu > 0.0 ? s->creep_ratio : 0.0;
     for (int i = 0; made && i < s->n; i++)
-        made->at[i] = friction
-                          ? rb_closed_carter_traction(mu, highest, half, creep, s->x[i])
-                          : rb_closed_hertz_pressure(highest, half, s->x[i]);
+        made->at[i] = friction ? rb_closed_carter_traction(mu, highest, half, creep, s->x[i])
+                               : rb_closed_hertz_pressure(highest, half, s->x[i]);
     return made;
 }
 
@@ -583,20 +566,18 @@ static api_array *series_array(rb_api *a, const char *name)
         const rb_rolling_results *table;
         const void *owner;
         int rows;
-    } series[] = {
-        {"history.error.", &rb_rolling_history_columns, r->history.errors,
-         r->history.errors ? r->history.errors->n : 0},
-        {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
-        {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
-        {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
-        {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n},
-        {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
+    } series[] = {{"history.error.", &rb_rolling_history_columns, r->history.errors,
+                   r->history.errors ? r->history.errors->n : 0},
+                  {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
+                  {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
+                  {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
+                  {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n},
+                  {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
     size_t n, k = 0;
     while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
         k++;
     const rb_rolling_result *row = find_result(series[k].table, name + n);
-    const int is_there =
-        row && series[k].rows > 0 && rb_rolling_has_column(row, series[k].owner);
+    const int is_there = row && series[k].rows > 0 && rb_rolling_has_column(row, series[k].owner);
     api_array *made = is_there ? rb_api_make_array(a, name, series[k].rows, 1) : NULL;
     for (int i = 0; made && i < series[k].rows; i++)
         made->at[i] = rb_rolling_entry(row, series[k].owner, i);
@@ -613,8 +594,7 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
     const int values = strcmp(result, "value") == 0;
     for (int k = 0; k < 2 * RB_CASE_OVER_X_N && all->n_x > 0; k++) {
         char known[40];
-        snprintf(known, sizeof known, "%s.%s", rb_case_over_x_names[k / 2],
-                 k % 2 ? "mu" : "gap");
+        snprintf(known, sizeof known, "%s.%s", rb_case_over_x_names[k / 2], k % 2 ? "mu" : "gap");
         if (strcmp(known, result) == 0)
             return rb_api_copy_array(a, name, all->n_x, 1, all->over_x + k * all->n_x);
     }
@@ -633,10 +613,9 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
             const int has = of->status == RB_OK && of->d.has[from] &&
                             (!is_column || rb_rolling_has_column(r, d));
             for (int i = 0; i < rows; i++)
-                made->at[i + rows * (2 * k + side)] = !has ? NAN
-                                                      : !is_column
-                                                          ? rb_rolling_number(r, d)
-                                                          : rb_rolling_entry(r, d, i);
+                made->at[i + rows * (2 * k + side)] = !has         ? NAN
+                                                      : !is_column ? rb_rolling_number(r, d)
+                                                                   : rb_rolling_entry(r, d, i);
         }
     }
     return made;
@@ -687,8 +666,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 /* ---- Further questions ------------------------------------------------------------- */
 
 /* Counts the points of a curve, and ends it where the caller has had enough. */
-static rb_status count_point(const rb_rolling_model *model, int k, void *context,
-                             rb_message *why)
+static rb_status count_point(const rb_rolling_model *model, int k, void *context, rb_message *why)
 {
     (void)model, (void)k;
     rb_api *a = context;
@@ -706,24 +684,20 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
-    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to,
-                                    points};
+    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
     rb_api_call_begins();
     rb_status s = check_refusals(a, &a->why);
     a->total = (c->error ? 1 + rb_rolling_error_runs(&c->rc) : 1) *
-               (range.over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&c->rc)
-                    ? 2 * points
-                    : points);
+               (range.over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&c->rc) ? 2 * points
+                                                                                       : points);
     if (s == RB_OK)
         s = !variable->name
                 ? rb_fail(&a->why, RB_EINVAL,
-                          "--over: expected creep-ratio, creep or speed, got '%.100s'",
-                          over)
+                          "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
             : c->error
                 ? rb_rolling_curve_with_errors(&c->rc, &range, count_point, a, &a->curve,
                                                &a->curve_errors, &a->why)
-                : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve,
-                                           &a->why);
+                : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve, &a->why);
     rb_api_call_ends();
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
 }
@@ -741,8 +715,8 @@ static int has_model(rb_api *a)
         return 0;
     if (model->state.p && model->bodies.F)
         return 1;
-    rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                            "there is no solved case whose matrices are available"));
+    rb_api_ended(
+        a, rb_fail(&a->why, RB_EINVAL, "there is no solved case whose matrices are available"));
     return 0;
 }
 
@@ -775,12 +749,11 @@ static rb_status keep_columns(rb_api *a, const rb_lcp_pivot *p, double *work)
         const char *name;
         const double *x;
         int rows;
-    } kept[] = {
-        {"pivot.before", value, p->n},    {"pivot.column", column, p->n},
-        {"pivot.basis", basis, p->n},     {"pivot.value", &p->tableau[n * (n + 1)], p->n},
-        {"pivot.entering", &entering, 1}, {"pivot.leaving", &leaving, 1},
-        {"pivot.row", &row, 1},           {"pivot.ratio", &p->ratio, 1},
-        {"pivot.z0", &p->z0, 1}};
+    } kept[] = {{"pivot.before", value, p->n},    {"pivot.column", column, p->n},
+                {"pivot.basis", basis, p->n},     {"pivot.value", &p->tableau[n * (n + 1)], p->n},
+                {"pivot.entering", &entering, 1}, {"pivot.leaving", &leaving, 1},
+                {"pivot.row", &row, 1},           {"pivot.ratio", &p->ratio, 1},
+                {"pivot.z0", &p->z0, 1}};
     rb_status s = RB_OK;
 
     /* The column of the entering variable and the values of the basic ones, before the
@@ -910,9 +883,8 @@ const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
     char name[RB_CONTACT_VARIABLE];
     if (variable < 0 || variable > 2 * a->lcp.size || a->lcp.size == 0)
         return NULL;
-    return written(
-        rb_contact_lcp_variable(&a->lcp, a->result.model.mesh.n, variable, name), text,
-        size);
+    return written(rb_contact_lcp_variable(&a->lcp, a->result.model.mesh.n, variable, name), text,
+                   size);
 }
 
 int rb_api_guess(rb_api *a, int n, const int *zone)
@@ -922,8 +894,8 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     if (!has_model(a))
         return a->status;
     if (n != model->mesh.n)
-        return rb_api_ended(
-            a, rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
+        return rb_api_ended(a,
+                            rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
     if (model->problem.yield)
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
                                        "zones do not determine the plastic slip of an "
@@ -1019,8 +991,7 @@ int rb_api_derivatives(rb_api *a)
     rb_api_call_begins();
     const rb_status s =
         a->result.solution.n > 0 && a->result.model.state.p
-            ? rb_case_differentiate(a->words, &a->result.model, 0, NULL, &a->derivatives,
-                                    &a->why)
+            ? rb_case_differentiate(a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
             : rb_fail(&a->why, RB_EINVAL,
                       "derivatives: of a solved case of one step, without error bars");
     rb_api_call_ends();
@@ -1053,11 +1024,10 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
     if (k < 0 || k >= all->n || size < 1)
         return NULL;
     const rb_case_derivative *of = &all->of[k];
-    const char *what = strcmp(field, "name") == 0   ? of->name
-                       : strcmp(field, "unit") == 0 ? of->unit
-                       : strcmp(field, "refusal") == 0
-                           ? (of->status == RB_OK ? "" : of->why.text)
-                           : NULL;
+    const char *what = strcmp(field, "name") == 0      ? of->name
+                       : strcmp(field, "unit") == 0    ? of->unit
+                       : strcmp(field, "refusal") == 0 ? (of->status == RB_OK ? "" : of->why.text)
+                                                       : NULL;
     return what ? written(what, text, size) : NULL;
 }
 
@@ -1065,20 +1035,17 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
 
 /* Typed values as they are given: rb_case_store reads plain numbers in the case's units.
  */
-rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name,
-                           const char *const *value, rb_case_crack *crack,
-                           rb_message *why)
+rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name, const char *const *value,
+                           rb_case_crack *crack, rb_message *why)
 {
     int given[API_CRACK_OPTIONS] = {0}, plain[API_CRACK_OPTIONS] = {0}, k;
-    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, crack,
-                               given, plain};
+    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, crack, given, plain};
     for (int i = 0; i < n; i++) {
         rb_guess guess = {.word = name[i]};
         if (!rb_option_find(1, &set, name[i], strlen(name[i]), &k, &guess))
             return rb_fail(why, RB_EINVAL, "crack: unknown option '%.60s'%s", name[i],
                            rb_guess_text(&guess, ""));
-        const rb_status s =
-            rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], why);
+        const rb_status s = rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], why);
         if (s != RB_OK)
             return s;
     }
@@ -1126,9 +1093,8 @@ static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
     const int n = h->nodes, steps = h->n;
     rb_crack *crack = NULL;
     static const char *const names[] = {
-        "crack.node.x",   "crack.node.y",  "crack.node.length", "crack.node.t_x",
-        "crack.node.t_y", "crack.opening", "crack.sliding",     "crack.pressure",
-        "crack.friction", "crack.zone"};
+        "crack.node.x",  "crack.node.y",  "crack.node.length", "crack.node.t_x", "crack.node.t_y",
+        "crack.opening", "crack.sliding", "crack.pressure",    "crack.friction", "crack.zone"};
     enum { NODES = 5, ALL = sizeof names / sizeof *names };
     api_array *at[ALL];
     rb_status s = rb_crack_create(&r->shape, &crack, &a->why);
@@ -1140,8 +1106,7 @@ static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
     if (s == RB_OK)
         rb_crack_places(crack, at[0]->at, at[1]->at, at[2]->at, at[3]->at, at[4]->at);
     for (int k = 0; k < n * steps && s == RB_OK; k++) {
-        const size_t N = (size_t)(k / n) * 2 * (size_t)n + (size_t)(k % n),
-                     T = N + (size_t)n;
+        const size_t N = (size_t)(k / n) * 2 * (size_t)n + (size_t)(k % n), T = N + (size_t)n;
         at[5]->at[k] = h->D[N];
         at[6]->at[k] = h->D[T];
         at[7]->at[k] = h->r[N] / at[2]->at[k % n];
@@ -1149,9 +1114,8 @@ static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
         at[9]->at[k] = h->zone[k];
     }
     rb_crack_free(crack);
-    if (s == RB_OK &&
-        (!rb_api_copy_array(a, "crack.path.x", path->pieces + 1, 1, path->x) ||
-         !rb_api_copy_array(a, "crack.path.y", path->pieces + 1, 1, path->y)))
+    if (s == RB_OK && (!rb_api_copy_array(a, "crack.path.x", path->pieces + 1, 1, path->x) ||
+                       !rb_api_copy_array(a, "crack.path.y", path->pieces + 1, 1, path->y)))
         s = RB_ENOMEM;
     return s;
 }
@@ -1177,8 +1141,8 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
     return rb_api_ended(a, s);
 }
 
-static int stop_wear(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
-                     int steps, void *context)
+static int stop_wear(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step, int steps,
+                     void *context)
 {
     (void)s;
     (void)h;
@@ -1188,8 +1152,8 @@ static int stop_wear(rb_rolling_solution *s, const rb_rolling_wear_history *h, i
     return a->stopped;
 }
 
-int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
-                double slide, double cycles, int steps, int quarter)
+int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, double slide,
+                double cycles, int steps, int quarter)
 {
     const rb_rolling_wear how = {.law = strcmp(law, "archard") == 0 ? RB_WEAR_ARCHARD
                                                                     : RB_WEAR_DISSIPATION,
@@ -1205,8 +1169,8 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
     rb_rolling_wear_history_free(&a->wear);
     rb_status s = check_refusals(a, &a->why);
     if (s == RB_OK && how.law == RB_WEAR_DISSIPATION && strcmp(law, "dissipation") != 0)
-        s = rb_fail(&a->why, RB_EINVAL,
-                    "wear law: expected archard or dissipation, got '%.100s'", law);
+        s = rb_fail(&a->why, RB_EINVAL, "wear law: expected archard or dissipation, got '%.100s'",
+                    law);
     if (s == RB_OK && !isnan(slide) && !isnan(cycles))
         s = rb_fail(&a->why, RB_EINVAL, "slide and cycles exclude each other");
     if (s == RB_OK)
@@ -1214,8 +1178,8 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share,
     rb_api_call_begins();
     if (s == RB_OK)
         s = rb_rolling_wear_run(&rb_case_resolved(a->words)->rc, &how,
-                                &(rb_rolling_wear_observer){stop_wear, a}, &a->wear,
-                                &last, &a->why);
+                                &(rb_rolling_wear_observer){stop_wear, a}, &a->wear, &last,
+                                &a->why);
     rb_api_call_ends();
     if (s >= 0 && last.worn &&
         (!rb_api_copy_array(a, "wear.profile.x", last.n, 1, last.x) ||

@@ -25,9 +25,8 @@ enum { API_REFUSALS = 16 };      /* of more the last ones are the same entry */
 
 /* Options of `rollbem crack` by their names and texts, in the units of the resolved case
  * a. */
-rb_status rb_api_set_crack(rb_api *a, int n, const char *const *names,
-                           const char *const *values, rb_case_crack *crack,
-                           rb_message *why);
+rb_status rb_api_set_crack(rb_api *a, int n, const char *const *names, const char *const *values,
+                           rb_case_crack *crack, rb_message *why);
 
 struct rb_api {
     rb_case *words;
@@ -62,8 +61,7 @@ api_array *rb_api_find_array(rb_api *a, const char *name);
 /* A new array of zeros.  NULL: no memory. */
 api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns);
 /* NULL also where x is. */
-api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
-                             const double *x);
+api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x);
 void rb_api_forget_arrays(rb_api *a, const char *beginning);
 /* problems.c: the solvers that the option `solver` may name. */
 const rb_contact_cone_solvers *rb_api_cone_solvers(void);

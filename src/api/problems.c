@@ -74,8 +74,8 @@ static int goes_on(const rb_friction_progress *at, void *context)
     return a->stopped;
 }
 
-static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
-                                const char *solver, double tol, int max_iters)
+static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const char *solver,
+                                double tol, int max_iters)
 {
     rb_friction_options options = rb_friction_defaults();
     rb_friction_info info = {0};
@@ -85,8 +85,7 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
     options.progress = goes_on;
     options.context = a;
     api_array *r = rb_api_make_array(a, "friction.r", p->dimension, p->contacts);
-    api_array *u =
-        r ? rb_api_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
+    api_array *u = r ? rb_api_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
     api_array *mu = u ? rb_api_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
     if (!mu)
         return RB_ENOMEM;
@@ -108,23 +107,21 @@ int rb_api_friction_measure(rb_api *a, const char *measure)
 {
     const int by_acary = strcmp(measure, "acary") == 0;
     if (!by_acary && strcmp(measure, "scaled") != 0)
-        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "--measure: expected scaled or acary, got '%.60s'",
-                                       measure));
+        return rb_api_ended(a,
+                            rb_fail(&a->why, RB_EINVAL,
+                                    "--measure: expected scaled or acary, got '%.60s'", measure));
     a->by_acary = by_acary;
     return rb_api_ended(a, RB_OK);
 }
 
-int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
-                    const double *q, const double *mu, const char *solver, double tol,
-                    int max_iters)
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
+                    const double *mu, const char *solver, double tol, int max_iters)
 {
     begin(a, "friction.", solver);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
-        return rb_api_ended(
-            a, rb_fail(&a->why, RB_EINVAL,
-                       "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
-                       dimension));
+        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
+                                       "friction: %d contacts of dimension %d, expected 2 or 3",
+                                       contacts, dimension));
     const size_t m = (size_t)dimension * (size_t)contacts;
     rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
                              .dimension = dimension,
@@ -145,8 +142,7 @@ int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
     return rb_api_ended(a, s);
 }
 
-int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
-                         int max_iters)
+int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol, int max_iters)
 {
     rb_friction_problem p = {0};
     begin(a, "friction.", solver);
@@ -175,8 +171,7 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
 {
     const study *st = context;
-    return rb_case_crack_row(rb_case_resolved(st->cases[k]->words), &st->crack[k], row,
-                             why);
+    return rb_case_crack_row(rb_case_resolved(st->cases[k]->words), &st->crack[k], row, why);
 }
 
 static api_array *column_of(rb_api *a, const char *name)
@@ -249,20 +244,18 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
             rb_api *of = st.cases[k];
             rb_message why = {""};
             st.crack[k] = rb_case_crack_defaults();
-            rb_status u = rb_api_set_crack(of, m, names, values + (size_t)k * (size_t)m,
-                                           &st.crack[k], &why);
+            rb_status u =
+                rb_api_set_crack(of, m, names, values + (size_t)k * (size_t)m, &st.crack[k], &why);
             if (u == RB_OK)
                 u = rb_case_crack_check(rb_case_resolved(of->words), &st.crack[k], &why);
             if (u == RB_OK && !isnan(st.crack[k].paris))
                 u = rb_fail(&why, RB_EINVAL,
                             "--paris: a study has the K of cracks of given lengths");
-            s = u == RB_OK ? u
-                           : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
+            s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
         }
     if (s == RB_OK && n > 0) {
         const int cracks = names != NULL;
-        const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
-                                              &rb_case_crack_scalars};
+        const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars, &rb_case_crack_scalars};
         char text[40];
         api_array *made = rb_api_make_array(a, "sweep.status", n, 1);
         for (int t = 0; t <= cracks; t++)
@@ -289,8 +282,8 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
     return sweep(a, n, cases, 0, NULL, NULL, workers);
 }
 
-int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m,
-                        const char *const *names, const char *const *values, int workers)
+int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                        const char *const *values, int workers)
 {
     return sweep(a, n, cases, m, names, values, workers);
 }

@@ -91,11 +91,7 @@ static size_t character_size(const unsigned char *text)
 {
     static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
     const unsigned char first = text[0];
-    const size_t n = first < 0x80   ? 1
-                     : first < 0xc0 ? 0
-                     : first < 0xe0 ? 2
-                     : first < 0xf0 ? 3
-                                    : 4;
+    const size_t n = first < 0x80 ? 1 : first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
     if (n < 2)
         return n == 1 && first >= ' ' && first != 127;
     unsigned code = first & (0x7fu >> n);
@@ -104,8 +100,7 @@ static size_t character_size(const unsigned char *text)
             return 0;
         code = code << 6 | (text[i] & 0x3fu);
     }
-    return code >= least[n] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) &&
-                   code >= 0xa0
+    return code >= least[n] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) && code >= 0xa0
                ? n
                : 0;
 }
@@ -162,9 +157,8 @@ rb_status rb_memory_check(double bytes, const char *what, rb_message *why)
     /* -1 where the system does not tell: then the allocation itself decides */
     if (pages <= 0 || page <= 0 || bytes <= machine)
         return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "%s would need %.3g GB of memory; this machine has %.3g GB", what,
-                   bytes / 1e9, machine / 1e9);
+    return rb_fail(why, RB_EINVAL, "%s would need %.3g GB of memory; this machine has %.3g GB",
+                   what, bytes / 1e9, machine / 1e9);
 }
 
 double rb_seconds(void)

@@ -15,8 +15,8 @@
 static cholmod_sparse *long_copy(const rb_sparse *a, cholmod_common *c)
 {
     const size_t nz = (size_t)a->p[a->cols];
-    cholmod_sparse *l = cholmod_l_allocate_sparse((size_t)a->rows, (size_t)a->cols, nz, 1,
-                                                  1, 0, CHOLMOD_REAL, c);
+    cholmod_sparse *l =
+        cholmod_l_allocate_sparse((size_t)a->rows, (size_t)a->cols, nz, 1, 1, 0, CHOLMOD_REAL, c);
     if (!l)
         return NULL;
     SuiteSparse_long *p = l->p, *i = l->i;
@@ -37,8 +37,8 @@ rb_status rb_sparse_rank(const rb_sparse *a, int *rank)
     SuiteSparse_long *e = NULL;
     SuiteSparse_long found = -1;
     if (l)
-        found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, l, NULL,
-                                NULL, NULL, NULL, &r, &e, NULL, NULL, NULL, &c);
+        found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, l, NULL, NULL, NULL,
+                                NULL, &r, &e, NULL, NULL, NULL, &c);
     cholmod_l_free_sparse(&r, &c);
     cholmod_l_free((size_t)a->cols, sizeof *e, e, &c);
     cholmod_l_free_sparse(&l, &c);
@@ -77,8 +77,8 @@ rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu)
     /* patterns here are symmetric, which UMFPACK does not see before it has the numbers:
      * four times fewer operations on the wall of the examples */
     f->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-    const rb_status s = umfpack_status(umfpack_di_symbolic(
-        a->rows, a->cols, a->p, a->i, NULL, &f->symbolic, f->control, NULL));
+    const rb_status s = umfpack_status(
+        umfpack_di_symbolic(a->rows, a->cols, a->p, a->i, NULL, &f->symbolic, f->control, NULL));
     if (s == RB_OK)
         *lu = f;
     else
@@ -91,8 +91,8 @@ rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flop
     double info[UMFPACK_INFO];
     umfpack_di_free_numeric(&lu->numeric);
     lu->a = a;
-    const int code = umfpack_di_numeric(a->p, a->i, a->x, lu->symbolic, &lu->numeric,
-                                        lu->control, info);
+    const int code =
+        umfpack_di_numeric(a->p, a->i, a->x, lu->symbolic, &lu->numeric, lu->control, info);
     lu->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
     if (flops && info[UMFPACK_FLOPS] > 0)
         *flops += info[UMFPACK_FLOPS];
@@ -100,8 +100,8 @@ rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flop
 }
 
 /* steps: of refinement, at most. */
-static rb_status lu_solve(const rb_sparse_lu *lu, int system, double steps,
-                          const double *b, double *x)
+static rb_status lu_solve(const rb_sparse_lu *lu, int system, double steps, const double *b,
+                          double *x)
 {
     double control[UMFPACK_CONTROL];
     const rb_sparse *a = lu->a;
@@ -123,8 +123,7 @@ rb_status rb_sparse_lu_solve_once(const rb_sparse_lu *lu, const double *b, doubl
     return lu_solve(lu, UMFPACK_A, 0.0, b, x);
 }
 
-rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
-                                        double *x)
+rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b, double *x)
 {
     return lu_solve(lu, UMFPACK_At, lu->control[UMFPACK_IRSTEP], b, x);
 }
@@ -280,8 +279,8 @@ rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, 
 
 /* One panel of W = H' S (S K S)^-1 S H: columns from ... from + n - 1, dense, h->cols
  * rows each. */
-static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int from,
-                                  int n, double *rhs, double *w)
+static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int from, int n,
+                                  double *rhs, double *w)
 {
     const int rows = h->rows;
     memset(rhs, 0, (size_t)rows * (size_t)n * sizeof *rhs);

@@ -32,8 +32,7 @@ void rb_guess_try(rb_guess *guess, const char *candidate)
         for (size_t i = 1; i <= n; i++)
             for (size_t j = 1; j <= m; j++) {
                 d[i][j] = min2(d[i - 1][j] + 1, d[i][j - 1] + 1);
-                d[i][j] = min2(d[i][j], d[i - 1][j - 1] +
-                                            (guess->word[i - 1] != candidate[j - 1]));
+                d[i][j] = min2(d[i][j], d[i - 1][j - 1] + (guess->word[i - 1] != candidate[j - 1]));
                 if (i > 1 && j > 1 && guess->word[i - 1] == candidate[j - 2] &&
                     guess->word[i - 2] == candidate[j - 1])
                     d[i][j] = min2(d[i][j], d[i - 2][j - 2] + 1);
@@ -52,7 +51,6 @@ const char *rb_guess_text(rb_guess *guess, const char *prefix)
     guess->text[0] = '\0';
     /* more than a third wrong is another word */
     if (guess->best && guess->distance <= (length + 2) / 3)
-        snprintf(guess->text, sizeof guess->text, " (did you mean '%s%s'?)", prefix,
-                 guess->best);
+        snprintf(guess->text, sizeof guess->text, " (did you mean '%s%s'?)", prefix, guess->best);
     return guess->text;
 }

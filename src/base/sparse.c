@@ -76,8 +76,7 @@ rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
     if (t->rows < 0 || t->cols < 0)
         return RB_EINVAL;
     for (int k = 0; k < t->nz; k++)
-        if (t->row[k] < 0 || t->row[k] >= t->rows || t->col[k] < 0 ||
-            t->col[k] >= t->cols)
+        if (t->row[k] < 0 || t->row[k] >= t->rows || t->col[k] < 0 || t->col[k] >= t->cols)
             return RB_EINVAL;
 
     rb_status s = sparse_alloc(t->rows, t->cols, t->nz, a);
@@ -154,8 +153,7 @@ void rb_triplets_free(rb_triplets *t)
     *t = (rb_triplets){0};
 }
 
-rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
-                               rb_sparse *a)
+rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda, rb_sparse *a)
 {
     *a = (rb_sparse){0};
     if (rows < 0 || cols < 0 || lda < rows)
@@ -248,8 +246,7 @@ rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t)
     return RB_OK;
 }
 
-void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta,
-                     double *y)
+void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta, double *y)
 {
     for (int i = 0; i < a->rows; i++)
         y[i] = beta == 0.0 ? 0.0 : beta * y[i];
@@ -260,8 +257,8 @@ void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double b
     }
 }
 
-void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
-                                double beta, double *y)
+void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x, double beta,
+                                double *y)
 {
     for (int j = 0; j < a->cols; j++) {
         double sum = 0.0;

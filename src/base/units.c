@@ -230,8 +230,7 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
     if (*plain)
         return RB_OK;
     if (*end == ',' && isdigit((unsigned char)end[1]))
-        return rb_fail(why, RB_EINVAL,
-                       "a number with a decimal point, %.*s.%.20s; got '%.60s'",
+        return rb_fail(why, RB_EINVAL, "a number with a decimal point, %.*s.%.20s; got '%.60s'",
                        (int)(end - text < 20 ? end - text : 20), text, end + 1, text);
     const char *word = end + strspn(end, " ");
     const unit_row *u = find(word, strlen(word), unit);
@@ -253,11 +252,10 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
                 rb_guess_try(&guess, table[k].name);
             }
         if (names[0])
-            return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", names,
-                           text, known ? "" : rb_guess_text(&guess, ""));
-        return known
-                   ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
-                   : RB_EINVAL;
+            return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", names, text,
+                           known ? "" : rb_guess_text(&guess, ""));
+        return known ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
+                     : RB_EINVAL;
     }
     *value = to_stored(u, *value);
     return RB_OK;

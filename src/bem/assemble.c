@@ -11,8 +11,7 @@ rb_status rb_assembly_begin(const rb_bem_mesh *mesh, rb_bem_material material,
     double *x = rb_alloc((size_t)n, 2), *y = x ? x + n : NULL;
     rb_status s = RB_ENOMEM;
 
-    *assembly =
-        (rb_assembly){.mesh = mesh, .material = material, .r0 = rb_bem_mesh_size(mesh)};
+    *assembly = (rb_assembly){.mesh = mesh, .material = material, .r0 = rb_bem_mesh_size(mesh)};
     for (int j = 0; j < n && x; j++) {
         x[j] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
         y[j] = 0.5 * (mesh->y0[j] + mesh->y1[j]);
@@ -28,8 +27,7 @@ void rb_assembly_end(rb_assembly *assembly)
     rb_points_free(&assembly->midpoints);
 }
 
-void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor,
-                         double *const out[4])
+void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor, double *const out[4])
 {
     const rb_bem_mesh *mesh = assembly->mesh;
     const rb_element e =
@@ -39,22 +37,21 @@ void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor,
     rb_column_variant_get(0)->fill(&k, &e, j, &assembly->midpoints, out);
 }
 
-rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H,
-                          double *G, int ld, rb_message *why)
+rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H, double *G,
+                          int ld, rb_message *why)
 {
     rb_assembly assembly;
     rb_status s = rb_bem_mesh_check(mesh, why);
     if (s == RB_OK)
         s = rb_bem_material_check(material, why);
     if (s == RB_OK && ld < 2 * mesh->n)
-        s = rb_fail(why, RB_EINVAL, "leading dimension %d: expected at least %d", ld,
-                    2 * mesh->n);
+        s = rb_fail(why, RB_EINVAL, "leading dimension %d: expected at least %d", ld, 2 * mesh->n);
     if (s != RB_OK)
         return s;
     s = rb_assembly_begin(mesh, material, &assembly);
     if (s != RB_OK)
         return rb_fail(why, s, "influence: out of memory for %d points", mesh->n);
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++) {
         const size_t at = 2 * (size_t)j * (size_t)ld, next = at + (size_t)ld;

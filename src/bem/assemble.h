@@ -16,7 +16,6 @@ rb_status rb_assembly_begin(const rb_bem_mesh *mesh, rb_bem_material material,
 void rb_assembly_end(rb_assembly *assembly);
 
 /* The columns of element j: out as in column.h; those of G times G_factor. */
-void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor,
-                         double *const out[4]);
+void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor, double *const out[4]);
 
 #endif

@@ -25,8 +25,7 @@ static int in_core(const rb_bond *bond, int i)
 }
 
 /* Where the cover's own inner contour is the core's outer one, run backwards. */
-static rb_status check_interface(const rb_bem_mesh *cover, const rb_bond *bond,
-                                 rb_message *why)
+static rb_status check_interface(const rb_bem_mesh *cover, const rb_bond *bond, rb_message *why)
 {
     const double tolerance = 1e-9 * rb_bem_mesh_size(cover);
 
@@ -36,8 +35,7 @@ static rb_status check_interface(const rb_bem_mesh *cover, const rb_bond *bond,
             hypot(cover->x0[j] - bond->core.x1[k], cover->y0[j] - bond->core.y1[k]);
         if (!(apart <= tolerance))
             return rb_fail(why, RB_EINVAL,
-                           "bond: element %d of the cover is not element %d of the core",
-                           j, k);
+                           "bond: element %d of the cover is not element %d of the core", j, k);
     }
     return RB_OK;
 }
@@ -54,9 +52,9 @@ static rb_status load_columns(const rb_bond *bond, double *X)
     for (int j = 0; j < bond->core.n; j++) {
         double *x = X + 2 * (size_t)j * rows, *y = x + rows;
         const int hub = j >= bond->n;
-        rb_assembly_columns(&assembly, j, 1.0,
-                            (double *const[4]){hub ? x : NULL, hub ? y : NULL,
-                                               hub ? NULL : x, hub ? NULL : y});
+        rb_assembly_columns(
+            &assembly, j, 1.0,
+            (double *const[4]){hub ? x : NULL, hub ? y : NULL, hub ? NULL : x, hub ? NULL : y});
         for (size_t i = 0; hub && i < 2 * rows; i++)
             x[i] = -x[i];
     }
@@ -124,9 +122,8 @@ rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
 }
 
 /* value = u of the strips in the core - in the cover, - W u of the strips on the hub. */
-rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover,
-                            rb_bem_material material, rb_bond_field *field,
-                            const void *context, double *value)
+rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover, rb_bem_material material,
+                            rb_bond_field *field, const void *context, double *value)
 {
     double *hub = rb_alloc(2 * (size_t)bond->hub_n, 1);
 
@@ -140,8 +137,7 @@ rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover,
     }
     for (int i = 0; i < bond->n; i++) {
         const double complex z = rb_strip_midpoint(cover, bond->first + i);
-        const double complex u =
-            field(bond->material, z, context) - field(material, z, context);
+        const double complex u = field(bond->material, z, context) - field(material, z, context);
         value[2 * i] = creal(u);
         value[2 * i + 1] = cimag(u);
     }

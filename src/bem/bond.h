@@ -12,10 +12,8 @@ typedef struct {
     int first, n, hub_n; /* elements of the interface, of the core's hub */
     rb_bem_mesh core;    /* the interface run backwards, then the hub; owned */
     rb_bem_material material;
-    double
-        *C; /* 2n x 2n: u of the interface = -C t, t the traction on the cover; owned */
-    double
-        *W; /* 2n x 2 hub_n: u of the interface for displacements of the hub; behind C */
+    double *C; /* 2n x 2n: u of the interface = -C t, t the traction on the cover; owned */
+    double *W; /* 2n x 2 hub_n: u of the interface for displacements of the hub; behind C */
 } rb_bond;
 
 /* The last elements of the cover are the interface, the first ones of the core are the
@@ -31,8 +29,7 @@ typedef double complex rb_bond_field(rb_bem_material material, double complex z,
 /* Where the strips of a load are subtracted (B10), in cover and core each in its own
  * material, the rest of the cover moves by value - C t_rest on the interface: value, 2n.
  */
-rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover,
-                            rb_bem_material material, rb_bond_field *field,
-                            const void *context, double *value);
+rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover, rb_bem_material material,
+                            rb_bond_field *field, const void *context, double *value);
 
 #endif

@@ -124,8 +124,7 @@ void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *
         r[i] = c->work[i];
 }
 
-void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
-                                       double *r)
+void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w, double *r)
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
@@ -139,14 +138,13 @@ void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *
         r[i] = c->work[i];
 }
 
-void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
-                                     const double *w, double *r)
+void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening, const double *w,
+                                     double *r)
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
     for (int k = 0; k <= c->fourier.size / 2; k++) {
-        const double factor =
-            1.0 / ((1.0 + hardening * c->tangential[k]) * c->fourier.size);
+        const double factor = 1.0 / ((1.0 + hardening * c->tangential[k]) * c->fourier.size);
         z[k][0] *= factor;
         z[k][1] *= factor;
     }

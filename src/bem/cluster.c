@@ -28,8 +28,7 @@ static void enclose(const rb_element *e, box *b)
 }
 
 /* The `middle` elements that come first along the axis to the front (Hoare). */
-static void select_front(const rb_element *element, int axis, int *order, int count,
-                         int middle)
+static void select_front(const rb_element *element, int axis, int *order, int count, int middle)
 {
     int low = 0, high = count - 1;
     while (low < high) {

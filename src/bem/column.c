@@ -64,8 +64,7 @@ RB_INLINE void stream(double *to, const double *from, int count, stream_line *li
 }
 
 /* The columns of points i ... i + count - 1. */
-RB_INLINE void send(rb_buffer buffer, int count, int i, double *const out[4],
-                    stream_line *line)
+RB_INLINE void send(rb_buffer buffer, int count, int i, double *const out[4], stream_line *line)
 {
     for (int c = 0; c < 4; c++)
         if (out[c])
@@ -108,8 +107,7 @@ RB_INLINE void put_G(const rb_influence *v, rb_buffer buffer, int i)
     buffer[3][i + 1] = v->Gyy;
 }
 
-RB_INLINE void see_block(const rb_element *e, const double *x, const double *y,
-                         rb_seen_block *b)
+RB_INLINE void see_block(const rb_element *e, const double *x, const double *y, rb_seen_block *b)
 {
     const double length = e->a + e->a;
     for (int i = 0; i < BLOCK; i++) {
@@ -156,8 +154,7 @@ RB_INLINE int any_within(double reach2, const double *rho)
 /* What the series is not good for, at the near points among eight.  From its own midpoint
  * an element is seen under -pi: then the free term 1/2 stands in H.  A number stored
  * apart would hold up the vectors that are read behind it. */
-RB_INLINE void mend_near(double a, double reach2, int first, int self, int with_G,
-                         rb_seen_block *b)
+RB_INLINE void mend_near(double a, double reach2, int first, int self, int with_G, rb_seen_block *b)
 {
     const double pi = 3.14159265358979323846;
     for (int i = first; i < first + EIGHT; i++) {
@@ -187,8 +184,7 @@ RB_INLINE void mend_near_block(double a, int self, int with_G, rb_seen_block *b)
             mend_near(a, reach2, first, self, with_G, b);
 }
 
-RB_INLINE void put_H_block(const rb_constants *k, const rb_seen_block *b,
-                           rb_buffer buffer)
+RB_INLINE void put_H_block(const rb_constants *k, const rb_seen_block *b, rb_buffer buffer)
 {
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
@@ -219,8 +215,8 @@ typedef struct {
 
 /* In short loops, whose steps are independent: in one long one each result would wait for
  * the last, and the processor does not look far enough ahead to fill the time. */
-RB_INLINE void integrate_block(const source *s, const double *x, const double *y,
-                               int terms, int self, rb_buffer buffer)
+RB_INLINE void integrate_block(const source *s, const double *x, const double *y, int terms,
+                               int self, rb_buffer buffer)
 {
     const double a = s->e->a;
     rb_seen_block b;
@@ -238,8 +234,7 @@ RB_INLINE void integrate_block(const source *s, const double *x, const double *y
 /* All points of the block, which lie in its circle, are beyond that many half-lengths. */
 RB_INLINE int all_beyond(double reach, const rb_element *e, const double circle[3])
 {
-    const double r = reach * e->a + circle[2], dx = e->mx - circle[0],
-                 dy = e->my - circle[1];
+    const double r = reach * e->a + circle[2], dx = e->mx - circle[0], dy = e->my - circle[1];
     return dx * dx + dy * dy > 1.000001 * (r * r);
 }
 
@@ -247,8 +242,7 @@ RB_INLINE int all_beyond(double reach, const rb_element *e, const double circle[
 RB_INLINE void fill_block(const source *s, const rb_points *points, int i, int self,
                           rb_buffer buffer)
 {
-    const double *x = points->x + i, *y = points->y + i,
-                 *circle = points->circle + 3 * (i / BLOCK);
+    const double *x = points->x + i, *y = points->y + i, *circle = points->circle + 3 * (i / BLOCK);
     if (all_beyond(rb_farthest.reach, s->e, circle))
         integrate_block(s, x, y, rb_farthest.terms, -1, buffer);
     else if (all_beyond(rb_farther.reach, s->e, circle))
@@ -257,8 +251,8 @@ RB_INLINE void fill_block(const source *s, const rb_points *points, int i, int s
         integrate_block(s, x, y, rb_far.terms, self - i, buffer);
 }
 
-RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
-                    const rb_points *points, double *const out[4], stream_line *line)
+RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self, const rb_points *points,
+                    double *const out[4], stream_line *line)
 {
     const int with_G = out[2] || out[3];
     for (int i = 0; i < points->n; i += BLOCK) {
@@ -302,8 +296,7 @@ static const rb_column_variant plain = {"plain", fill_plain};
 #ifdef __clang__
 #define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl")))
 #else
-#define AVX512                                                                           \
-    __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
+#define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
 #define AVX2 __attribute__((target("avx2,fma")))
 
@@ -332,8 +325,7 @@ AVX512 static void fill_avx512(const rb_constants *k, const rb_element *e, int s
 
 const rb_column_variant *rb_column_variant_get(int i)
 {
-    static const rb_column_variant avx512 = {"AVX-512", fill_avx512},
-                                   avx2 = {"AVX2", fill_avx2};
+    static const rb_column_variant avx512 = {"AVX-512", fill_avx512}, avx2 = {"AVX2", fill_avx2};
     const rb_column_variant *found[3];
     int n = 0;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

@@ -26,10 +26,10 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
     const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
 
     LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, ld, 1, n, s->pivot, 1);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n,
-                loads + 1, 1.0, s->A, ld, X, ld);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
-                loads + 1, 1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n, loads + 1, 1.0,
+                s->A, ld, X, ld);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept, loads + 1,
+                1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
     rb_blas_threads(threads);
     return RB_OK;
 }
@@ -53,8 +53,7 @@ typedef struct {
     double complex load;
 } strip_load;
 
-static double complex strip_field(rb_bem_material material, double complex z,
-                                  const void *context)
+static double complex strip_field(rb_bem_material material, double complex z, const void *context)
 {
     const strip_load *l = context;
     const rb_strip strip = rb_strip_on(l->mesh, l->element, material, l->unit);
@@ -73,8 +72,7 @@ static void left_over(const particular *p, int k, int c, double value[2][2])
 
     if (p->bonded && k >= p->s->bond->first) {
         const size_t rows = 2 * (size_t)p->s->bond->n;
-        const double *own =
-            p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
+        const double *own = p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
         for (int direction = 0; direction < 2; direction++)
             for (int d = 0; d < 2; d++)
                 value[direction][d] = own[(size_t)direction * rows + (size_t)d];
@@ -128,8 +126,7 @@ rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
     const double size = rb_bem_mesh_size(mesh);
 
     for (int c = 0; c < mesh->contact_n; c++) {
-        const rb_strip strip =
-            rb_strip_on(mesh, mesh->contact_first + c, s->material, size);
+        const rb_strip strip = rb_strip_on(mesh, mesh->contact_first + c, s->material, size);
         for (int k = 0; k < mesh->n; k++)
             if (rb_strip_depth(&strip, rb_strip_midpoint(mesh, k)) < -1e-12 * size)
                 return rb_fail(why, RB_EINVAL,
@@ -155,8 +152,7 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
         return RB_ENOMEM;
     rb_status status = RB_OK;
     for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
-        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit,
-                                 k % 2 ? I : 1.0};
+        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit, k % 2 ? I : 1.0};
         status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
                                    p->bonded + (size_t)k * 2 * (size_t)s->bond->n);
     }
@@ -170,17 +166,15 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
     const block b = {rb_alloc((size_t)s->ld, 2 * BLOCK), rb_alloc(2 * BLOCK, loads)};
     const int threads = rb_blas_threads(1);
     rb_assembly assembly;
-    rb_status status = b.columns && b.values
-                           ? rb_assembly_begin(&s->mesh, s->material, &assembly)
-                           : RB_ENOMEM;
+    rb_status status =
+        b.columns && b.values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
     if (status == RB_OK) {
         for (int from = 0; from < s->mesh.n; from += BLOCK) {
             const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
             /* X += [G, -H] times the boundary values left over. All in one parallel
              * region: threads that wait for a product by one of them would spin. */
-#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) *       \
-                                                                 s->mesh.n >             \
+#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) * s->mesh.n >     \
                                                              rb_pairs_for_threads / 32)
             {
 #pragma omp for schedule(static)
@@ -190,9 +184,8 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
                 for (int row = 0; row < s->dofs; row += SLICE)
                     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
                                 s->dofs - row < SLICE ? s->dofs - row : SLICE,
-                                2 * s->mesh.contact_n, 2 * (to - from), 1.0,
-                                b.columns + row, s->ld, b.values, 2 * BLOCK, 1.0, X + row,
-                                s->ld);
+                                2 * s->mesh.contact_n, 2 * (to - from), 1.0, b.columns + row, s->ld,
+                                b.values, 2 * BLOCK, 1.0, X + row, s->ld);
             }
         }
         rb_assembly_end(&assembly);
@@ -294,8 +287,7 @@ static rb_status choose_loads(const particular *p, split *far)
 
 /* X += B value of some elements under some loads; load: which; NULL: all. */
 static rb_status multiply_values(const particular *p, const rb_given *given, int count,
-                                 const int *element, int loads, const int *load,
-                                 double *X)
+                                 const int *element, int loads, const int *load, double *X)
 {
     const size_t rows = 2 * (size_t)count;
     double *value = rb_alloc(rows, (size_t)loads);
@@ -316,22 +308,19 @@ static rb_status multiply_values(const particular *p, const rb_given *given, int
     return s;
 }
 
-static rb_status add_far(const particular *p, const rb_given *given, const split *far,
-                         double *X)
+static rb_status add_far(const particular *p, const rb_given *given, const split *far, double *X)
 {
     const size_t rows = (size_t)p->s->dofs;
     const int others = 2 * p->s->mesh.contact_n - far->kept, n = p->s->dofs;
-    double *few = rb_alloc(rows, (size_t)far->kept),
-           *rest = rb_alloc(rows, (size_t)others + 1);
-    rb_status s = few && rest
-                      ? multiply_values(p, given, far->far, far->element + far->near,
-                                        far->kept, far->order, few)
-                      : RB_ENOMEM;
+    double *few = rb_alloc(rows, (size_t)far->kept), *rest = rb_alloc(rows, (size_t)others + 1);
+    rb_status s = few && rest ? multiply_values(p, given, far->far, far->element + far->near,
+                                                far->kept, far->order, few)
+                              : RB_ENOMEM;
 
     if (s == RB_OK) {
         if (others > 0)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, far->kept,
-                        1.0, few, n, far->T, far->kept, 0.0, rest, n);
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, far->kept, 1.0, few,
+                        n, far->T, far->kept, 0.0, rest, n);
         for (int l = 0; l < far->kept + others; l++)
             cblas_daxpy(n, 1.0,
                         l < far->kept ? few + (size_t)l * rows
@@ -355,8 +344,8 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
     if (status == RB_OK)
         status = rb_given_create(&s->mesh, s->material, s->unit, s->tolerance, &given);
     if (status == RB_OK)
-        status = multiply_values(p, given, parts.near, parts.element,
-                                 2 * s->mesh.contact_n, NULL, X);
+        status =
+            multiply_values(p, given, parts.near, parts.element, 2 * s->mesh.contact_n, NULL, X);
     if (status == RB_OK)
         status = add_far(p, given, &parts, X);
     rb_given_free(given);
@@ -392,8 +381,7 @@ static void add_particular(const particular *p, double *X)
 static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
                           double frame[2][2])
 {
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
-                 h = hypot(dx, dy);
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j], h = hypot(dx, dy);
     const int flat = normals == RB_BEM_NORMALS_OBSTACLE;
     frame[1][0] = frame[0][1] = flat ? 1.0 : dx / h;
     frame[1][1] = flat ? 0.0 : dy / h;
@@ -401,8 +389,8 @@ static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals
 }
 
 /* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
-static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
-                           const double *X, rb_bem_flexibility *f, double *F)
+static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals, const double *X,
+                           rb_bem_flexibility *f, double *F)
 {
     const int n = f->n, m = f->m, first = s->mesh.contact_first;
     const size_t ld = (size_t)s->ld;
@@ -447,8 +435,8 @@ static rb_status solve_loads(const rb_bem_system *s, const particular *p, double
     return status;
 }
 
-static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
-                          int subtract, rb_bem_flexibility *f, rb_message *why)
+static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, int subtract,
+                          rb_bem_flexibility *f, rb_message *why)
 {
     const rb_bem_mesh *mesh = &system->mesh;
     const int n = mesh->contact_n;

@@ -43,8 +43,7 @@ static double angle_after(const graded_side *side, double elements)
 {
     const double g = side->growth, h0 = side->h0, bend = (side->cap - h0) / g;
     const double graded = log1p(g * bend / h0) / g;
-    return h0 * expm1(g * fmin(elements, graded)) / g +
-           fmax(elements - graded, 0.0) * side->cap;
+    return h0 * expm1(g * fmin(elements, graded)) / g + fmax(elements - graded, 0.0) * side->cap;
 }
 
 static double side_elements(const graded_side *side)
@@ -72,8 +71,7 @@ static void count_elements(graded_side *side, int all)
     const int has_arc = side->clamped < side_length(side);
 
     side->arc_n = has_arc ? (int)fmax(1.0, whole(share * arc_elements(side))) : 0;
-    side->free_n =
-        all > 0 ? all - side->arc_n : whole(elements_until(side, side->clamped));
+    side->free_n = all > 0 ? all - side->arc_n : whole(elements_until(side, side->clamped));
     side->free_n = side->free_n > 0 ? side->free_n : 1;
 }
 
@@ -81,9 +79,9 @@ static void count_elements(graded_side *side, int all)
 static double end_angle(const graded_side *side, int k)
 {
     const double free_part = elements_until(side, side->clamped);
-    const double N = k <= side->free_n ? free_part * k / side->free_n
-                                       : free_part + arc_elements(side) *
-                                                         (k - side->free_n) / side->arc_n;
+    const double N = k <= side->free_n
+                         ? free_part * k / side->free_n
+                         : free_part + arc_elements(side) * (k - side->free_n) / side->arc_n;
     const double s = k == side->free_n ? side->clamped : angle_after(side, N);
     return k == side->free_n + side->arc_n ? M_PI : side->from + s;
 }
@@ -129,8 +127,7 @@ static void fit_growth(outer_layout *layout, int wanted)
         else
             high = g;
     }
-    const double right = side_elements(&layout->right),
-                 left = side_elements(&layout->left);
+    const double right = side_elements(&layout->right), left = side_elements(&layout->left);
     count_elements(&layout->right, whole((wanted - 2) * right / (right + left)));
     count_elements(&layout->left, whole((wanted - 2) * left / (right + left)));
 }
@@ -169,27 +166,23 @@ static double inner_radius(const rb_bem_cylinder *cylinder)
 /* Of a thin wall. */
 static double thickness(const rb_bem_cylinder *cylinder)
 {
-    return cylinder->cover > 0.0 ? cylinder->cover
-                                 : (1.0 - cylinder->hub_ratio) * cylinder->radius;
+    return cylinder->cover > 0.0 ? cylinder->cover : (1.0 - cylinder->hub_ratio) * cylinder->radius;
 }
 
 /* Angle of the largest elements.  A chord is away from its arc by angle^2/8 radii, at
  * most an eighth of a thin wall. */
 static double largest_size(const rb_bem_cylinder *cylinder)
 {
-    const double feature =
-        is_thin(cylinder)                 ? sqrt(thickness(cylinder) / cylinder->radius)
-        : cylinder->support == RB_BEM_HUB ? (1.0 - cylinder->hub_ratio) / 4.0
-                                          : 2.0 * cylinder->arc / 8.0;
+    const double feature = is_thin(cylinder) ? sqrt(thickness(cylinder) / cylinder->radius)
+                           : cylinder->support == RB_BEM_HUB ? (1.0 - cylinder->hub_ratio) / 4.0
+                                                             : 2.0 * cylinder->arc / 8.0;
     return fmin(largest_angle, fmax(feature, smallest_feature)) / refinement(cylinder);
 }
 
-static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
-                                double from)
+static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact, double from)
 {
     const int has_hub = cylinder->support == RB_BEM_HUB;
-    graded_side side = {
-        .from = from, .h0 = from - contact, .cap = largest_size(cylinder)};
+    graded_side side = {.from = from, .h0 = from - contact, .cap = largest_size(cylinder)};
 
     side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - side.h0);
     side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
@@ -210,8 +203,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
     const double R = cylinder->radius;
     outer_layout layout = {
         .right = lay_out_side(cylinder, asin(ends[n_c] / R), asin(ends[n_c + 1] / R)),
-        .left =
-            lay_out_side(cylinder, -asin(ends[0] / R), -downstream_angle(R, n_c, ends))};
+        .left = lay_out_side(cylinder, -asin(ends[0] / R), -downstream_angle(R, n_c, ends))};
     double finer = refinement(cylinder);
 
     if (cylinder->outer_elements > 0) {
@@ -229,8 +221,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         const double low = asin(ends[0] / R), high = asin(ends[n_c] / R);
         const double fine = fmin(0.1 * thickness(cylinder) / inner, largest_angle),
                      coarse = fmax(0.25 * thickness(cylinder) / inner, smallest_feature),
-                     longest =
-                         fmin(coarse / refinement(cylinder), (high - low) / (8 * n_c)),
+                     longest = fmin(coarse / refinement(cylinder), (high - low) / (8 * n_c)),
                      size = fmax(fine / refinement(cylinder), longest);
         const double half = fmax(0.5 * (high - low), size), centre = 0.5 * (low + high);
         interface_layout in = {.low = centre - half,
@@ -246,11 +237,9 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         /* The hub's elements are as small as the largest outer ones, and resolve the rim.
          */
         const double rho = cylinder->hub_ratio;
-        const double size =
-            fmin(largest_angle, fmin(2.0 * M_PI * rho / 36.0,
-                                     fmax((1.0 - rho) / 4.0, smallest_feature)));
-        layout.hub_n =
-            (int)fmin(fmax(16.0, ceil(finer * 2.0 * M_PI * rho / size)), 20000.0);
+        const double size = fmin(largest_angle, fmin(2.0 * M_PI * rho / 36.0,
+                                                     fmax((1.0 - rho) / 4.0, smallest_feature)));
+        layout.hub_n = (int)fmin(fmax(16.0, ceil(finer * 2.0 * M_PI * rho / size)), 20000.0);
     }
     return layout;
 }
@@ -266,13 +255,10 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
     if (c->support != RB_BEM_ARC && c->support != RB_BEM_HUB)
         return rb_fail(why, RB_EINVAL, "a cylinder's mesh has support arc or hub");
     if (c->support == RB_BEM_ARC && !(c->arc > 0.0 && c->arc <= M_PI_2))
-        return rb_fail(why, RB_EINVAL,
-                       "clamped arc: half-angle %g, expected in (0, pi/2]", c->arc);
+        return rb_fail(why, RB_EINVAL, "clamped arc: half-angle %g, expected in (0, pi/2]", c->arc);
     if (c->support == RB_BEM_HUB && !(c->hub_ratio > 0.0 && c->hub_ratio < 1.0))
-        return rb_fail(why, RB_EINVAL, "hub ratio = %g: expected in (0, 1)",
-                       c->hub_ratio);
-    if (c->cover != 0.0 &&
-        !(c->support == RB_BEM_HUB && c->cover > 0.0 && c->cover < c->radius))
+        return rb_fail(why, RB_EINVAL, "hub ratio = %g: expected in (0, 1)", c->hub_ratio);
+    if (c->cover != 0.0 && !(c->support == RB_BEM_HUB && c->cover > 0.0 && c->cover < c->radius))
         return rb_fail(why, RB_EINVAL,
                        "cover of thickness %g: expected > 0 and less than the radius %g, "
                        "on a hub",
@@ -281,25 +267,22 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
         return rb_fail(why, RB_EINVAL, "outer elements = %d: expected at least 8, or 0",
                        c->outer_elements);
     if (!(c->refinement >= 0.0 && c->refinement <= 1000.0))
-        return rb_fail(why, RB_EINVAL, "refinement = %g: expected 0 ... 1000",
-                       c->refinement);
+        return rb_fail(why, RB_EINVAL, "refinement = %g: expected 0 ... 1000", c->refinement);
     if (n_c > 1000000 || c->outer_elements > 1000000)
-        return rb_fail(why, RB_EINVAL,
-                       "%d contact and %d outer elements: at most a million", n_c,
+        return rb_fail(why, RB_EINVAL, "%d contact and %d outer elements: at most a million", n_c,
                        c->outer_elements);
     const double reach = fmax(-ends[0], ends[n_c + 1]);
     if (!(reach < c->radius))
-        return rb_fail(why, RB_EINVAL, "zone up to |x| = %g on a radius of %g", reach,
-                       c->radius);
+        return rb_fail(why, RB_EINVAL, "zone up to |x| = %g on a radius of %g", reach, c->radius);
     const double angle =
         fmax(asin(ends[n_c + 1] / c->radius), -downstream_angle(c->radius, n_c, ends));
     if (c->support == RB_BEM_ARC && angle > 0.95 * (M_PI - c->arc))
         return rb_fail(why, RB_EINVAL,
-                       "zone up to |x| = %g reaches the clamped arc of half-angle %g",
-                       reach, c->arc);
+                       "zone up to |x| = %g reaches the clamped arc of half-angle %g", reach,
+                       c->arc);
     if (angle > 0.95 * M_PI)
-        return rb_fail(why, RB_EINVAL,
-                       "zone up to |x| = %g: no space for elements beside it", reach);
+        return rb_fail(why, RB_EINVAL, "zone up to |x| = %g: no space for elements beside it",
+                       reach);
     return RB_OK;
 }
 
@@ -324,8 +307,7 @@ static point at_angle(double R, double angle)
 }
 
 /* End k of the outer circle, counted from the first contact end counter-clockwise. */
-static point outer_node(const outer_layout *layout, double R, int n_c, const double *ends,
-                        int k)
+static point outer_node(const outer_layout *layout, double R, int n_c, const double *ends, int k)
 {
     const int zone = n_c + 1, right = layout->right.free_n + layout->right.arc_n,
               all = n_c + outer_count(layout);
@@ -363,8 +345,7 @@ static double inner_angle(const outer_layout *layout, int k)
 }
 
 /* Clockwise: the body lies outside. */
-static void place_hub(double R, double r, const outer_layout *layout, int first,
-                      rb_bem_mesh *mesh)
+static void place_hub(double R, double r, const outer_layout *layout, int first, rb_bem_mesh *mesh)
 {
     const double begin = inner_angle(layout, 0);
     const point start = {r * sin(begin), R - r * cos(begin)};
@@ -379,13 +360,12 @@ static void place_hub(double R, double r, const outer_layout *layout, int first,
 }
 
 /* Few elements are long chords, which must not cut the core. */
-static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
-                              const rb_bem_mesh *mesh, rb_message *why)
+static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer, const rb_bem_mesh *mesh,
+                              rb_message *why)
 {
     const double R = cylinder->radius, core = inner_radius(cylinder);
     for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
-        if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]),
-                  0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
+        if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]), 0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
             return rb_fail(why, RB_EINVAL,
                            "outer elements = %d: elements this long cut through the "
                            "hub of radius %g; use more, or 0",
@@ -393,8 +373,8 @@ static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
     return RB_OK;
 }
 
-rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
-                               const double *ends, rb_bem_mesh *mesh, rb_message *why)
+rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
+                               rb_bem_mesh *mesh, rb_message *why)
 {
     *mesh = (rb_bem_mesh){0};
     rb_status s = check_cylinder(cylinder, n_c, ends, why);
@@ -405,12 +385,10 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
 
     s = rb_bem_mesh_alloc(outer + layout.hub_n, mesh);
     if (s != RB_OK)
-        return rb_fail(why, s, "cylinder: out of memory for %d elements",
-                       outer + layout.hub_n);
+        return rb_fail(why, s, "cylinder: out of memory for %d elements", outer + layout.hub_n);
     mesh->contact_n = n_c;
     const int arc_first = n_c + 1 + layout.right.free_n,
-              arc_n = layout.right.arc_n + layout.left.arc_n,
-              n = n_c + outer_count(&layout);
+              arc_n = layout.right.arc_n + layout.left.arc_n, n = n_c + outer_count(&layout);
     point from = outer_node(&layout, cylinder->radius, n_c, ends, 0);
     for (int j = 0; j < n; j++) {
         const point to = outer_node(&layout, cylinder->radius, n_c, ends, j + 1);
@@ -434,27 +412,23 @@ rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *c
     int n = 0;
 
     *core = (rb_bem_mesh){0};
-    while (n < cover->n &&
-           cover->condition[2 * (cover->n - 1 - n)] == RB_BEM_DISPLACEMENT)
+    while (n < cover->n && cover->condition[2 * (cover->n - 1 - n)] == RB_BEM_DISPLACEMENT)
         n++;
     if (!(hub < 0.98 * outside))
-        return rb_fail(
-            why, RB_EINVAL,
-            "hub of radius %g: expected less than 0.98 of the radius %g of the "
-            "core under the cover",
-            hub, outside);
-    const double size =
-        fmin(largest_angle, fmin(M_PI / 18.0, 0.5 * (outside / hub - 1.0)));
+        return rb_fail(why, RB_EINVAL,
+                       "hub of radius %g: expected less than 0.98 of the radius %g of the "
+                       "core under the cover",
+                       hub, outside);
+    const double size = fmin(largest_angle, fmin(M_PI / 18.0, 0.5 * (outside / hub - 1.0)));
     const outer_layout layout = {
-        .hub_n = (int)fmin(fmax(16.0, ceil(refinement(cylinder) * 2.0 * M_PI / size)),
-                           20000.0)};
+        .hub_n = (int)fmin(fmax(16.0, ceil(refinement(cylinder) * 2.0 * M_PI / size)), 20000.0)};
     rb_status s = rb_bem_mesh_alloc(n + layout.hub_n, core);
     if (s != RB_OK)
         return rb_fail(why, s, "core: out of memory for %d elements", n + layout.hub_n);
     for (int i = 0; i < n; i++) {
         const int j = cover->n - 1 - i;
-        place(core, i, (point){cover->x1[j], cover->y1[j]},
-              (point){cover->x0[j], cover->y0[j]}, RB_BEM_TRACTION);
+        place(core, i, (point){cover->x1[j], cover->y1[j]}, (point){cover->x0[j], cover->y0[j]},
+              RB_BEM_TRACTION);
     }
     place_hub(R, hub, &layout, n, core);
     return rb_bem_mesh_check(core, why);

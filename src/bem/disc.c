@@ -66,8 +66,7 @@ static void integrate_logs(double b, double h, cplx *first, cplx *second)
     }
 }
 
-rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
-                               double response[4])
+rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, double response[4])
 {
     const rb_bem_material material = disc->material;
     if (!(disc->radius > 0.0 && h > 0.0 && h < 2.0 * M_PI) || !isfinite(angle) ||
@@ -81,8 +80,7 @@ rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
                turned = 2.0 * sin(0.5 * h) * (cos(b) + sin(b) * I);
     for (int k = 0; k < 2; k++) {
         const cplx p = k ? I : 1.0;
-        const cplx u =
-            scale * (p * direct + 0.5 * h * (kap - 1.0) * creal(p) - conj(p) * turned);
+        const cplx u = scale * (p * direct + 0.5 * h * (kap - 1.0) * creal(p) - conj(p) * turned);
         response[2 * k] = creal(u);
         response[2 * k + 1] = cimag(u);
     }

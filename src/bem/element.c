@@ -1,11 +1,10 @@
 /* The integrals over one element seen from one point (B3). */
 #include "bem/kernels.h"
 
-rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py,
-                                       int self, rb_bem_material material)
+rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py, int self,
+                                       rb_bem_material material)
 {
-    const rb_element e =
-        rb_element_make(element.x0, element.y0, element.x1, element.y1, 1.0);
+    const rb_element e = rb_element_make(element.x0, element.y0, element.x1, element.y1, 1.0);
     const rb_constants k = rb_constants_make(&e, material);
     rb_influence v;
 
@@ -16,6 +15,5 @@ rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double
         rb_integrate_H(&k, &seen, &v);
         rb_integrate_G(&k, e.a, &seen, &v);
     }
-    return (rb_bem_blocks){.H = {v.Hxx, v.Hyx, v.Hxy, v.Hyy},
-                           .G = {v.Gxx, v.Gxy, v.Gxy, v.Gyy}};
+    return (rb_bem_blocks){.H = {v.Hxx, v.Hyx, v.Hxy, v.Hyy}, .G = {v.Gxx, v.Gxy, v.Gxy, v.Gyy}};
 }

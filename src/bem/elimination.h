@@ -34,7 +34,6 @@ void rb_elimination_free(rb_elimination *e);
 void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, double *y,
                        double *scratch);
 /* And back: y becomes the unknowns. */
-void rb_elimination_down(const rb_elimination *e, size_t n, int q, double *y,
-                         double *scratch);
+void rb_elimination_down(const rb_elimination *e, size_t n, int q, double *y, double *scratch);
 
 #endif

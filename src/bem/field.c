@@ -33,8 +33,7 @@ void rb_bem_field_free(rb_bem_field *field)
 
 /* Traction of contact element c in its own frame, along it and into the body: 0 beyond
  * the contact elements. */
-static double complex own_traction(const rb_bem_mesh *mesh, const double *t_contact,
-                                   int c)
+static double complex own_traction(const rb_bem_mesh *mesh, const double *t_contact, int c)
 {
     if (c < 0 || c >= mesh->contact_n)
         return 0.0;
@@ -47,12 +46,10 @@ static double complex own_traction(const rb_bem_mesh *mesh, const double *t_cont
  * Pressure and friction go on there, each along its own element: if the vector did, the
  * friction would jump by the pressure times the angle between the elements, and the
  * stress would be infinite at their end, which on the circle it is not. */
-static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact,
-                                   int c)
+static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact, int c)
 {
     const int n = mesh->contact_n, j = mesh->contact_first + c;
-    const double before =
-        c > 0 ? rb_bem_mesh_length(mesh, j - 1) : rb_bem_mesh_length(mesh, j);
+    const double before = c > 0 ? rb_bem_mesh_length(mesh, j - 1) : rb_bem_mesh_length(mesh, j);
     const double after = c < n ? rb_bem_mesh_length(mesh, j) : before;
 
     return (before * own_traction(mesh, t_contact, c) +
@@ -70,8 +67,7 @@ static piece half_element(double complex from, double complex to, double complex
 }
 
 /* Of all strips but the two halves of contact element `without`; -1: of all. */
-static void add_strips(const rb_bem_field *f, double complex z, int without,
-                       double stress[3])
+static void add_strips(const rb_bem_field *f, double complex z, int without, double stress[3])
 {
     for (int k = 0; k < f->pieces; k++) {
         const piece *p = &f->piece[k];
@@ -89,8 +85,7 @@ static double complex strips_displacement(const rb_bem_field *f, double complex 
 {
     double complex u = 0.0;
     for (int k = 0; k < f->pieces; k++)
-        u += rb_strip_under(rb_strip_displacement(&f->piece[k].strip, z),
-                            f->piece[k].traction);
+        u += rb_strip_under(rb_strip_displacement(&f->piece[k].strip, z), f->piece[k].traction);
     return u;
 }
 
@@ -101,13 +96,11 @@ static double complex strips_displacement(const rb_bem_field *f, double complex 
 static void left_over(const rb_bem_field *f, int j, double value[2])
 {
     const rb_bem_mesh *mesh = &f->system->mesh;
-    const double complex z = rb_strip_midpoint(mesh, j),
-                         normal = rb_strip_outward(mesh, j);
+    const double complex z = rb_strip_midpoint(mesh, j), normal = rb_strip_outward(mesh, j);
     const double n[2] = {creal(normal), cimag(normal)};
     double s[3] = {0.0, 0.0, 0.0};
 
-    const int contact =
-        mesh->condition[2 * j] == RB_BEM_CONTACT ? j - mesh->contact_first : -1;
+    const int contact = mesh->condition[2 * j] == RB_BEM_CONTACT ? j - mesh->contact_first : -1;
     add_strips(f, z, contact, s);
     const double t[2] = {s[0] * n[0] + s[2] * n[1], s[2] * n[0] + s[1] * n[1]};
     const double complex u = strips_displacement(f, z);
@@ -120,8 +113,7 @@ static void left_over(const rb_bem_field *f, int j, double value[2])
     }
 }
 
-static double complex strips_field(rb_bem_material material, double complex z,
-                                   const void *context)
+static double complex strips_field(rb_bem_material material, double complex z, const void *context)
 {
     const rb_bem_field *f = context;
     double complex u = 0.0;
@@ -159,21 +151,18 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
         for (int c = 0; c < mesh->contact_n; c++) {
             const int j = mesh->contact_first + c;
             const double complex from = mesh->x0[j] + mesh->y0[j] * I;
-            const double complex to = mesh->x1[j] + mesh->y1[j] * I,
-                                 middle = 0.5 * (from + to);
+            const double complex to = mesh->x1[j] + mesh->y1[j] * I, middle = 0.5 * (from + to);
             const double complex own = own_traction(mesh, t_contact, c);
-            f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c),
-                                           own, f->system->material, unit);
-            f->piece[2 * c + 1] =
-                half_element(middle, to, own, end_traction(mesh, t_contact, c + 1),
-                             f->system->material, unit);
+            f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c), own,
+                                           f->system->material, unit);
+            f->piece[2 * c + 1] = half_element(
+                middle, to, own, end_traction(mesh, t_contact, c + 1), f->system->material, unit);
         }
         for (int j = 0; j < system->mesh.n; j++)
             left_over(f, j, value + 2 * j);
-        s = system->bond
-                ? rb_bond_left_over(system->bond, &system->mesh, system->material,
-                                    strips_field, f, value + 2 * system->bond->first)
-                : RB_OK;
+        s = system->bond ? rb_bond_left_over(system->bond, &system->mesh, system->material,
+                                             strips_field, f, value + 2 * system->bond->first)
+                         : RB_OK;
         if (s == RB_OK)
             s = rb_bem_system_solve_values(system, value, f->u, f->t);
     }
@@ -185,15 +174,14 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     return s;
 }
 
-rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
-                              double *stress, rb_message *why)
+rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
+                              rb_message *why)
 {
     const rb_bem_system *system = field->system;
     const rb_bem_boundary rest = {&system->mesh, system->material, field->u, field->t};
     const rb_status s = rb_bem_interior(&rest, points, NULL, stress, why);
 
     for (int k = 0; k < points.n && s == RB_OK; k++)
-        add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, -1,
-                   stress + 3 * k);
+        add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, -1, stress + 3 * k);
     return s;
 }

@@ -81,8 +81,7 @@ static void copy_points(const rb_bem_flexibility *from, rb_bem_flexibility *to)
 static void dense_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     const int rows = 2 * f->m, cols = 2 * f->n;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, cols, 1.0, f->data, rows, r, 1, 0.0, w,
-                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, cols, 1.0, f->data, rows, r, 1, 0.0, w, 1);
 }
 
 static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
@@ -234,12 +233,10 @@ static rb_status same_points(const rb_bem_flexibility *a, const rb_bem_flexibili
                              rb_message *why)
 {
     if (a->n < 1 || a->n != b->n)
-        return rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B",
-                       a->n, b->n);
+        return rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B", a->n, b->n);
     for (int i = 0; i < a->m; i++)
         if (!(fabs(a->x[i] - b->x[i]) <= 1e-9 * a->h[i]))
-            return rb_fail(why, RB_EINVAL,
-                           "bodies in contact: point %d at x = %g on A, %g on B", i,
+            return rb_fail(why, RB_EINVAL, "bodies in contact: point %d at x = %g on A, %g on B", i,
                            a->x[i], b->x[i]);
     return RB_OK;
 }
@@ -275,8 +272,7 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
     if (!pair) {
         rb_bem_flexibility_free(a);
         rb_bem_flexibility_free(b);
-        return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory")
-                          : s;
+        return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory") : s;
     }
     *pair = (body_pair){.a = *a, .b = *b};
     memset(a, 0, sizeof *a);
@@ -286,8 +282,7 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
         pair->w = rb_alloc(2 * m, 1);
         s = pair->r && pair->w ? join(pair, f) : RB_ENOMEM;
         if (s != RB_OK)
-            rb_fail(why, s, "bodies in contact: out of memory for %d elements",
-                    pair->a.n);
+            rb_fail(why, s, "bodies in contact: out of memory for %d elements", pair->a.n);
     }
     f->free_data = pair_free;
     f->data = pair;

@@ -75,8 +75,7 @@ void rb_fourier_free(rb_fourier *f)
 }
 
 /* Buffers of fftw_alloc_real() are aligned alike, as FFTW's new-array calls ask. */
-fftw_complex *rb_fourier_forward(const rb_fourier *f, int n, const double *x,
-                                 double *work)
+fftw_complex *rb_fourier_forward(const rb_fourier *f, int n, const double *x, double *work)
 {
     if (x != work)
         memcpy(work, x, (size_t)n * sizeof *work);

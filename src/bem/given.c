@@ -82,9 +82,8 @@ static int leaf_of(int n, int levels, int element)
 /* The circle beyond which a cluster is far. */
 static rb_circle reach_of(const rb_given *g, int level, int k)
 {
-    rb_circle circle =
-        rb_cluster_circle(g->matrix.element, rb_cluster_first(g->matrix.n, level, k),
-                          rb_cluster_first(g->matrix.n, level, k + 1));
+    rb_circle circle = rb_cluster_circle(g->matrix.element, rb_cluster_first(g->matrix.n, level, k),
+                                         rb_cluster_first(g->matrix.n, level, k + 1));
     circle.r *= REACH;
     return circle;
 }
@@ -159,8 +158,7 @@ static rb_status skeletonise(const rb_given *g, int level, int k)
         c->kept = seen.rank;
         c->order = rb_alloc_int((size_t)c->columns);
         c->T = rb_alloc((size_t)c->kept, (size_t)(c->columns - c->kept) + 1);
-        s = c->order && c->T ? rb_skeleton_split(&seen, c->kept, c->order, c->T)
-                             : RB_ENOMEM;
+        s = c->order && c->T ? rb_skeleton_split(&seen, c->kept, c->order, c->T) : RB_ENOMEM;
     }
     rb_mixed_rows_free(&rows);
     rb_skeleton_free(&seen);
@@ -173,8 +171,7 @@ static rb_status for_clusters(const rb_given *g, int level, stage *run)
 {
     rb_status s = RB_OK;
 
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
-    schedule(dynamic) if (level > 3)
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (level > 3)
     for (int k = 0; k < 1 << level; k++) {
         const rb_status own = run(g, level, k);
         if (own != RB_OK)
@@ -208,8 +205,8 @@ static void list_views(const rb_given *g, view *list, int *next)
     }
 }
 
-rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                          const double *unit, double tolerance, rb_given **given)
+rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
+                          double tolerance, rb_given **given)
 {
     rb_given *g = calloc(1, sizeof *g);
     rb_status s = g ? RB_OK : RB_ENOMEM;
@@ -309,8 +306,7 @@ static rb_status leaf_values(const product *p, const cluster *c, values *v)
         const int dof = c->column[i], place = p->place[dof / 2];
         for (int l = 0; place >= 0 && l < p->q; l++)
             v->all[i + (size_t)l * (size_t)c->columns] =
-                p->g->factor[dof] *
-                p->value[2 * place + dof % 2 + (size_t)l * (size_t)p->rows];
+                p->g->factor[dof] * p->value[2 * place + dof % 2 + (size_t)l * (size_t)p->rows];
     }
     return v->all ? RB_OK : RB_ENOMEM;
 }
@@ -327,9 +323,8 @@ static rb_status parent_values(const product *p, int level, int k, values *v)
             return RB_ENOMEM;
         for (int h = 0, row = 0; h < 2; row += part[h++].kept)
             if (from[h].skeleton)
-                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[h].kept, p->q,
-                                    from[h].skeleton, part[h].kept, v->all + row,
-                                    c->columns);
+                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[h].kept, p->q, from[h].skeleton,
+                                    part[h].kept, v->all + row, c->columns);
     }
     return RB_OK;
 }
@@ -338,8 +333,7 @@ static rb_status make_values(const product *p, int level, int k)
 {
     const cluster *c = at(p->g, level, k);
     values *v = &p->of[c - p->g->cluster];
-    rb_status s =
-        level == p->g->levels ? leaf_values(p, c, v) : parent_values(p, level, k, v);
+    rb_status s = level == p->g->levels ? leaf_values(p, c, v) : parent_values(p, level, k, v);
 
     if (s == RB_OK && v->all) {
         /* The skeleton's values: its own, and T times those of the others. */
@@ -359,9 +353,8 @@ static rb_status make_values(const product *p, int level, int k)
                     rest[i + l * others] = all[c->order[kept + i]];
             }
             if (others > 0)
-                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q,
-                            (int)others, 1.0, c->T, c->kept, rest, (int)others, 1.0,
-                            v->skeleton, c->kept);
+                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q, (int)others,
+                            1.0, c->T, c->kept, rest, (int)others, 1.0, v->skeleton, c->kept);
             free(rest);
         }
     }
@@ -379,8 +372,7 @@ static rb_status add_view(const product *p, const view *w, int k, double *Y, int
     const rb_given *g = p->g;
     const cluster *c = w->from;
     const values *v = &p->of[c - g->cluster];
-    const int near = w->first < c->near, columns = near ? c->columns : c->kept,
-              m = 2 * w->count;
+    const int near = w->first < c->near, columns = near ? c->columns : c->kept, m = 2 * w->count;
     int *row = rb_alloc_int((size_t)m + (size_t)columns), *column = row ? row + m : NULL;
     double *A = rb_alloc((size_t)m, (size_t)columns);
     rb_mixed_rows rows = {0};
@@ -394,11 +386,10 @@ static rb_status add_view(const product *p, const view *w, int k, double *Y, int
         s = rb_mixed_rows_make(&g->matrix, m, row, NULL, 0, &rows);
     }
     if (s == RB_OK)
-        s = rb_mixed_block(&g->matrix, &rows, columns, column,
-                           (rb_matrix_view){A, 1, (size_t)m});
+        s = rb_mixed_block(&g->matrix, &rows, columns, column, (rb_matrix_view){A, 1, (size_t)m});
     if (s == RB_OK)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, p->q, columns, 1.0, A,
-                    m, near ? v->all : v->skeleton, columns, 1.0,
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, p->q, columns, 1.0, A, m,
+                    near ? v->all : v->skeleton, columns, 1.0,
                     Y + (row[0] - 2 * rb_cluster_first(g->matrix.n, g->levels, k)), ld);
     rb_mixed_rows_free(&rows);
     free(row);

@@ -113,7 +113,7 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
         strip[i] = rb_element_make(load->x[i], 0.0, load->x[i + 1], 0.0, 1.0);
     const int is_series = points.n > TERMS && n > 1;
     const far_field far = is_series ? far_field_of(load) : (far_field){0.0, 0.0, {0.0}};
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         const double x = points.xy[2 * k], y = points.xy[2 * k + 1];

@@ -18,8 +18,7 @@ typedef double complex cplx;
  * For g linear between nodes t_j and 0 at both ends, integration leaves one term for each
  * node, with the change of slope k_j there:
  *     2 pi i Phi = sum k_j (z - t_j) ln(t_j - z),   2 pi i Phi' = sum k_j ln(t_j - z). */
-static void stress_at(int n, const double *t, const cplx *k, double x, double y,
-                      double *stress)
+static void stress_at(int n, const double *t, const cplx *k, double x, double y, double *stress)
 {
     cplx above = 0.0, below = 0.0, slope = 0.0;
     for (int j = 0; j < n; j++) {
@@ -38,8 +37,8 @@ static void stress_at(int n, const double *t, const cplx *k, double x, double y,
     stress[2] = -cimag(normal);
 }
 
-rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
-                                         rb_bem_points points, double *stress)
+rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
+                                         double *stress)
 {
     const int n = load->n;
     const double *nodes = load->x, *p = load->p, *q = load->q;
@@ -50,13 +49,13 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
         return RB_ENOMEM;
     cplx before = 0.0;
     for (int j = 0; j < n; j++) {
-        const cplx after = j + 1 < n ? complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) /
-                                           (nodes[j + 1] - nodes[j])
-                                     : 0.0;
+        const cplx after =
+            j + 1 < n ? complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) / (nodes[j + 1] - nodes[j])
+                      : 0.0;
         k[j] = before - after;
         before = after;
     }
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > 1e5)
     for (int i = 0; i < points.n; i++)
         stress_at(n, nodes, k, points.xy[2 * i], points.xy[2 * i + 1], stress + 3 * i);

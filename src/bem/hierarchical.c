@@ -37,8 +37,7 @@ static rb_status cluster_alloc(int m, rb_hierarchical_cluster *c)
     return s == RB_OK && c->order && c->D ? RB_OK : RB_ENOMEM;
 }
 
-static rb_status make_leaf(const rb_hierarchical *h, int level, int k,
-                           rb_hierarchical_cluster *c)
+static rb_status make_leaf(const rb_hierarchical *h, int level, int k, rb_hierarchical_cluster *c)
 {
     const int first = rb_cluster_first(h->matrix.n, level, k),
               last = rb_cluster_first(h->matrix.n, level, k + 1);
@@ -134,12 +133,10 @@ static rb_status eliminate(const rb_hierarchical *h, int level, int k)
 static rb_status make_cluster(const rb_hierarchical *h, int level, int k)
 {
     rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
-    c->circle =
-        rb_cluster_circle(h->matrix.element, rb_cluster_first(h->matrix.n, level, k),
-                          rb_cluster_first(h->matrix.n, level, k + 1));
-    return level == h->levels
-               ? make_leaf(h, level, k, c)
-               : merge(h, rb_hierarchical_cluster_at(h, level + 1, 2 * k), 2, c);
+    c->circle = rb_cluster_circle(h->matrix.element, rb_cluster_first(h->matrix.n, level, k),
+                                  rb_cluster_first(h->matrix.n, level, k + 1));
+    return level == h->levels ? make_leaf(h, level, k, c)
+                              : merge(h, rb_hierarchical_cluster_at(h, level + 1, 2 * k), 2, c);
 }
 
 typedef rb_status stage(const rb_hierarchical *h, int level, int k);
@@ -149,8 +146,7 @@ static rb_status for_clusters(const rb_hierarchical *h, int level, stage *run)
     const int count = 1 << level;
     rb_status s = RB_OK;
 
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
-    schedule(dynamic) if (count > 8)
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (count > 8)
     for (int k = 0; k < count; k++) {
         const rb_status own = run(h, level, k);
         if (own != RB_OK)
@@ -179,12 +175,11 @@ static rb_hierarchical *hierarchical_alloc(int n, double tolerance)
 }
 
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                                 const double *unit, double tolerance,
-                                 rb_hierarchical **out)
+                                 const double *unit, double tolerance, rb_hierarchical **out)
 {
     rb_hierarchical *h = hierarchical_alloc(mesh->n, tolerance);
-    rb_status s = h ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix)
-                    : RB_ENOMEM;
+    rb_status s =
+        h ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix) : RB_ENOMEM;
     const int threads = rb_blas_threads(1);
 
     for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--) {
@@ -200,9 +195,8 @@ rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material materi
     if (s == RB_OK) {
         /* What is left at the top, dense. */
         rb_hierarchical_cluster *top = rb_hierarchical_cluster_at(h, 0, 0);
-        s = h->levels == 0
-                ? make_leaf(h, 0, 0, top)
-                : merge(h, rb_hierarchical_cluster_at(h, TOP, 0), 1 << TOP, top);
+        s = h->levels == 0 ? make_leaf(h, 0, 0, top)
+                           : merge(h, rb_hierarchical_cluster_at(h, TOP, 0), 1 << TOP, top);
         if (s == RB_OK)
             s = rb_elimination_keep(0, &top->e);
         if (s == RB_OK)

@@ -16,8 +16,7 @@ typedef struct rb_hierarchical rb_hierarchical;
  * cluster's skeleton says of the others.  RB_SINGULAR, RB_ENOMEM.  Uses every processor.
  */
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                                 const double *unit, double tolerance,
-                                 rb_hierarchical **h);
+                                 const double *unit, double tolerance, rb_hierarchical **h);
 /* X: 2n x columns, leading dimension 2n, overwritten by the solutions. */
 rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X);
 /* Numbers stored / 4 n^2. */

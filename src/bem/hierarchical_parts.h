@@ -23,8 +23,8 @@ struct rb_hierarchical {
     rb_hierarchical_cluster *cluster; /* levels 0 ... levels, level by level; owned */
 };
 
-static inline rb_hierarchical_cluster *
-rb_hierarchical_cluster_at(const rb_hierarchical *h, int level, int k)
+static inline rb_hierarchical_cluster *rb_hierarchical_cluster_at(const rb_hierarchical *h,
+                                                                  int level, int k)
 {
     return h->cluster + ((size_t)1 << level) - 1 + k;
 }

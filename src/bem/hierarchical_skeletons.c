@@ -39,8 +39,8 @@ static rb_status neighbours_alloc(const rb_hierarchical *h, int level, int k,
     return near->row ? RB_OK : RB_ENOMEM;
 }
 
-static rb_status find_neighbours(const rb_hierarchical *h, int level, int k,
-                                 const rb_circle *reach, neighbours *near)
+static rb_status find_neighbours(const rb_hierarchical *h, int level, int k, const rb_circle *reach,
+                                 neighbours *near)
 {
     if (neighbours_alloc(h, level, k, reach, near) != RB_OK)
         return RB_ENOMEM;
@@ -115,8 +115,7 @@ rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k
         if (s == RB_OK)
             s = rb_skeleton_factor(&rows, h->tolerance);
         if (s == RB_OK)
-            s = rb_elimination_keep(rows.rank > columns.rank ? rows.rank : columns.rank,
-                                    e);
+            s = rb_elimination_keep(rows.rank > columns.rank ? rows.rank : columns.rank, e);
         if (s == RB_OK)
             s = rb_skeleton_split(&columns, e->kept, c->order + e->m, e->Z);
         if (s == RB_OK)

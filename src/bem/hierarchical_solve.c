@@ -10,8 +10,7 @@
 enum { PANEL = 16 }; /* right-hand sides that are solved together */
 
 /* Columns of X from the mesh's order to the clusters', or back. */
-static void permute(const rb_hierarchical *h, int q, const double *from, double *to,
-                    int back)
+static void permute(const rb_hierarchical *h, int q, const double *from, double *to, int back)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
     for (int c = 0; c < q; c++, from += dofs, to += dofs)
@@ -24,8 +23,7 @@ static void permute(const rb_hierarchical *h, int q, const double *from, double 
 
 /* y = A^-1 b in the clusters' order, dofs x q; b is used up.  scratch: of largest_cluster
  * x q. */
-static void solve_ordered(const rb_hierarchical *h, int q, double *b, double *y,
-                          double *scratch)
+static void solve_ordered(const rb_hierarchical *h, int q, double *b, double *y, double *scratch)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
     for (int i = rb_hierarchical_clusters(h) - 1; i >= 0; i--)
@@ -63,8 +61,7 @@ rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X
     const int threads = rb_blas_threads(1);
     rb_status s = RB_OK;
 
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
-    schedule(dynamic) if (panels > 1)
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (panels > 1)
     for (int p = 0; p < panels; p++) {
         const int first = p * PANEL, rest = columns - first;
         const rb_status own = solve_panel(h, rest < PANEL ? rest : PANEL,
@@ -88,8 +85,7 @@ static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *
     double *A = rb_alloc((size_t)rows, CHUNK), *r = rb_alloc((size_t)rows, 1);
     int column[CHUNK];
     rb_mixed_rows of_A = {0};
-    rb_status s =
-        A && r ? rb_mixed_rows_make(&h->matrix, rows, row, NULL, 0, &of_A) : RB_ENOMEM;
+    rb_status s = A && r ? rb_mixed_rows_make(&h->matrix, rows, row, NULL, 0, &of_A) : RB_ENOMEM;
 
     for (int i = 0; s == RB_OK && i < rows; i++)
         r[i] = b[row[i]];
@@ -97,11 +93,10 @@ static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *
         const int rest = 2 * h->matrix.n - first, count = rest < CHUNK ? rest : CHUNK;
         for (int c = 0; c < count; c++)
             column[c] = first + c;
-        s = rb_mixed_block(&h->matrix, &of_A, count, column,
-                           (rb_matrix_view){A, 1, (size_t)rows});
+        s = rb_mixed_block(&h->matrix, &of_A, count, column, (rb_matrix_view){A, 1, (size_t)rows});
         if (s == RB_OK)
-            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, count, -1.0, A, rows,
-                        x + first, 1, 1.0, r, 1);
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, count, -1.0, A, rows, x + first, 1, 1.0,
+                        r, 1);
     }
     *largest = s == RB_OK ? rb_norm_inf((size_t)rows, r) : INFINITY;
     rb_mixed_rows_free(&of_A);

@@ -29,8 +29,7 @@ static void add_contours(const rb_bem_mesh *mesh, const int *next, rb_held_conto
             /* Elements first ... last - 1 are a whole contour. */
             const int last = j + 1;
             for (int i = first; i < last; i++) {
-                const double dx = mesh->x1[i] - mesh->x0[i],
-                             dy = mesh->y1[i] - mesh->y0[i],
+                const double dx = mesh->x1[i] - mesh->x0[i], dy = mesh->y1[i] - mesh->y0[i],
                              scale = 1.0 / (hypot(dx, dy) * sqrt(last - first));
                 held->contour[i] = held->count;
                 held->normal[2 * i] = dy * scale;

@@ -22,8 +22,7 @@ rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material materia
 void rb_held_contours_free(rb_held_contours *held);
 
 /* What the term adds to the entry of two dofs. */
-static inline double rb_held_contours_term(const rb_held_contours *held, int row,
-                                           int column)
+static inline double rb_held_contours_term(const rb_held_contours *held, int row, int column)
 {
     return held->contour[row / 2] == held->contour[column / 2]
                ? held->normal[row] * held->normal[column]

@@ -88,8 +88,7 @@ static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
     const cplx per_t = -1.0 / (2.0 * M_PI * (1.0 + in->kap)),
                per_s = I * in->shear / (M_PI * (1.0 + in->kap));
     for (int j = 0; j < mesh->n; j++) {
-        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
-                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]),
+        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]), my = 0.5 * (mesh->y0[j] + mesh->y1[j]),
                      half = 0.5 * rb_bem_mesh_length(mesh, j);
         const cplx before = slope_after(in, in->previous[j]), after = slope_after(in, j);
         rb_piece *p = in->piece + 2 * j;
@@ -120,8 +119,8 @@ static cplx cauchy(cplx f, cplx f_s, const rb_piece *p, cplx z, double l, cplx t
 }
 
 /* 0: the point lies outside the body */
-static int evaluate_inside(const rb_interior *in, double x, double y,
-                           double *displacement, double *stress)
+static int evaluate_inside(const rb_interior *in, double x, double y, double *displacement,
+                           double *stress)
 {
     rb_field field = {0};
     for (int k = 0; k < in->n; k++) {
@@ -129,8 +128,7 @@ static int evaluate_inside(const rb_interior *in, double x, double y,
          * stress. */
         const rb_piece *p = &in->piece[k];
         const rb_view_angles v = rb_view_angles_of(&p->e, x, y);
-        const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th),
-                   back = conj(p->direction);
+        const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th), back = conj(p->direction);
         const double l = 2.0 * p->e.a;
         const cplx shift = -2.0 * I * v.d * back;
         const cplx I0 = -back * turn,
@@ -141,8 +139,8 @@ static int evaluate_inside(const rb_interior *in, double x, double y,
         field.normal += A * I0;
         field.deviator += B * I0 - A * I1;
         if (displacement != NULL) {
-            const double L = v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th -
-                             l * (1.0 + p->e.log_r0);
+            const double L =
+                v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th - l * (1.0 + p->e.log_r0);
             const cplx J1 = back * back * l + shift * I0;
             field.twoGu += 2.0 * in->kap * L * p->a_t - conj(A * J1) +
                            in->kap * cauchy(p->alpha, p->a_s, p, z, l, turn) -
@@ -173,8 +171,7 @@ static int element_at(const rb_interior *in, double x, double y, double *s)
                      my = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]), h = 4.0 * first->a;
         const double dx = x - mx, dy = y - my;
         *s = dx * first->tx + dy * first->ty;
-        if (fabs(dy * first->tx - dx * first->ty) <= 1e-9 * h &&
-            fabs(*s) <= 0.5 * h * (1 + 1e-9))
+        if (fabs(dy * first->tx - dx * first->ty) <= 1e-9 * h && fabs(*s) <= 0.5 * h * (1 + 1e-9))
             return j;
     }
     return -1;
@@ -185,8 +182,7 @@ static int element_at(const rb_interior *in, double x, double y, double *s)
 static cplx slope_at(const rb_interior *in, int j, double s)
 {
     const int i = in->previous[j], k = in->next[j];
-    const double h = rb_bem_mesh_length(in->mesh, j),
-                 hi = rb_bem_mesh_length(in->mesh, i),
+    const double h = rb_bem_mesh_length(in->mesh, j), hi = rb_bem_mesh_length(in->mesh, i),
                  hk = rb_bem_mesh_length(in->mesh, k);
     const cplx before = slope_after(in, i), after = slope_after(in, j);
     const cplx middle = (before * (h + hk) + after * (h + hi)) / (2.0 * h + hi + hk);
@@ -223,8 +219,8 @@ static int evaluate(const rb_interior *in, rb_bem_points points, double *displac
                     double *stress)
 {
     int outside = points.n;
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)            \
-    reduction(min                                                                        \
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
+    reduction(min                                                                                  \
               : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
@@ -239,8 +235,8 @@ static int evaluate(const rb_interior *in, rb_bem_points points, double *displac
     return outside;
 }
 
-rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
-                          double *displacement, double *stress, rb_message *why)
+rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
+                          double *stress, rb_message *why)
 {
     rb_interior in;
     rb_status s = rb_bem_mesh_check(body->mesh, why);

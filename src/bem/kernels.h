@@ -41,7 +41,7 @@ typedef struct {
     double mx, my, a;      /* midpoint, half-length */
     double tx, ty;         /* direction */
     double end_re, end_im; /* (a t)^2 */
-    double log_r0; /* of the length in which the logarithm's distance is measured */
+    double log_r0;         /* of the length in which the logarithm's distance is measured */
 } rb_element;
 
 /* The constants of one element's integrals in one material. */
@@ -56,8 +56,7 @@ typedef struct {
     double Hxx, Hyx, Hxy, Hyy, Gxx, Gxy, Gyy;
 } rb_influence;
 
-static inline rb_element rb_element_make(double x0, double y0, double x1, double y1,
-                                         double r0)
+static inline rb_element rb_element_make(double x0, double y0, double x1, double y1, double r0)
 {
     const double dx = x1 - x0, dy = y1 - y0, length = hypot(dx, dy);
     return (rb_element){.mx = 0.5 * (x0 + x1),
@@ -70,8 +69,7 @@ static inline rb_element rb_element_make(double x0, double y0, double x1, double
                         .log_r0 = log(r0)};
 }
 
-static inline rb_constants rb_constants_make(const rb_element *e,
-                                             rb_bem_material material)
+static inline rb_constants rb_constants_make(const rb_element *e, rb_bem_material material)
 {
     const double pi = 3.14159265358979323846, nu = material.poisson;
     const double C = 1.0 / (8.0 * pi * material.shear * (1.0 - nu)), kap = 3.0 - 4.0 * nu;
@@ -140,12 +138,9 @@ RB_INLINE double rb_log(double x)
 RB_INLINE double rb_atan2(double y, double x)
 {
     const double pi = 3.14159265358979323846, pi_low = 1.2246467991473532e-16;
-    const double ax = fabs(x), ay = fabs(y), big = ax > ay ? ax : ay,
-                 small = ax > ay ? ay : ax;
-    const double q1 = small > 0.125 * big ? 1.0 : 0.0,
-                 q2 = small > 0.375 * big ? 1.0 : 0.0,
-                 q3 = small > 0.625 * big ? 1.0 : 0.0,
-                 q4 = small > 0.875 * big ? 1.0 : 0.0;
+    const double ax = fabs(x), ay = fabs(y), big = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
+    const double q1 = small > 0.125 * big ? 1.0 : 0.0, q2 = small > 0.375 * big ? 1.0 : 0.0,
+                 q3 = small > 0.625 * big ? 1.0 : 0.0, q4 = small > 0.875 * big ? 1.0 : 0.0;
     const double steep = ay > ax ? 1.0 : 0.0, left = x < 0.0 ? 1.0 : 0.0,
                  sign = y < 0.0 ? -1.0 : 1.0;
     const double slope = 0.25 * ((q1 + q2) + (q3 + q4));
@@ -176,8 +171,7 @@ typedef struct {
     int terms;
     double reach;
 } rb_far_range;
-static const rb_far_range rb_far = {10, 6.0}, rb_farther = {6, 20.0},
-                          rb_farthest = {4, 100.0};
+static const rb_far_range rb_far = {10, 6.0}, rb_farther = {6, 20.0}, rb_farthest = {4, 100.0};
 
 RB_INLINE int rb_is_far(const rb_element *e, double px, double py)
 {
@@ -204,11 +198,10 @@ RB_INLINE rb_view_angles rb_see(const rb_element *e, double px, double py)
  * The rest is below |w|^terms/(2 terms + 1), |w| = 1/reach^2: 1e-17, 2e-17, 1e-17. */
 RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_view_angles *v)
 {
-    const double c[] = {1.0 / 12,     1.0 / 80,      1.0 / 448,
-                        1.0 / 2304,   1.0 / 11264,   1.0 / 53248,
-                        1.0 / 245760, 1.0 / 1114112, 1.0 / 4980736};
-    const double Ur = factor * v->X, Ui = factor * v->d, Vr = Ur * Ur - Ui * Ui,
-                 half_Vi = Ur * Ui, twice_Vr = Vr + Vr, V = (a + a) * factor, VV = V * V;
+    const double c[] = {1.0 / 12,    1.0 / 80,     1.0 / 448,     1.0 / 2304,   1.0 / 11264,
+                        1.0 / 53248, 1.0 / 245760, 1.0 / 1114112, 1.0 / 4980736};
+    const double Ur = factor * v->X, Ui = factor * v->d, Vr = Ur * Ur - Ui * Ui, half_Vi = Ur * Ui,
+                 twice_Vr = Vr + Vr, V = (a + a) * factor, VV = V * V;
     double b = 0.0, next = 0.0;
     for (int k = terms - 2; k >= 0; k--) {
         const double after = next;
@@ -237,8 +230,7 @@ RB_INLINE double rb_M_near(double a, const rb_view_angles *v)
     return (v->X * v->Lam + v->d * v->Th) / (a + a) - 1.0;
 }
 
-RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_view_angles *v,
-                              rb_influence *out)
+RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_view_angles *v, rb_influence *out)
 {
     const double q = k->H_dev * v->q, dev = q * v->Z_re, shear = q * v->Z_im;
     const double mean = k->H_mean * v->Th, skew = k->H_skew * v->Lam;

@@ -20,8 +20,7 @@ static rb_status begin(const rb_bem_surface *body, double reach, remainder_kerne
     const double base = rb_bem_layer_base_compliance(body), d = body->thickness;
 
     *k = (remainder_kernel){.table = rb_bem_layer_table_of(body, reach / d),
-                            .scale = (1.0 - body->material.poisson) /
-                                     (M_PI * body->material.shear),
+                            .scale = (1.0 - body->material.poisson) / (M_PI * body->material.shear),
                             .everywhere = base > 0.0 ? base * log(body->datum / d) : 0.0,
                             .d = d};
     return k->table ? RB_OK : RB_ENOMEM;
@@ -38,8 +37,7 @@ static double reach_of(int points, const double *x, int n, const double *ends)
 }
 
 /* Of the point at x under the strip between the two ends, times its length. */
-static rb_bem_layer_kernel under(const remainder_kernel *k, double x,
-                                 const double ends[2])
+static rb_bem_layer_kernel under(const remainder_kernel *k, double x, const double ends[2])
 {
     const double h = ends[1] - ends[0], by = k->scale * h,
                  X = 0.5 * ((x - ends[0]) + (x - ends[1]));
@@ -50,9 +48,8 @@ static rb_bem_layer_kernel under(const remainder_kernel *k, double x,
     return e;
 }
 
-rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
-                                     const double *x, int n, const double *ends,
-                                     double *W)
+rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, const double *x, int n,
+                                     const double *ends, double *W)
 {
     const size_t m = (size_t)points, columns = (size_t)n;
     remainder_kernel k;
@@ -75,17 +72,15 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
     return RB_OK;
 }
 
-rb_status rb_bem_layer_add_normal(const rb_bem_surface *body,
-                                  const rb_bem_edge_load *load, int points,
-                                  const double *x, double *w)
+rb_status rb_bem_layer_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
+                                  int points, const double *x, double *w)
 {
     remainder_kernel k;
     const rb_status s = begin(body, reach_of(points, x, load->n, load->x), &k);
 
     if (s != RB_OK)
         return s;
-#pragma omp parallel for schedule(static) if ((double)points * load->n >                 \
-                                              rb_pairs_for_threads)
+#pragma omp parallel for schedule(static) if ((double)points * load->n > rb_pairs_for_threads)
     for (int i = 0; i < points; i++)
         for (int j = 0; j < load->n; j++) {
             const rb_bem_layer_kernel e = under(&k, x[i], load->x + j);

@@ -16,13 +16,11 @@ typedef struct {
 } rb_bem_layer_wave;
 
 /* At al = wave number times thickness, its real part > 0. */
-void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al,
-                          rb_bem_layer_wave *wave);
+void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al, rb_bem_layer_wave *wave);
 
 /* What the layer has over the half-plane (L3): Z = c L - c (1, 1, beta) of pressure,
  * friction and coupling. */
-void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al,
-                               double complex Z[3]);
+void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al, double complex Z[3]);
 
 /* Its limit for al -> 0, which is real. */
 void rb_bem_layer_longest_waves(const rb_bem_surface *body, double Z[3]);
@@ -47,21 +45,18 @@ void rb_bem_layer_table_release(const rb_bem_layer_table *table);
 typedef struct {
     double of[4]; /* the last one: of no meaning */
 } rb_bem_layer_kernel;
-rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X,
-                                      double b);
+rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X, double b);
 
 /* ---- Displacements ----------------------------------------------------------------- */
 
 /* The smooth remainder of a layer over a half-plane of its material (L3): displacements
  * of `points` abscissae x under n strips between ends (n + 1), added to W, 2 points x 2n
  * column-major as in rb_bem_surface_displacement.  RB_ENOMEM. */
-rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
-                                     const double *x, int n, const double *ends,
-                                     double *W);
+rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, const double *x, int n,
+                                     const double *ends, double *W);
 
 /* Adds that part of w_N under given tractions to w, without a matrix.  RB_ENOMEM. */
-rb_status rb_bem_layer_add_normal(const rb_bem_surface *body,
-                                  const rb_bem_edge_load *load, int points,
-                                  const double *x, double *w);
+rb_status rb_bem_layer_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
+                                  int points, const double *x, double *w);
 
 #endif

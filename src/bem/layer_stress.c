@@ -40,25 +40,23 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
         const double h = load->x[j + 1] - load->x[j], t = 0.5 * w->k * h;
         /* int of 1 and of x/h exp(-i k x) over the element */
         const double even = t > 0.0 ? sin(t) / t : 1.0,
-                     odd = t > 0.1
-                               ? (even - cos(t)) / (2.0 * t)
-                               : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
-        const double complex shift =
-            h * cexp(-I * w->k * 0.5 * (load->x[j] + load->x[j + 1]));
-        p += shift * (even * 0.5 * (load->p[j] + load->p[j + 1]) -
-                      I * odd * (load->p[j + 1] - load->p[j]));
-        q += shift * (even * 0.5 * (load->q[j] + load->q[j + 1]) -
-                      I * odd * (load->q[j + 1] - load->q[j]));
+                     odd = t > 0.1 ? (even - cos(t)) / (2.0 * t)
+                                   : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
+        const double complex shift = h * cexp(-I * w->k * 0.5 * (load->x[j] + load->x[j + 1]));
+        p += shift *
+             (even * 0.5 * (load->p[j] + load->p[j + 1]) - I * odd * (load->p[j + 1] - load->p[j]));
+        q += shift *
+             (even * 0.5 * (load->q[j] + load->q[j + 1]) - I * odd * (load->q[j + 1] - load->q[j]));
     }
     p_s[0] = share * p;      /* f(0): -s_yy of the surface */
     p_s[1] = -I * share * q; /* f'(0): s_xy = -i f' is -q there */
     w->c = p_s[0] * bond.c[0] + p_s[1] * bond.c[1];
     w->d = p_s[0] * bond.d[0] + p_s[1] * bond.d[1];
     /* f and f' of the layer go on in the base */
-    w->a = p_s[0] * (1.0 + al) * decay + p_s[1] * al * decay + w->c * al * sh +
-           w->d * (al * ch - sh);
-    w->b = w->a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay +
-           w->c * (sh + al * ch) + w->d * al * sh;
+    w->a =
+        p_s[0] * (1.0 + al) * decay + p_s[1] * al * decay + w->c * al * sh + w->d * (al * ch - sh);
+    w->b = w->a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay + w->c * (sh + al * ch) +
+           w->d * al * sh;
 }
 
 struct rb_bem_layer_field {
@@ -152,8 +150,7 @@ static rb_status make_waves(rb_bem_layer_field *f, double reach, rb_message *why
     return s;
 }
 
-rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
-                                    const rb_bem_edge_load *load,
+rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                     rb_bem_layer_field **field, rb_message *why)
 {
     *field = NULL;
@@ -161,8 +158,7 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
         return RB_EINVAL;
     if (!(body->thickness > 0.0) ||
         !rb_bem_edge_load_is_valid(load, load->n, (rb_bem_points){0, NULL}))
-        return rb_fail(why, RB_EINVAL,
-                       "stress: expected a layer with tractions at nodes");
+        return rb_fail(why, RB_EINVAL, "stress: expected a layer with tractions at nodes");
     rb_bem_layer_field *f = calloc(1, sizeof *f);
     if (!f)
         return RB_ENOMEM;
@@ -176,8 +172,8 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body,
     return s;
 }
 
-rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points,
-                                 double *stress, rb_message *why)
+rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points, double *stress,
+                                 rb_message *why)
 {
     const double d = field->body.thickness, *x = field->load.x;
     double low = x[0], high = x[field->load.n - 1];
@@ -187,15 +183,13 @@ rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points
         low = fmin(low, at);
         high = fmax(high, at);
         if (!(depth >= 0.0 && (depth <= d || field->body.elastic_base)))
-            return rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body",
-                           k, at, depth);
+            return rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", k, at,
+                           depth);
     }
-    const rb_status s =
-        high - low > field->reach ? make_waves(field, high - low, why) : RB_OK;
+    const rb_status s = high - low > field->reach ? make_waves(field, high - low, why) : RB_OK;
     if (s != RB_OK)
         return s;
-#pragma omp parallel for schedule(static) if ((double)points.n * field->n >              \
-                                              rb_pairs_for_threads)
+#pragma omp parallel for schedule(static) if ((double)points.n * field->n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         const double *xy = points.xy + 2 * k;
         for (int c = 0; c < 3 && xy[1] > d; c++)

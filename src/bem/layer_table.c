@@ -50,9 +50,9 @@ static void place(int k, double *low, double *width)
 static int find(double X, double *t)
 {
     const int octave = X < 2.0 ? 0 : ilogb(X);
-    const int k = X < 2.0 ? (int)(X * (FIRST / 2.0))
-                          : FIRST + (octave - 1) * PER_OCTAVE +
-                                (int)((ldexp(X, -octave) - 1.0) * PER_OCTAVE);
+    const int k =
+        X < 2.0 ? (int)(X * (FIRST / 2.0))
+                : FIRST + (octave - 1) * PER_OCTAVE + (int)((ldexp(X, -octave) - 1.0) * PER_OCTAVE);
     double low, width;
 
     place(k, &low, &width);
@@ -85,9 +85,8 @@ static double smallest_scale(const rb_bem_surface *body)
     return scale;
 }
 
-static void add_panel(const rb_bem_surface *body, double from, double to,
-                      double complex ray, const double Z_0[3],
-                      const gsl_integration_glfixed_table *rule, waves *w)
+static void add_panel(const rb_bem_surface *body, double from, double to, double complex ray,
+                      const double Z_0[3], const gsl_integration_glfixed_table *rule, waves *w)
 {
     for (size_t g = 0; g < GAUSS; g++) {
         double at, weight;
@@ -228,9 +227,8 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
         place(k, &low, &width);
         place(k > 0 ? k - 1 : 0, &low_before, &width_before);
         const rb_bem_layer_kernel own = integral_of(p, -1.0, 0.5 * width),
-                                  other =
-                                      k > 0 ? integral_of(p - 1, 1.0, 0.5 * width_before)
-                                            : (rb_bem_layer_kernel){{0.0}};
+                                  other = k > 0 ? integral_of(p - 1, 1.0, 0.5 * width_before)
+                                                : (rb_bem_layer_kernel){{0.0}};
         for (int c = 0; c < 4; c++)
             p->before[c] = (k > 0 ? p[-1].before[c] : 0.0) + other.of[c] - own.of[c];
     }
@@ -240,8 +238,7 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
 /* ---- Means ------------------------------------------------------------------------- */
 
 /* The kernel at X, or its integral from 0 to X. */
-static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X,
-                                   int integral)
+static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X, int integral)
 {
     const int behind = X < 0.0, mirrored = behind && table->body.terms == 0;
     double t, low, width;
@@ -267,18 +264,16 @@ rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X,
 {
     static const double at[3][3] = {{0.57735026918962576451},
                                     {0.0, 0.77459666924148337704},
-                                    {0.0, 0.53846931010568309104,
-                                     0.90617984593866399280}},
-                        weight[3][3] = {{0.5},
-                                        {4.0 / 9.0, 5.0 / 18.0},
-                                        {64.0 / 225.0, 0.23931433524968323402,
-                                         0.11846344252809454376}};
+                                    {0.0, 0.53846931010568309104, 0.90617984593866399280}},
+                        weight[3][3] = {
+                            {0.5},
+                            {4.0 / 9.0, 5.0 / 18.0},
+                            {64.0 / 225.0, 0.23931433524968323402, 0.11846344252809454376}};
     const double length = b / fmax(1.0, fabs(X));
     rb_bem_layer_kernel sum = {{0.0}};
 
     if (length > 0.1) {
-        const rb_bem_layer_kernel to = look_up(table, X + b, 1),
-                                  from = look_up(table, X - b, 1);
+        const rb_bem_layer_kernel to = look_up(table, X + b, 1), from = look_up(table, X - b, 1);
         for (int c = 0; c < 4; c++)
             sum.of[c] = (to.of[c] - from.of[c]) / (2.0 * b);
         return sum;
@@ -334,11 +329,10 @@ static int is_for(const rb_bem_layer_table *table, const rb_bem_surface *body)
 
     if (same && own->elastic_base)
         same = own->base.poisson == body->base.poisson &&
-               own->base.shear * body->material.shear ==
-                   body->base.shear * own->material.shear;
+               own->base.shear * body->material.shear == body->base.shear * own->material.shear;
     for (int k = 0; k < body->terms && same; k++)
-        same = own->ratio[k] == body->ratio[k] &&
-               own->length[k] == body->length[k] / body->thickness;
+        same =
+            own->ratio[k] == body->ratio[k] && own->length[k] == body->length[k] / body->thickness;
     return same;
 }
 
@@ -369,10 +363,8 @@ static rb_bem_layer_table *make_table(const rb_bem_surface *body, int pieces,
     for (int side = 0; side <= (terms > 0) && s == RB_OK; side++) {
         table->side[side] = calloc((size_t)pieces, sizeof(piece));
         if (table->side[side] && shorter)
-            memcpy(table->side[side], shorter->side[side],
-                   (size_t)shorter->pieces * sizeof(piece));
-        s = table->side[side] ? fill_side(table, side, shorter ? shorter->pieces : 0)
-                              : RB_ENOMEM;
+            memcpy(table->side[side], shorter->side[side], (size_t)shorter->pieces * sizeof(piece));
+        s = table->side[side] ? fill_side(table, side, shorter ? shorter->pieces : 0) : RB_ENOMEM;
     }
     if (s == RB_OK)
         return table;

@@ -21,8 +21,8 @@ typedef struct {
 
 /* What a function f with the derivatives f[1], f[2], f[3] at eta = al lacks of following
  * the base, along the surface and across it. */
-static void miss_bond(const bonded_layer *layer, const double complex f[4],
-                      double complex *v, double complex *u)
+static void miss_bond(const bonded_layer *layer, const double complex f[4], double complex *v,
+                      double complex *u)
 {
     const double nu = layer->nu, beta = layer->beta;
     *v = (1.0 - nu) * f[3] - (2.0 - nu) * f[1] - layer->rho * (f[0] + beta * f[1]);
@@ -31,20 +31,17 @@ static void miss_bond(const bonded_layer *layer, const double complex f[4],
 
 /* The half-plane's own function misses the bond by what comes down to it; the two that
  * grow make up for that.  All are multiplied by 2 exp(-al). */
-void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al,
-                          rb_bem_layer_wave *wave)
+void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al, rb_bem_layer_wave *wave)
 {
     bonded_layer layer = {.nu = body->material.poisson};
     const double complex fade = cexp(-al), decay = fade * fade, c = 1.0 + decay,
                          h = 2.0 * fade * csinh(al);
-    const double complex falls[2][4] = {
-        {2.0 * decay * (1.0 + al), -2.0 * decay * al, 2.0 * decay * (al - 1.0),
-         2.0 * decay * (2.0 - al)},
-        {2.0 * decay * al, 2.0 * decay * (1.0 - al), 2.0 * decay * (al - 2.0),
-         2.0 * decay * (3.0 - al)}};
-    const double complex grows[2][4] = {
-        {al * h, h + al * c, 2.0 * c + al * h, 3.0 * h + al * c},
-        {al * c - h, al * h, h + al * c, 2.0 * c + al * h}};
+    const double complex falls[2][4] = {{2.0 * decay * (1.0 + al), -2.0 * decay * al,
+                                         2.0 * decay * (al - 1.0), 2.0 * decay * (2.0 - al)},
+                                        {2.0 * decay * al, 2.0 * decay * (1.0 - al),
+                                         2.0 * decay * (al - 2.0), 2.0 * decay * (3.0 - al)}};
+    const double complex grows[2][4] = {{al * h, h + al * c, 2.0 * c + al * h, 3.0 * h + al * c},
+                                        {al * c - h, al * h, h + al * c, 2.0 * c + al * h}};
     double complex v[2], u[2], falling_v, falling_u;
 
     if (body->elastic_base) {
@@ -63,8 +60,7 @@ void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al,
     }
 }
 
-void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al,
-                               double complex Z[3])
+void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al, double complex Z[3])
 {
     const double complex softer = creep(body, al / body->thickness);
     rb_bem_layer_wave w;
@@ -77,9 +73,7 @@ void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al,
 double rb_bem_layer_base_compliance(const rb_bem_surface *body)
 {
     const rb_bem_material a = body->material, b = body->base;
-    return body->elastic_base
-               ? (1.0 - b.poisson) * a.shear / ((1.0 - a.poisson) * b.shear)
-               : 0.0;
+    return body->elastic_base ? (1.0 - b.poisson) * a.shear / ((1.0 - a.poisson) * b.shear) : 0.0;
 }
 
 static double coupling_of(rb_bem_material m)

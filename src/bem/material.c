@@ -4,8 +4,7 @@
 
 rb_bem_material rb_bem_material_from_young(double young, double poisson)
 {
-    return (rb_bem_material){.shear = young / (2.0 * (1.0 + poisson)),
-                             .poisson = poisson};
+    return (rb_bem_material){.shear = young / (2.0 * (1.0 + poisson)), .poisson = poisson};
 }
 
 rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson)
@@ -19,8 +18,7 @@ rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, doubl
 rb_status rb_bem_material_check(rb_bem_material material, rb_message *why)
 {
     if (!(material.shear > 0.0 && isfinite(material.shear)))
-        return rb_fail(why, RB_EINVAL, "shear modulus = %g: expected > 0",
-                       material.shear);
+        return rb_fail(why, RB_EINVAL, "shear modulus = %g: expected > 0", material.shear);
     if (!(material.poisson > -1.0 && material.poisson <= 0.5))
         return rb_fail(why, RB_EINVAL, "Poisson's ratio = %g: expected in (-1, 0.5]",
                        material.poisson);

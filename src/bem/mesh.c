@@ -81,17 +81,15 @@ static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
         for (int k = 0; k < 2; k++) {
             if (!isfinite(mesh->value[2 * j + k]))
                 return rb_fail(why, RB_EINVAL, "element %d: given %s in %c = %g", j,
-                               mesh->condition[2 * j + k] == RB_BEM_DISPLACEMENT
-                                   ? "displacement"
-                                   : "traction",
+                               mesh->condition[2 * j + k] == RB_BEM_DISPLACEMENT ? "displacement"
+                                                                                 : "traction",
                                "xy"[k], mesh -> value[2 * j + k]);
             const int in_contact =
                 j >= mesh->contact_first && j < mesh->contact_first + mesh->contact_n;
             if ((mesh->condition[2 * j + k] == RB_BEM_CONTACT) != in_contact)
-                return rb_fail(
-                    why, RB_EINVAL,
-                    "element %d: %s contact, but its condition in %c says otherwise", j,
-                    in_contact ? "in" : "outside the", "xy"[k]);
+                return rb_fail(why, RB_EINVAL,
+                               "element %d: %s contact, but its condition in %c says otherwise", j,
+                               in_contact ? "in" : "outside the", "xy"[k]);
         }
     }
     return RB_OK;
@@ -100,8 +98,7 @@ static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
 static int meets(const rb_bem_mesh *mesh, int j, int next)
 {
     const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);
-    return gap <=
-           1e-9 * fmin(rb_bem_mesh_length(mesh, j), rb_bem_mesh_length(mesh, next));
+    return gap <= 1e-9 * fmin(rb_bem_mesh_length(mesh, j), rb_bem_mesh_length(mesh, next));
 }
 
 /* Each contour is a run of elements, end to start, whose last end is the run's start. */
@@ -112,11 +109,10 @@ static rb_status check_contours(const rb_bem_mesh *mesh, rb_message *why)
         if (meets(mesh, j, start))
             start = j + 1;
         else if (j + 1 == mesh->n || !meets(mesh, j, j + 1))
-            return rb_fail(
-                why, RB_EINVAL,
-                "element %d ends at (%g, %g): the contour from element %d does not "
-                "close",
-                j, mesh->x1[j], mesh->y1[j], start);
+            return rb_fail(why, RB_EINVAL,
+                           "element %d ends at (%g, %g): the contour from element %d does not "
+                           "close",
+                           j, mesh->x1[j], mesh->y1[j], start);
     }
     return RB_OK;
 }
@@ -149,16 +145,15 @@ static rb_status check_contact(const rb_bem_mesh *mesh, rb_message *why)
         return RB_OK;
     if (n < 0 || first < 0 || n >= mesh->n - first)
         return rb_fail(why, RB_EINVAL,
-                       "contact elements %d to %d and one after them: the mesh has %d",
-                       first, upstream - 1, mesh->n);
+                       "contact elements %d to %d and one after them: the mesh has %d", first,
+                       upstream - 1, mesh->n);
     for (int k = 0; k < 2; k++)
         if (mesh->condition[2 * upstream + k] != RB_BEM_TRACTION)
-            return rb_fail(why, RB_EINVAL,
-                           "element %d, upstream of the contact, is not free", upstream);
+            return rb_fail(why, RB_EINVAL, "element %d, upstream of the contact, is not free",
+                           upstream);
     for (int j = first; j <= upstream; j++)
         if (!(mesh->x0[j] < mesh->x1[j]))
-            return rb_fail(why, RB_EINVAL, "contact element %d does not run towards +x",
-                           j);
+            return rb_fail(why, RB_EINVAL, "contact element %d does not run towards +x", j);
     return RB_OK;
 }
 

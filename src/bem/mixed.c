@@ -21,16 +21,14 @@ static rb_constants scaled(const rb_element *e, rb_bem_material material, double
 }
 
 /* Elements in the clusters' order. */
-static rb_status order_elements(const rb_bem_mesh *mesh, int levels, int *order,
-                                rb_mixed *a)
+static rb_status order_elements(const rb_bem_mesh *mesh, int levels, int *order, rb_mixed *a)
 {
     rb_element *element = calloc((size_t)a->n, sizeof *element);
 
     if (!element)
         return RB_ENOMEM;
     for (int j = 0; j < a->n; j++)
-        element[j] =
-            rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], a->size);
+        element[j] = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], a->size);
     rb_cluster_order(a->n, element, levels, order);
     for (int j = 0; j < a->n; j++)
         a->element[j] = element[order[j]];
@@ -59,8 +57,8 @@ static rb_status order_contours(const rb_bem_mesh *mesh, const int *order, rb_mi
     return s;
 }
 
-rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
-                        const double *unit, int levels, int *order, rb_mixed *a)
+rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
+                        int levels, int *order, rb_mixed *a)
 {
     const size_t n = (size_t)mesh->n;
 
@@ -95,8 +93,8 @@ static double angle(int q, int points)
     return 2.0 * M_PI * q / points;
 }
 
-rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
-                             const rb_circle *circle, int points, rb_mixed_rows *r)
+rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
+                             int points, rb_mixed_rows *r)
 {
     const size_t all = (size_t)rows + 2 * (size_t)points;
     double *x = rb_alloc(all, 2), *y = x ? x + all : NULL;
@@ -152,8 +150,8 @@ static int point_on(const rb_mixed_rows *r, int j)
     return low < r->elements && r->element[low] == j ? low : -1;
 }
 
-rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, rb_matrix_view out)
+rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns, const int *column,
+                         rb_matrix_view out)
 {
     const size_t rows = 2 * (size_t)r->points.n;
     rb_column_fn *fill = rb_column_variant_get(0)->fill;
@@ -183,8 +181,8 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
     return RB_OK;
 }
 
-rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle,
-                       int points, rb_matrix_view out)
+rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle, int points,
+                       rb_matrix_view out)
 {
     const size_t rows = 2 * (size_t)r->points.n;
     double *buffer = rb_alloc(rows, 2);
@@ -193,15 +191,15 @@ rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circ
         return RB_ENOMEM;
     for (int q = 0; q < points; q++) {
         const double from = angle(q, points), to = angle(q + 1, points);
-        const rb_element e = rb_element_make(
-            circle.x + circle.r * cos(from), circle.y + circle.r * sin(from),
-            circle.x + circle.r * cos(to), circle.y + circle.r * sin(to), a->size);
+        const rb_element e =
+            rb_element_make(circle.x + circle.r * cos(from), circle.y + circle.r * sin(from),
+                            circle.x + circle.r * cos(to), circle.y + circle.r * sin(to), a->size);
         const rb_constants k = scaled(&e, a->material, 0.5 * a->material.shear / e.a);
         rb_column_variant_get(0)->fill(&k, &e, -1, &r->points,
                                        (double *[4]){NULL, NULL, buffer, buffer + rows});
         for (int d = 0; d < 2; d++)
-            scatter(r, buffer + (size_t)d * rows,
-                    out.x + (size_t)(2 * q + d) * out.column_step, out.row_step);
+            scatter(r, buffer + (size_t)d * rows, out.x + (size_t)(2 * q + d) * out.column_step,
+                    out.row_step);
     }
     free(buffer);
     return RB_OK;

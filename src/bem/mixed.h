@@ -20,8 +20,8 @@ typedef struct {
 } rb_mixed;
 
 /* order: element j is the mesh's order[j]; unit in the mesh's order. */
-rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
-                        const double *unit, int levels, int *order, rb_mixed *a);
+rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
+                        int levels, int *order, rb_mixed *a);
 void rb_mixed_free(rb_mixed *a);
 
 /* Rows of A, and then two at each of some points on a circle. */
@@ -35,8 +35,8 @@ typedef struct {
 } rb_mixed_rows;
 
 /* row: ascending.  points: on the circle; 0: none. */
-rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
-                             const rb_circle *circle, int points, rb_mixed_rows *r);
+rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
+                             int points, rb_mixed_rows *r);
 void rb_mixed_rows_free(rb_mixed_rows *r);
 
 /* Entry (i, j) of a matrix at x[i row_step + j column_step]. */
@@ -46,12 +46,12 @@ typedef struct {
 } rb_matrix_view;
 
 /* out(i, j) = A(row i, column[j]). */
-rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, rb_matrix_view out);
+rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns, const int *column,
+                         rb_matrix_view out);
 
 /* The same for loads along x and y on each of `points` parts of the circle; of order one.
  */
-rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle,
-                       int points, rb_matrix_view out);
+rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle, int points,
+                       rb_matrix_view out);
 
 #endif

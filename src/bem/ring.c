@@ -68,6 +68,5 @@ rb_ring_compliance rb_ring_across(double m, double nu, double inner, double oute
 rb_ring_compliance rb_ring_of_disc(double m, double kappa)
 {
     const double outer = 0.5 * kappa / (m + 1.0), inner = 0.5 / (m - 1.0);
-    return (rb_ring_compliance){outer + inner, outer - inner, outer - inner,
-                                outer + inner};
+    return (rb_ring_compliance){outer + inner, outer - inner, outer - inner, outer + inner};
 }

@@ -44,9 +44,8 @@ typedef rb_ring_answer rb_ring_primitive(const rb_bem_wheel *wheel, double x);
 /* The primitive over x of the sum of waves m <= last, and of `rest` (NULL: nothing), for
  * abs(x) <= reach. */
 typedef struct {
-    double
-        smallest; /* from there on panels grow with abs(x); rest is not resolved below */
-    int panels;   /* on either side of 0 */
+    double smallest;   /* from there on panels grow with abs(x); rest is not resolved below */
+    int panels;        /* on either side of 0 */
     double *chebyshev; /* owned */
 } rb_ring_table;
 

@@ -18,23 +18,17 @@ typedef double complex cplx;
  * smooth: 8 panels of waves to an octave, on each of which they are a polynomial through
  * NODES of its places, so that a panel's sum is that of few coefficients times sums over
  * polynomials, which a panel of twice the length has from those of its two halves. */
-enum {
-    NODES = 16,
-    SINGLE = rb_ring_smooth_from,
-    TO_OCTAVE = 8,
-    SHORT = SINGLE / TO_OCTAVE
-};
+enum { NODES = 16, SINGLE = rb_ring_smooth_from, TO_OCTAVE = 8, SHORT = SINGLE / TO_OCTAVE };
 
 typedef struct {
     double linear[3]; /* the primitive of wave 0 over x */
     int singles;
     cplx (*single)[3]; /* of waves 1 ... singles */
     int octaves;
-    cplx (*panel)[NODES][3]; /* octaves x TO_OCTAVE */
-    double on_short[SHORT]
-                   [NODES]; /* Lagrange's polynomials at the waves of a short panel */
-    double half[2][NODES][NODES]; /* [h][i][k]: polynomial k of a panel at node i of its
-                                     half h */
+    cplx (*panel)[NODES][3];       /* octaves x TO_OCTAVE */
+    double on_short[SHORT][NODES]; /* Lagrange's polynomials at the waves of a short panel */
+    double half[2][NODES][NODES];  /* [h][i][k]: polynomial k of a panel at node i of its
+                                      half h */
 } wave_sum;
 
 static double node(int k)
@@ -61,8 +55,7 @@ static void lagrange(double t, double value[NODES])
 }
 
 /* Coefficients of the primitive over x. */
-static void primitive_of(const rb_bem_wheel *wheel, rb_ring_waves *waves, double m,
-                         cplx c[3])
+static void primitive_of(const rb_bem_wheel *wheel, rb_ring_waves *waves, double m, cplx c[3])
 {
     waves(wheel, m, c);
     for (int k = 0; k < 3; k++)
@@ -154,8 +147,7 @@ static rb_ring_answer wave_sum_at(const wave_sum *s, double x)
         for (int d = 0; d < 3; d++)
             sum[d] = (sum[d] + s->single[m - 1][d]) * z;
     add_panels(s, x, sum);
-    return (rb_ring_answer){creal(sum[0]) + s->linear[0] * x,
-                            creal(sum[1]) + s->linear[1] * x,
+    return (rb_ring_answer){creal(sum[0]) + s->linear[0] * x, creal(sum[1]) + s->linear[1] * x,
                             cimag(sum[2]) + s->linear[2] * x};
 }
 
@@ -192,16 +184,15 @@ static inline chebyshev *panel_of(const rb_ring_table *t, int side, int k)
     return (chebyshev *)(void *)t->chebyshev + (side * t->panels + k);
 }
 
-static void fill_panel(const rb_bem_wheel *wheel, const wave_sum *sum,
-                       rb_ring_primitive *rest, const rb_ring_table *table, int side,
-                       int k)
+static void fill_panel(const rb_bem_wheel *wheel, const wave_sum *sum, rb_ring_primitive *rest,
+                       const rb_ring_table *table, int side, int k)
 {
     double value[ORDER][3];
     chebyshev *c = panel_of(table, side, k);
 
     for (int i = 0; i < ORDER; i++) {
-        const double x = (side ? -1.0 : 1.0) * table->smallest *
-                         place(k, cos(M_PI * (i + 0.5) / ORDER));
+        const double x =
+            (side ? -1.0 : 1.0) * table->smallest * place(k, cos(M_PI * (i + 0.5) / ORDER));
         const rb_ring_answer s = wave_sum_at(sum, x),
                              r = rest ? rest(wheel, x) : (rb_ring_answer){0.0, 0.0, 0.0};
         value[i][0] = s.N + r.N;
@@ -231,9 +222,8 @@ rb_status rb_ring_table_create(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
     const int panels = find(1.001 * reach / smallest, &t) + 1;
     wave_sum *sum = wave_sum_make(wheel, waves, last);
 
-    *table =
-        (rb_ring_table){smallest, panels,
-                        rb_alloc((size_t)panels * 2, sizeof(chebyshev) / sizeof(double))};
+    *table = (rb_ring_table){smallest, panels,
+                             rb_alloc((size_t)panels * 2, sizeof(chebyshev) / sizeof(double))};
     const rb_status s = sum && table->chebyshev ? RB_OK : RB_ENOMEM;
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
     for (int k = 0; k < 2 * panels; k++)

@@ -39,14 +39,11 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
     /* K = Q R first where there are many columns: pivoting cannot work on whole blocks,
      * and then does so on fewer rows. */
     if (!(n < WIDE || s->rows < n)) {
-        LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work,
-                            lwork);
+        LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work, lwork);
         s->rows = n;
-        LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1,
-                            s->ld);
+        LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1, s->ld);
     }
-    LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale,
-                        work, lwork);
+    LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale, work, lwork);
     free(work);
     const double least = tolerance * fabs(s->K[0]);
     while (s->rank < most && fabs(s->K[(size_t)s->rank * (size_t)(s->ld + 1)]) > least)
@@ -67,11 +64,10 @@ rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *
         return RB_ENOMEM;
     }
     for (int j = 0; j < others; j++)
-        cblas_dcopy(used, s->K + (size_t)(kept + j) * ld, 1, X + (size_t)j * (size_t)kept,
-                    1);
+        cblas_dcopy(used, s->K + (size_t)(kept + j) * ld, 1, X + (size_t)j * (size_t)kept, 1);
     if (used && others)
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit,
-                    used, others, 1.0, s->K, s->ld, X, kept);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, used, others,
+                    1.0, s->K, s->ld, X, kept);
     /* to[i]: the place of pivot i among the first `kept`, or among the others. */
     const int n = s->columns;
     int *place = order; /* of each column in the pivots, until it is overwritten */

@@ -9,8 +9,8 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 
-rb_strip rb_strip_between(double complex from, double complex to,
-                          rb_bem_material material, double unit)
+rb_strip rb_strip_between(double complex from, double complex to, rb_bem_material material,
+                          double unit)
 {
     const double h = cabs(to - from);
 
@@ -22,8 +22,7 @@ rb_strip rb_strip_between(double complex from, double complex to,
                       .unit = unit};
 }
 
-rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
-                     double unit)
+rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material, double unit)
 {
     return rb_strip_between(complex_of(mesh->x0[j], mesh->y0[j]),
                             complex_of(mesh->x1[j], mesh->y1[j]), material, unit);
@@ -31,8 +30,7 @@ rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
 
 double complex rb_strip_midpoint(const rb_bem_mesh *mesh, int j)
 {
-    return complex_of(0.5 * (mesh->x0[j] + mesh->x1[j]),
-                      0.5 * (mesh->y0[j] + mesh->y1[j]));
+    return complex_of(0.5 * (mesh->x0[j] + mesh->x1[j]), 0.5 * (mesh->y0[j] + mesh->y1[j]));
 }
 
 double complex rb_strip_outward(const rb_bem_mesh *mesh, int j)
@@ -86,8 +84,7 @@ rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z)
 /* sxx + syy = 4 Re phi' = -(F Lambda + conj(F Lambda))/pi,
  * syy - sxx + 2i sxy = 2(conj(z) phi'' + psi') = (F (Lambda + 2iy Lambda') + conj(F)
  * Lambda)/pi. */
-rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
-                                  double complex normal)
+rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, double complex normal)
 {
     const double h = strip->h, C = -0.5 / M_PI;
     const double complex at = below(strip, z), lambda = log_ratio(at, h);
@@ -96,8 +93,7 @@ rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
     const double complex bent = lambda + 2.0 * I * cimag(at) * curve;
 
     return (rb_strip_answer){C * (lambda * n + conj(n * lambda)),
-                             C * strip->along * strip->along *
-                                 (conj(lambda) * n + conj(n * bent))};
+                             C * strip->along * strip->along * (conj(lambda) * n + conj(n * bent))};
 }
 
 /* At the ends the logarithm of a strip is infinite; those of its neighbours, whose
@@ -116,8 +112,7 @@ void rb_strip_linear_stress(const rb_strip *strip, double complex z, double comp
                             double complex slope, double stress[3])
 {
     const double h = strip->h;
-    const double complex at = off_the_ends(strip, below(strip, z)),
-                         lambda = log_ratio(at, h);
+    const double complex at = off_the_ends(strip, below(strip, z)), lambda = log_ratio(at, h);
     const double complex turn = conj(strip->along), middle = turn * f;
     /* far away the slope is not felt, and would cost digits */
     const double complex rise = cabs(at) < 1e4 * h ? turn * slope : 0.0;

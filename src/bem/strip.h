@@ -15,10 +15,9 @@ typedef struct {
     double unit;                  /* length inside the logarithm */
 } rb_strip;
 
-rb_strip rb_strip_between(double complex from, double complex to,
-                          rb_bem_material material, double unit);
-rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
-                     double unit);
+rb_strip rb_strip_between(double complex from, double complex to, rb_bem_material material,
+                          double unit);
+rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material, double unit);
 
 /* Midpoint and outward normal of element j as complex numbers. */
 double complex rb_strip_midpoint(const rb_bem_mesh *mesh, int j);
@@ -41,8 +40,7 @@ static inline double complex rb_strip_under(rb_strip_answer answer, double compl
 /* Displacement ux + i uy at z. */
 rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z);
 /* Traction tx + i ty at z on a section with outward normal nx + i ny. */
-rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
-                                  double complex normal);
+rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, double complex normal);
 
 /* Stress (sxx, syy, sxy) at z under a traction that is f in the middle of the strip and
  * changes by `slope` per length along it. */

@@ -34,8 +34,7 @@ rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why)
     const int turns = !x.spread && !y.spread;
     if (x.any && y.any && !turns)
         return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "no support: the body is free in%s%s%s; prescribe displacements",
+    return rb_fail(why, RB_EINVAL, "no support: the body is free in%s%s%s; prescribe displacements",
                    x.any ? "" : " translation along x",
                    y.any   ? ""
                    : x.any ? " translation along y"

@@ -20,10 +20,9 @@ rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why)
         return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at least 1", n_c);
     for (int i = 0; i <= n_c; i++)
         if (!(isfinite(ends[i]) && isfinite(ends[i + 1]) && ends[i] < ends[i + 1]))
-            return rb_fail(
-                why, RB_EINVAL,
-                "contact element %d from x = %g to %g: expected increasing ends", i,
-                ends[i], ends[i + 1]);
+            return rb_fail(why, RB_EINVAL,
+                           "contact element %d from x = %g to %g: expected increasing ends", i,
+                           ends[i], ends[i + 1]);
     return RB_OK;
 }
 
@@ -35,17 +34,16 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
     if (s != RB_OK)
         return s;
     if (!(body->thickness >= 0.0 && isfinite(body->thickness)))
-        return rb_fail(why, RB_EINVAL, "layer of thickness %g: expected >= 0",
-                       body->thickness);
+        return rb_fail(why, RB_EINVAL, "layer of thickness %g: expected >= 0", body->thickness);
     const int has_datum = body->thickness == 0.0 || body->elastic_base;
     if (has_datum && !(body->datum > 0.0 && isfinite(body->datum)))
         return rb_fail(why, RB_EINVAL, "datum = %g: expected a depth > 0", body->datum);
     for (int k = 0; k < body->terms; k++)
-        if (!(body->ratio[k] >= 0.0 && isfinite(body->ratio[k]) &&
-              body->length[k] >= 0.0 && isfinite(body->length[k])))
+        if (!(body->ratio[k] >= 0.0 && isfinite(body->ratio[k]) && body->length[k] >= 0.0 &&
+              isfinite(body->length[k])))
             return rb_fail(why, RB_EINVAL,
-                           "memory term %d: ratio %g, length %g: expected numbers >= 0",
-                           k + 1, body->ratio[k], body->length[k]);
+                           "memory term %d: ratio %g, length %g: expected numbers >= 0", k + 1,
+                           body->ratio[k], body->length[k]);
     return RB_OK;
 }
 
@@ -119,8 +117,8 @@ typedef struct {
 } response;
 
 /* Point i, strip j: four entries. */
-static void set_entries(const strip_kernel *k, double X, double b, const response *to,
-                        size_t i, size_t j)
+static void set_entries(const strip_kernel *k, double X, double b, const response *to, size_t i,
+                        size_t j)
 {
     const normal_entry e = entry_of(k, X, b);
     const size_t m = to->m;
@@ -133,9 +131,8 @@ static void set_entries(const strip_kernel *k, double X, double b, const respons
 
 /* ---- Many -------------------------------------------------------------------------- */
 
-rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
-                                      const double *ends, int points, const double *x,
-                                      double *W)
+rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n, const double *ends,
+                                      int points, const double *x, double *W)
 {
     if (rb_bem_surface_check(body, NULL) != RB_OK || n < 1 || points < 1)
         return RB_EINVAL;
@@ -145,13 +142,11 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
         for (size_t i = 0; i < to.m; i++)
             set_entries(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
                         0.5 * (ends[j + 1] - ends[j]), &to, i, j);
-    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W)
-                                 : RB_OK;
+    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W) : RB_OK;
 }
 
-rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
-                                    const rb_bem_edge_load *load, int points,
-                                    const double *x, double *w)
+rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
+                                    int points, const double *x, double *w)
 {
     const double *ends = load->x;
     if (rb_bem_surface_check(body, NULL) != RB_OK || load->n < 1 || points < 1)
@@ -164,13 +159,11 @@ rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
                          0.5 * (ends[j + 1] - ends[j]));
             w[i] += e.p * load->p[j] + e.q * load->q[j];
         }
-    return body->thickness > 0.0 ? rb_bem_layer_add_normal(body, load, points, x, w)
-                                 : RB_OK;
+    return body->thickness > 0.0 ? rb_bem_layer_add_normal(body, load, points, x, w) : RB_OK;
 }
 
-rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
-                                     const rb_bem_surface *body, rb_bem_flexibility *f,
-                                     rb_message *why)
+rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,
+                                     rb_bem_flexibility *f, rb_message *why)
 {
     double *F = NULL;
     *f = (rb_bem_flexibility){0};
@@ -188,12 +181,10 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
 
         for (size_t j = 0; j < to.n; j++)
             for (size_t i = 0; i < to.m; i++)
-                set_entries(&kernel,
-                            0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
+                set_entries(&kernel, 0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
                             0.5 * (ends[j + 1] - ends[j]), &to, i, j);
-        s = body->thickness > 0.0
-                ? rb_bem_layer_add_remainder(body, n_c + 1, f->x, n_c, ends, F)
-                : RB_OK;
+        s = body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, n_c + 1, f->x, n_c, ends, F)
+                                  : RB_OK;
     }
     if (s == RB_OK)
         return s;

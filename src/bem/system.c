@@ -82,8 +82,8 @@ static rb_bem_system *system_alloc(const rb_bem_mesh *mesh, int dense)
     s->b = rb_alloc(dofs, 1);
     s->unit = rb_alloc(dofs, 1);
     s->pivot = calloc(dofs, sizeof *s->pivot);
-    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b &&
-        s->unit && s->pivot)
+    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b && s->unit &&
+        s->pivot)
         return s;
     rb_bem_system_free(s);
     return NULL;
@@ -111,23 +111,21 @@ static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int 
             H[k] = column_of(s, 2 * j + k);
         }
         if (condition[k] == RB_BEM_CONTACT)
-            G[k] = s->Gc +
-                   (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * (size_t)s->ld;
+            G[k] = s->Gc + (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * (size_t)s->ld;
     }
     rb_assembly_columns(assembly, j, factor, (double *const[4]){H[0], H[1], G[0], G[1]});
 }
 
 /* b += G t for given tractions, b -= H u for given displacements; value: 2n, t or u as
  * the conditions have it. */
-static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly,
-                           const double *value, double *b)
+static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly, const double *value,
+                           double *b)
 {
     const size_t dofs = (size_t)s->dofs;
     double *scratch = rb_alloc(dofs, 4);
     if (!scratch)
         return RB_ENOMEM;
-    double *const out[4] = {scratch, scratch + dofs, scratch + 2 * dofs,
-                            scratch + 3 * dofs};
+    double *const out[4] = {scratch, scratch + dofs, scratch + 2 * dofs, scratch + 3 * dofs};
     for (int j = 0; j < s->mesh.n; j++) {
         const double *own = value + 2 * j;
         if (own[0] == 0.0 && own[1] == 0.0)
@@ -172,9 +170,8 @@ static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
         }
         for (size_t k = 0; k < columns * columns; k++)
             C[k] = bond->C[k] * s->unit[(size_t)bond->first + k / columns / 2];
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, 2 * bond->n,
-                    2 * bond->n, -1.0, H, s->dofs, C, 2 * bond->n, 1.0,
-                    column_of(s, 2 * bond->first), s->ld);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, 2 * bond->n, 2 * bond->n,
+                    -1.0, H, s->dofs, C, 2 * bond->n, 1.0, column_of(s, 2 * bond->first), s->ld);
     }
     const rb_status status = H && C ? RB_OK : RB_ENOMEM;
     free(C);
@@ -191,7 +188,7 @@ static rb_status assemble(rb_bem_system *s)
         return status;
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
@@ -211,8 +208,8 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
         /* A singular system is one whose condition leaves no digit. */
         const lapack_int n = s->dofs;
         double norm = 0.0;
-#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
-    reduction(max                                                                        \
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
+    reduction(max                                                                                  \
               : norm) if (0.25 * n * n > rb_pairs_for_threads)
         for (int j = 0; j < n; j++) {
             const double *column = s->A + (size_t)j * (size_t)s->ld;
@@ -229,15 +226,14 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
             const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
             LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, s->ld, s->pivot);
             rb_blas_threads(threads);
-            LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond,
-                                work, iwork);
-            status =
-                s->rcond > 1e-14
-                    ? RB_OK
-                    : rb_fail(why, RB_SINGULAR,
-                              "boundary elements: the system is singular (reciprocal "
-                              "condition %.2g)",
-                              s->rcond);
+            LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond, work,
+                                iwork);
+            status = s->rcond > 1e-14
+                         ? RB_OK
+                         : rb_fail(why, RB_SINGULAR,
+                                   "boundary elements: the system is singular (reciprocal "
+                                   "condition %.2g)",
+                                   s->rcond);
         }
         free(iwork);
         free(work);
@@ -246,9 +242,8 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     s->rcond = NAN;
     const rb_status status =
         rb_hierarchical_create(&s->mesh, s->material, s->unit, s->tolerance, &s->h);
-    return status == RB_SINGULAR
-               ? rb_fail(why, status, "boundary elements: the system is singular")
-               : status;
+    return status == RB_SINGULAR ? rb_fail(why, status, "boundary elements: the system is singular")
+                                 : status;
 }
 
 static double bytes_of(const rb_bem_mesh *mesh, int dense)
@@ -257,8 +252,8 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
 }
 
 /* Takes over the bond; NULL: none. */
-static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
-                        rb_bond *bond, rb_bem_system **system, rb_message *why)
+static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense, rb_bond *bond,
+                        rb_bem_system **system, rb_message *why)
 {
     rb_status status = rb_bem_mesh_check(mesh, why);
     if (status == RB_OK)
@@ -284,9 +279,8 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
          * body the matrix hardly feels a uniform pressure on a held contour, by 1 - 2 nu:
          * this has to stand out. */
         const double volume = 1.0 - 2.0 * material.poisson;
-        s->tolerance = rb_is_incompressible(material)
-                           ? 1e-9
-                           : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
+        s->tolerance =
+            rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
         s->bond = bond;
     } else {
         rb_bond_free(bond);
@@ -301,8 +295,8 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
         s->seconds_factor = rb_seconds() - assembled;
     }
     if (status == RB_ENOMEM)
-        rb_fail(why, status, "boundary elements: out of memory for %d elements (%.3g MB)",
-                mesh->n, bytes_of(mesh, dense) / 1e6);
+        rb_fail(why, status, "boundary elements: out of memory for %d elements (%.3g MB)", mesh->n,
+                bytes_of(mesh, dense) / 1e6);
     if (status == RB_OK)
         *system = s;
     else
@@ -310,8 +304,8 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
     return status;
 }
 
-rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
-                                  int dense, rb_bem_system **system, rb_message *why)
+rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                                  rb_bem_system **system, rb_message *why)
 {
     *system = NULL;
     return create(mesh, material, dense, NULL, system, why);
@@ -319,18 +313,16 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
 
 /* An incompressible cover does not tell how its core is pressed all around. */
 rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
-                                      const rb_bem_mesh *core,
-                                      rb_bem_material core_material,
+                                      const rb_bem_mesh *core, rb_bem_material core_material,
                                       rb_bem_system **system, rb_message *why)
 {
     rb_bond *bond = NULL;
     *system = NULL;
     rb_status s = rb_bem_mesh_check(cover, why);
     if (s == RB_OK && rb_is_incompressible(material))
-        s = rb_fail(
-            why, RB_EINVAL,
-            "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
-            material.poisson);
+        s = rb_fail(why, RB_EINVAL,
+                    "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
+                    material.poisson);
     if (s == RB_OK)
         s = rb_bem_material_check(core_material, why);
     if (s == RB_OK)
@@ -341,8 +333,7 @@ rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material 
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why)
 {
-    return rb_bem_system_create_as(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, system,
-                                   why);
+    return rb_bem_system_create_as(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, system, why);
 }
 
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
@@ -363,14 +354,13 @@ rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, doubl
         free(turned);
         return status;
     }
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, columns, s->A, s->ld, s->pivot, X,
-                        s->dofs);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, columns, s->A, s->ld, s->pivot, X, s->dofs);
     return RB_OK;
 }
 
 /* x: the right-hand side, then the unknowns. */
-static rb_status solve_values(const rb_bem_system *s, double *x, const double *value,
-                              double *u, double *t)
+static rb_status solve_values(const rb_bem_system *s, double *x, const double *value, double *u,
+                              double *t)
 {
     const rb_status status = rb_bem_system_solve_columns(s, 1, x);
 
@@ -384,15 +374,15 @@ static rb_status solve_values(const rb_bem_system *s, double *x, const double *v
         }
         if (s->bond) {
             const int from = 2 * s->bond->first, n = 2 * s->bond->n;
-            cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from,
-                        1, 1.0, u + from, 1);
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from, 1, 1.0,
+                        u + from, 1);
         }
     }
     return status;
 }
 
-rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
-                              double *u, double *t)
+rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact, double *u,
+                              double *t)
 {
     const rb_bem_system *s = system;
     const int n = s->dofs, loads = 2 * s->mesh.contact_n;
@@ -405,20 +395,19 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
     for (int k = 0; k < loads; k++)
         value[2 * s->mesh.contact_first + k] = t_contact ? t_contact[k] : 0.0;
     if (t_contact && loads)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact,
-                    1, 1.0, x, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact, 1, 1.0, x,
+                    1);
     const rb_status status = solve_values(s, x, value, u, t);
     free(x);
     return status;
 }
 
-rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value,
-                                     double *u, double *t)
+rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value, double *u,
+                                     double *t)
 {
     double *x = rb_alloc((size_t)s->dofs, 1);
     rb_assembly assembly;
-    rb_status status =
-        x ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
+    rb_status status = x ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
     if (status == RB_OK) {
         status = add_given(s, &assembly, value, x);

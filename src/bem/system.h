@@ -33,13 +33,13 @@ struct rb_bem_system {
 };
 
 /* As rb_bem_system_create, the matrix dense or hierarchical at any size: to compare. */
-rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
-                                  int dense, rb_bem_system **system, rb_message *why);
+rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                                  rb_bem_system **system, rb_message *why);
 
 /* u and t (2n each) under other given values than the mesh's: value (2n) holds u where
  * the displacement is given, t elsewhere, also on the contact. */
-rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *value,
-                                     double *u, double *t);
+rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *value, double *u,
+                                     double *t);
 
 /* RB_EINVAL unless the body lies on the inner side of every contact element. */
 rb_status rb_bem_check_convex(const rb_bem_system *system, rb_message *why);

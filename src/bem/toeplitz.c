@@ -67,8 +67,8 @@ static int alloc_kernels(toeplitz *o)
     }
     o->s = rb_alloc(distances, 1);
     o->s_hat = rb_alloc(half, 2);
-    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat &&
-           o->work[N] && o->work[T];
+    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
+           o->work[T];
 }
 
 static toeplitz *toeplitz_alloc(int n, int alike)
@@ -252,8 +252,7 @@ static void mirror(toeplitz *o)
 
 /* The transform of a kernel less its base, with FFTW's factor `size` of a transform and
  * its inverse.  part: 0 of t, 1 of s, which is all there is of a symmetric body. */
-static void transform(const toeplitz *o, const double *kernel, double base, int part,
-                      double *hat)
+static void transform(const toeplitz *o, const double *kernel, double base, int part, double *hat)
 {
     const int n = o->n, size = o->fourier.size;
     double *line = o->work[0];
@@ -326,12 +325,10 @@ static int are_equal(int n_c, const double *ends)
     return 1;
 }
 
-static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
-                       rb_message *why)
+static rb_status check(int n_c, const double *ends, const rb_bem_surface *body, rb_message *why)
 {
     if (n_c > 1 << 28)
-        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c,
-                       1 << 28);
+        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c, 1 << 28);
     rb_status s = rb_bem_surface_check(body, why);
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
@@ -365,8 +362,7 @@ static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
 /* An operator without kernels at the midpoints of the ends. */
 static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibility *f)
 {
-    toeplitz *o =
-        rb_bem_flexibility_points(n_c, f) == RB_OK ? toeplitz_alloc(n_c, alike) : NULL;
+    toeplitz *o = rb_bem_flexibility_points(n_c, f) == RB_OK ? toeplitz_alloc(n_c, alike) : NULL;
     if (!o)
         return NULL;
     f->data = o;
@@ -378,9 +374,8 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
     return o;
 }
 
-rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
-                                      const rb_bem_surface *body, rb_bem_flexibility *f,
-                                      rb_message *why)
+rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
+                                      rb_bem_flexibility *f, rb_message *why)
 {
     *f = (rb_bem_flexibility){0};
     rb_status s = check(n_c, ends, body, why);
@@ -395,24 +390,21 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements",
-                   n_c);
+    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements", n_c);
 }
 
 /* ---- Disc -------------------------------------------------------------------------- */
 
-static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc,
-                            rb_message *why)
+static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc, rb_message *why)
 {
     const double radius = disc->radius;
     rb_status s = rb_bem_material_check(disc->material, why);
 
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK &&
-        !(isfinite(radius) && fabs(ends[0]) < radius && fabs(ends[n_c + 1]) < radius))
-        s = rb_fail(why, RB_EINVAL, "disc of radius %g: contact from %g to %g is wider",
-                    radius, ends[0], ends[n_c + 1]);
+    if (s == RB_OK && !(isfinite(radius) && fabs(ends[0]) < radius && fabs(ends[n_c + 1]) < radius))
+        s = rb_fail(why, RB_EINVAL, "disc of radius %g: contact from %g to %g is wider", radius,
+                    ends[0], ends[n_c + 1]);
     if (s != RB_OK)
         return s;
     const double first = asin(ends[0] / radius);
@@ -420,8 +412,7 @@ static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc
     for (int i = 1; i <= n_c; i++)
         if (!(fabs(asin(ends[i] / radius) - (first + i * h)) <= 1e-6 * h))
             return rb_fail(why, RB_EINVAL,
-                           "disc: contact element %d has another length than the others",
-                           i);
+                           "disc: contact element %d has another length than the others", i);
     return RB_OK;
 }
 
@@ -472,8 +463,7 @@ static rb_status set_disc(toeplitz *o, double h, const rb_bem_disc *disc)
 }
 
 rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
-                                  rb_bem_normals normals, rb_bem_flexibility *f,
-                                  rb_message *why)
+                                  rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why)
 {
     const double radius = disc->radius;
     *f = (rb_bem_flexibility){0};

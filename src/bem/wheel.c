@@ -30,13 +30,11 @@ static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
      * yields.  Memory makes the wheel's material `softer` than the glassy one, but not
      * its core. */
     rb_ring_compliance K =
-        w->hub > 0.0 ? rb_ring_across(m, w->core.poisson, w->hub, w->inner, rigid)
-                     : rigid;
+        w->hub > 0.0 ? rb_ring_across(m, w->core.poisson, w->hub, w->inner, rigid) : rigid;
     const cplx over = w->hub > 0.0 ? w->material.shear / w->core.shear / softer : 0.0;
 
     K = (rb_ring_compliance){over * K.uu, over * K.uv, over * K.vu, over * K.vv};
-    const rb_ring_compliance wheel =
-        rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
+    const rb_ring_compliance wheel = rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
     rb_ring_compliance disc = {0.0, 0.0, 0.0, 0.0};
     const double twice = m > 0.0 ? 2.0 : 1.0;
 
@@ -87,8 +85,7 @@ static rb_ring_answer disc_primitive(const rb_bem_wheel *w, double x)
 {
     const double kappa = 3.0 - 4.0 * w->material.poisson;
     const cplx disc = rb_ring_disc_primitive(kappa, x);
-    const double N =
-        creal(disc) + (x != 0.0 ? (kappa + 1.0) * x * (log(fabs(x)) - 1.0) : 0.0);
+    const double N = creal(disc) + (x != 0.0 ? (kappa + 1.0) * x * (log(fabs(x)) - 1.0) : 0.0);
 
     return (rb_ring_answer){N, N, cimag(disc) - 0.5 * M_PI * (kappa - 1.0) * fabs(x)};
 }
@@ -157,9 +154,8 @@ static rb_status table_alloc(double reach, double step, table *t)
     t->C = t->T + t->count;
     const int middle = OUTSIDE + half;
     for (int i = 0; i <= half + OUTSIDE; i++) {
-        const double x = i <= half
-                             ? reach * i / half
-                             : reach * pow(M_PI / reach, (i - half) / (double)OUTSIDE);
+        const double x =
+            i <= half ? reach * i / half : reach * pow(M_PI / reach, (i - half) / (double)OUTSIDE);
         t->x[middle + i] = x;
         t->x[middle - i] = -x;
     }
@@ -195,9 +191,8 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
             }
         }
         if (round == 0) /* the average at pi is that at -pi */
-            beyond = (rb_ring_answer){
-                .N = (behind.N - turn * ahead.N + sum.N) / rest - ahead.N,
-                .C = (behind.C - turn * ahead.C + sum.C) / rest - ahead.C};
+            beyond = (rb_ring_answer){.N = (behind.N - turn * ahead.N + sum.N) / rest - ahead.N,
+                                      .C = (behind.C - turn * ahead.C + sum.C) / rest - ahead.C};
     }
 }
 
@@ -212,15 +207,13 @@ static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
         if (!t->spline[k])
             s = RB_ENOMEM;
         else
-            gsl_spline_init(t->spline[k], t->x + t->first, t->N + k * t->count,
-                            (size_t)t->count);
+            gsl_spline_init(t->spline[k], t->x + t->first, t->N + k * t->count, (size_t)t->count);
     }
     return s;
 }
 
 /* Over a load of half-angle b. */
-static double integral(const gsl_spline *spline, gsl_interp_accel *near, double x,
-                       double b)
+static double integral(const gsl_spline *spline, gsl_interp_accel *near, double x, double b)
 {
     return gsl_spline_eval_integ(spline, x - b, x + b, near);
 }
@@ -245,8 +238,7 @@ double *rb_wheel_angles(double radius, int n, const double *ends)
 void rb_wheel_chords(double radius, int n, const double *ends, double *h)
 {
     for (int i = 0; i <= n; i++)
-        h[i] = 2.0 * radius *
-               sin(0.5 * (asin(ends[i + 1] / radius) - asin(ends[i] / radius)));
+        h[i] = 2.0 * radius * sin(0.5 * (asin(ends[i + 1] / radius) - asin(ends[i] / radius)));
 }
 
 rb_status rb_wheel_kernel_create(const rb_bem_wheel *w, double smallest, double reach,
@@ -256,8 +248,7 @@ rb_status rb_wheel_kernel_create(const rb_bem_wheel *w, double smallest, double 
     kernel->scale = w->radius / (4.0 * M_PI * w->material.shear);
     kernel->datum = 1.0;
     return rb_ring_table_create(w, glassy_waves, last_wave(w), disc_primitive,
-                                fmin(smallest, log(w->radius / w->inner)), reach,
-                                &kernel->inner);
+                                fmin(smallest, log(w->radius / w->inner)), reach, &kernel->inner);
 }
 
 rb_wheel_kernel rb_wheel_kernel_of_plane(const rb_bem_surface *plane)
@@ -280,9 +271,9 @@ rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x)
     const double plane =
         x != 0.0 ? (kernel->kappa + 1.0) * x * (1.0 - log(fabs(x) / kernel->datum)) : 0.0;
 
-    return (rb_ring_answer){
-        kernel->scale * (inner.N + plane), kernel->scale * (inner.T + plane),
-        kernel->scale * (inner.C + 0.5 * M_PI * (kernel->kappa - 1.0) * fabs(x))};
+    return (rb_ring_answer){kernel->scale * (inner.N + plane), kernel->scale * (inner.T + plane),
+                            kernel->scale *
+                                (inner.C + 0.5 * M_PI * (kernel->kappa - 1.0) * fabs(x))};
 }
 
 /* ---- The matrix -------------------------------------------------------------------- */
@@ -348,8 +339,8 @@ static rb_status remember_circumference(const rb_bem_wheel *w, const circumferen
 static void turn(const direction *to, const direction *from, double B[4])
 {
     const double c = to->cosine, s = to->sine, cf = from->cosine, sf = from->sine;
-    const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3],
-                         cf * B[2] - sf * B[0], cf * B[3] - sf * B[1]};
+    const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3], cf * B[2] - sf * B[0],
+                         cf * B[3] - sf * B[1]};
     B[0] = c * P[0] + s * P[1];
     B[1] = c * P[1] - s * P[0];
     B[2] = c * P[2] + s * P[3];
@@ -357,18 +348,17 @@ static void turn(const direction *to, const direction *from, double B[4])
 }
 
 /* The integrals of the inner table over the loads from end j to the midpoints. */
-static void from_end(const rb_bem_wheel *w, const circumference *c,
-                     const rb_ring_table *inner, size_t j, rb_ring_answer *at)
+static void from_end(const rb_bem_wheel *w, const circumference *c, const rb_ring_table *inner,
+                     size_t j, rb_ring_answer *at)
 {
     for (size_t i = 0; i <= (size_t)c->n; i++)
         at[i] = rb_ring_table_at(inner, (c->arc[i] - c->end[j]) / w->radius);
 }
 
 /* Adds columns from .. to - 1; t: NULL, or the disc's memory.  work: 2m. */
-static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals,
-                        const circumference *c, const rb_ring_table *inner,
-                        const table *t, size_t from, size_t to, rb_ring_answer *work,
-                        double *F)
+static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals, const circumference *c,
+                        const rb_ring_table *inner, const table *t, size_t from, size_t to,
+                        rb_ring_answer *work, double *F)
 {
     const size_t n = (size_t)c->n, m = n + 1;
     const double scale = w->radius / (4.0 * M_PI * w->material.shear);
@@ -383,8 +373,7 @@ static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals,
         for (size_t i = 0; i < m; i++) {
             const double x = (c->arc[i] - c->arc[j]) / w->radius,
                          b = 0.5 * (c->end[j + 1] - c->end[j]) / w->radius;
-            rb_ring_answer own = {low[i].N - high[i].N, low[i].T - high[i].T,
-                                  low[i].C - high[i].C};
+            rb_ring_answer own = {low[i].N - high[i].N, low[i].T - high[i].T, low[i].C - high[i].C};
             if (t) {
                 own.N += integral(t->spline[0], t->near, x, b);
                 own.T += integral(t->spline[1], t->near, x, b);
@@ -404,13 +393,11 @@ static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals,
 }
 
 /* Splines remember where they have looked last: one thread. */
-static rb_status add_matrix(const rb_bem_wheel *w, rb_bem_normals normals,
-                            const circumference *c, const rb_ring_table *inner,
-                            const table *t, double *F)
+static rb_status add_matrix(const rb_bem_wheel *w, rb_bem_normals normals, const circumference *c,
+                            const rb_ring_table *inner, const table *t, double *F)
 {
     const size_t n = (size_t)c->n, m = n + 1;
-    const int parts =
-        t || (double)(n * m) < rb_pairs_for_threads ? 1 : rb_blas_loop_threads();
+    const int parts = t || (double)(n * m) < rb_pairs_for_threads ? 1 : rb_blas_loop_threads();
     rb_ring_answer *work = calloc(2 * m * (size_t)parts, sizeof *work);
 
     if (!work)
@@ -424,9 +411,8 @@ static rb_status add_matrix(const rb_bem_wheel *w, rb_bem_normals normals,
 }
 
 /* Panels from a quarter of the shortest element on. */
-static rb_status make_inner(const rb_bem_wheel *w, const circumference *c,
-                            rb_ring_waves *waves, rb_ring_primitive *rest,
-                            rb_ring_table *inner)
+static rb_status make_inner(const rb_bem_wheel *w, const circumference *c, rb_ring_waves *waves,
+                            rb_ring_primitive *rest, rb_ring_table *inner)
 {
     double smallest = fmin(log(w->radius / w->inner), 1.0);
 
@@ -447,22 +433,20 @@ static rb_status check_wheel(const rb_bem_wheel *w, rb_message *why)
                     "hub of radius %g: expected less than the radius %g of the core "
                     "under the cover",
                     w->hub, w->inner);
-    if (s == RB_OK && !(w->hub >= 0.0 && w->hub < w->inner && w->inner < w->radius &&
-                        isfinite(w->radius)))
-        s = rb_fail(why, RB_EINVAL, "wheel: radii %g, %g, %g: expected to increase",
-                    w->hub, w->inner, w->radius);
+    if (s == RB_OK &&
+        !(w->hub >= 0.0 && w->hub < w->inner && w->inner < w->radius && isfinite(w->radius)))
+        s = rb_fail(why, RB_EINVAL, "wheel: radii %g, %g, %g: expected to increase", w->hub,
+                    w->inner, w->radius);
     for (int k = 0; k < w->terms && s == RB_OK; k++)
         if (!(w->ratio[k] >= 0.0 && isfinite(w->ratio[k]) && w->length[k] > 0.0 &&
               isfinite(w->length[k])))
-            s = rb_fail(
-                why, RB_EINVAL,
-                "memory term %d: ratio %g, length %g: expected numbers >= 0 and > 0",
-                k + 1, w->ratio[k], w->length[k]);
+            s = rb_fail(why, RB_EINVAL,
+                        "memory term %d: ratio %g, length %g: expected numbers >= 0 and > 0", k + 1,
+                        w->ratio[k], w->length[k]);
     return s;
 }
 
-rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                         rb_message *why)
+rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel, rb_message *why)
 {
     rb_status s = check_wheel(wheel, why);
     if (s == RB_OK)
@@ -487,8 +471,7 @@ rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
 }
 
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                                   rb_bem_normals normals, rb_bem_flexibility *f,
-                                   rb_message *why)
+                                   rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why)
 {
     const rb_bem_surface plane = rb_bem_halfplane(wheel->material, wheel->radius);
     rb_ring_table inner = {0};
@@ -520,8 +503,8 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
     return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
 }
 
-rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
-                              int points, const double *x, double *w)
+rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load, int points,
+                              const double *x, double *w)
 {
     const double R = wheel->radius;
     rb_wheel_kernel kernel = {0};
@@ -558,8 +541,7 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
 }
 
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
-                                        const double *ends, rb_bem_flexibility *f,
-                                        rb_message *why)
+                                        const double *ends, rb_bem_flexibility *f, rb_message *why)
 {
     table t = {0};
     rb_ring_table inner = {0};

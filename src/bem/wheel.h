@@ -6,8 +6,7 @@
 #include "rollbem/bem.h"
 
 /* RB_EINVAL, RB_SINGULAR: wheel and ends of n_c contact elements. */
-rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                         rb_message *why);
+rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel, rb_message *why);
 
 /* The angles of m = n + 1 midpoints, then of m + 1 ends, owned by the caller; NULL
  * without memory.  h: the m chords. */

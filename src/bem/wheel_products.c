@@ -124,10 +124,9 @@ static rb_status products_matrix(const rb_bem_flexibility *f, double *F, int ldf
 {
     const products *o = f->data;
     rb_bem_flexibility dense;
-    rb_status s =
-        o->wheel.radius > 0.0
-            ? rb_bem_flexibility_wheel(o->n, o->ends, &o->wheel, o->normals, &dense, NULL)
-            : rb_bem_flexibility_surface(o->n, o->ends, &o->plane, &dense, NULL);
+    rb_status s = o->wheel.radius > 0.0
+                      ? rb_bem_flexibility_wheel(o->n, o->ends, &o->wheel, o->normals, &dense, NULL)
+                      : rb_bem_flexibility_surface(o->n, o->ends, &o->plane, &dense, NULL);
     if (s == RB_OK) {
         s = rb_bem_flexibility_matrix(&dense, F, ldf);
         rb_bem_flexibility_free(&dense);
@@ -155,8 +154,8 @@ enum { WINDOW = 2 * NEAR + 2 * ORDER };
 
 /* What a charge at each step of a window makes of midpoint i; the window begins at step
  * `first`. */
-static void from_steps(const products *o, const rb_ring_answer *on_steps, int i,
-                       int first, rb_ring_answer window[WINDOW])
+static void from_steps(const products *o, const rb_ring_answer *on_steps, int i, int first,
+                       rb_ring_answer window[WINDOW])
 {
     for (int k = 0; k < WINDOW; k++) {
         rb_ring_answer sum = {0.0, 0.0, 0.0};
@@ -246,10 +245,7 @@ static rb_status set_tables(products *o, const double *angles, double step)
             memset(x, 0, (size_t)(size + 2) * sizeof *x);
             for (int k = 1 - o->steps; k < o->steps; k++) {
                 const rb_ring_answer *at = on_steps + o->steps + k;
-                x[k < 0 ? size + k : k] = (c == 0   ? at->N
-                                           : c == 1 ? at->T
-                                                    : at->C) /
-                                          size;
+                x[k < 0 ? size + k : k] = (c == 0 ? at->N : c == 1 ? at->T : at->C) / size;
             }
             fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
             memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
@@ -291,8 +287,8 @@ static products *products_alloc(int n, int steps)
     o->to = calloc(m, sizeof *o->to);
     o->near_first = rb_alloc_int(m + 1);
     o->near_end = rb_alloc_int(m);
-    if (!all || !o->ends || !o->place || !o->charge || !o->from || !o->to ||
-        !o->near_first || !o->near_end) {
+    if (!all || !o->ends || !o->place || !o->charge || !o->from || !o->to || !o->near_first ||
+        !o->near_end) {
         products_free(o);
         return NULL;
     }
@@ -326,8 +322,7 @@ static rb_status make(const products *like, double *x, double step, const double
     return s;
 }
 
-rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
-                                            const rb_bem_wheel *wheel,
+rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why)
 {
@@ -339,8 +334,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
         return s;
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
     if (!angles)
-        return rb_fail(why, RB_ENOMEM, "wheel: out of memory for %d contact elements",
-                       n_c);
+        return rb_fail(why, RB_ENOMEM, "wheel: out of memory for %d contact elements", n_c);
     const double length = angles[2 * n_c + 2] - angles[n_c + 1],
                  step = fmin(length / (n_c + 1), log(wheel->radius / wheel->inner) / 8.0);
     if (!(length < MOST_STEPS * step)) { /* very thin */
@@ -362,8 +356,8 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
 }
 
 rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane,
-                                            rb_bem_flexibility *f, rb_message *why)
+                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
+                                            rb_message *why)
 {
     const products like = {.plane = *plane, .normals = RB_BEM_NORMALS_SURFACE};
     double *x = NULL;
@@ -372,8 +366,7 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
     rb_status s = rb_bem_surface_check(plane, why);
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK &&
-        (plane->terms > 0 || plane->thickness > 0.0 || plane->datum_tangential > 0.0))
+    if (s == RB_OK && (plane->terms > 0 || plane->thickness > 0.0 || plane->datum_tangential > 0.0))
         s = rb_fail(why, RB_EINVAL,
                     "products on any elements: a homogeneous elastic half-plane with one "
                     "datum only");

@@ -114,8 +114,7 @@ const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char
 int rb_option_given(const rb_option_set *set, const char *name)
 {
     for (int i = 0; i < set->n; i++)
-        if (set->options[i].kind != RB_OPTION_GROUP &&
-            strcmp(set->options[i].name, name) == 0)
+        if (set->options[i].kind != RB_OPTION_GROUP && strcmp(set->options[i].name, name) == 0)
             return set->given[i];
     return 0;
 }
@@ -135,8 +134,7 @@ const rb_option *rb_case_option(const char *name)
 {
     /* asked thousands of times per case: most names differ in their first letter */
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
-        if (o->name[0] == name[0] && o->kind != RB_OPTION_GROUP &&
-            strcmp(o->name, name) == 0)
+        if (o->name[0] == name[0] && o->kind != RB_OPTION_GROUP && strcmp(o->name, name) == 0)
             return o;
     return NULL;
 }
@@ -170,8 +168,7 @@ static const rb_option *find(const char *name, rb_message *why)
     return NULL;
 }
 
-static rb_status set(rb_case *c, const rb_option *o, const char *text, int by,
-                     rb_message *why)
+static rb_status set(rb_case *c, const rb_option *o, const char *text, int by, rb_message *why)
 {
     char what[400];
     const int k = (int)(o - rb_case_table);
@@ -181,8 +178,7 @@ static rb_status set(rb_case *c, const rb_option *o, const char *text, int by,
     return s != RB_OK && by > 0 ? RB_EFORMAT : s;
 }
 
-rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
-                      rb_message *why)
+rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why)
 {
     const rb_option *o = find(name, why);
     if (!o)
@@ -232,8 +228,7 @@ int rb_case_given(const rb_case *c, const char *name)
     return o ? c->given[o - rb_case_table] : 0;
 }
 
-static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason,
-                        rb_message *why)
+static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason, rb_message *why)
 {
     char buffer[400];
     const int by = c->given[o - rb_case_table];
@@ -297,8 +292,7 @@ static rb_status locate_row(const case_table *t, const char *name, rb_message *w
     const rb_message said = *why;
     if (!t->path || strncmp(said.text, name, n) != 0)
         return RB_OK;
-    if (sscanf(said.text + n, ": row %d: %n", &row, &rest) < 1 || row < 1 ||
-        row > t->table.rows)
+    if (sscanf(said.text + n, ": row %d: %n", &row, &rest) < 1 || row < 1 || row > t->table.rows)
         return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
     return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
                    said.text + n + rest);
@@ -351,8 +345,8 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
         /* What is given of B lies in its place; the rest is A's, as the table says. */
         if (o->into && !isnan(typed))
             *to = typed;
-        else if (o->of_a && (s->similar || !o->if_similar) &&
-                 !c->given[o - rb_case_table] && (!is_b || rb_option_applies(o, &rc->b)))
+        else if (o->of_a && (s->similar || !o->if_similar) && !c->given[o - rb_case_table] &&
+                 (!is_b || rb_option_applies(o, &rc->b)))
             *to = *(const double *)(const void *)((char *)rc + o->of_a);
     }
     if (!rc->elastic_b)
@@ -386,8 +380,7 @@ static rb_status resolve_memory(const rb_case_memory *typed, const char *which,
 
 /* An option of one support or addition has no effect on other bodies.  In a file it may
  * stand beside a support that the command line replaces. */
-static rb_status check_parameter(const rb_case *c, int is_b,
-                                 const rb_rolling_body_kind *kind,
+static rb_status check_parameter(const rb_case *c, int is_b, const rb_rolling_body_kind *kind,
                                  const rb_rolling_parameter *parameter, rb_message *why)
 {
     const rb_rolling_body *body = is_b ? &c->resolved.rc.b : &c->resolved.rc.a;
@@ -395,8 +388,7 @@ static rb_status check_parameter(const rb_case *c, int is_b,
     char name[40], reason[80];
     const char *word = NULL;
 
-    if (parameter->has_meaning ? parameter->has_meaning(body)
-                               : rb_rolling_body_is(body, kind))
+    if (parameter->has_meaning ? parameter->has_meaning(body) : rb_rolling_body_is(body, kind))
         return RB_OK;
     strcpy(name, parameter->option);
     if (is_b)
@@ -434,17 +426,16 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
 
 static rb_status check_heat(rb_case *c, rb_message *why)
 {
-    static const char *const of_heat[] = {"heat-capacity", "temperature",
-                                          "conductivity-b", "heat-capacity-b",
-                                          "temperature-b"};
+    static const char *const of_heat[] = {"heat-capacity", "temperature", "conductivity-b",
+                                          "heat-capacity-b", "temperature-b"};
     rb_resolved_case *s = &c->resolved;
     rb_status status = RB_OK;
 
     if (s->rc.heat_a.conductivity > 0.0)
         return RB_OK;
     for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
-        status = rb_case_refuse_given(c, of_heat[k],
-                                      "for temperatures only, see --conductivity", why);
+        status =
+            rb_case_refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
     if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0)
         status = rb_case_refuse_given(
             c, "speed",
@@ -464,8 +455,7 @@ static rb_status count_numbers(const rb_case *c, const char *name, const rb_numb
     if (!rb_case_given(c, name) || (list->n >= least && list->n <= most))
         return RB_OK;
     if (most > least)
-        snprintf(reason, sizeof reason, "expected %d or %d numbers, got %d", least, most,
-                 list->n);
+        snprintf(reason, sizeof reason, "expected %d or %d numbers, got %d", least, most, list->n);
     else
         snprintf(reason, sizeof reason, "expected %d numbers, got %d", least, list->n);
     return rb_case_refuse_given(c, name, reason, why);
@@ -479,25 +469,21 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
     rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
 
     if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
-        s = rb_fail(
-            why, RB_EINVAL,
-            "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
-            typed->falls.n, typed->slip_scales.n);
+        s = rb_fail(why, RB_EINVAL,
+                    "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
+                    typed->falls.n, typed->slip_scales.n);
     if (s == RB_OK && falls && typed->falls.n == 0)
-        s = rb_case_refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale",
-                                 why);
+        s = rb_case_refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale", why);
     for (int k = 0; k < 2 && s == RB_OK && !falls; k++)
-        s = rb_case_refuse_given(
-            c, k ? "slip-scale" : "mu-fall",
-            "only for velocity-dependent friction, see --friction-law", why);
+        s = rb_case_refuse_given(c, k ? "slip-scale" : "mu-fall",
+                                 "only for velocity-dependent friction, see --friction-law", why);
     if (s == RB_OK)
         s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
     if (s == RB_OK)
         s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
     if (s == RB_OK && !falls && typed->heats.n == 0)
         s = rb_case_refuse_given(
-            c, "memory", "only for friction that changes, see --mu-fall and --mu-heat",
-            why);
+            c, "memory", "only for friction that changes, see --mu-fall and --mu-heat", why);
     for (int k = 0; k < 2 && s == RB_OK; k++) {
         f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
         f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
@@ -531,28 +517,26 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
 {
     const rb_resolved_case *resolved = &c->resolved;
     const rb_rolling_case *rc = &resolved->rc;
-    const int transient = rc->formulation == RB_TRANSIENT,
-              steady = rc->formulation == RB_STEADY,
+    const int transient = rc->formulation == RB_TRANSIENT, steady = rc->formulation == RB_STEADY,
               history = resolved->history_file != NULL;
     const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
     const struct {
         int has_no_meaning;
         const char *option, *reason;
-    } rules[] = {
-        {!transient, "distance", "of transient rolling only"},
-        {transient && history, "distance", "the history says how far"},
-        /* of a crack: positions of the contact */
-        {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
-        {!transient, "irregularity",
-         "only for transient rolling, in which it moves through the contact"},
-        {steady, "history", "steady rolling has no history"},
-        {steady && rc->increments > 1, "increments",
-         "steady rolling does not depend on how the bodies were pressed"},
-        {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
-        {relaxes_at_rest && history, "speed", "static contact does not roll"},
-        {history, "increments", "the history says them row by row"},
-        {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
-         "a computation with steps needs equal elements"}};
+    } rules[] = {{!transient, "distance", "of transient rolling only"},
+                 {transient && history, "distance", "the history says how far"},
+                 /* of a crack: positions of the contact */
+                 {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
+                 {!transient, "irregularity",
+                  "only for transient rolling, in which it moves through the contact"},
+                 {steady, "history", "steady rolling has no history"},
+                 {steady && rc->increments > 1, "increments",
+                  "steady rolling does not depend on how the bodies were pressed"},
+                 {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
+                 {relaxes_at_rest && history, "speed", "static contact does not roll"},
+                 {history, "increments", "the history says them row by row"},
+                 {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
+                  "a computation with steps needs equal elements"}};
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof rules / sizeof *rules && s == RB_OK; k++)
         if (rules[k].has_no_meaning)
@@ -600,13 +584,11 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
         if (c->purpose == meaningless[k].purpose)
-            s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason,
-                                     why);
+            s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
     if (s == RB_OK && curve && formulation != RB_STEADY)
         s = rb_case_refuse_given(c, "formulation", "a curve needs steady rolling", why);
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
-        s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases",
-                                 why);
+        s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases", why);
     /* 0,3 is read as 0 and 3. */
     if (s == RB_OK && !curve && c->resolved.mus.n > 1)
         s = rb_case_refuse_given(
@@ -618,8 +600,8 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
                 : "expected one number; a curve takes several",
             why);
     if (s == RB_OK && rb_case_has_steps(&c->resolved))
-        s = rb_case_refuse_given(c, "accuracy",
-                                 "only for static and steady cases without steps", why);
+        s = rb_case_refuse_given(c, "accuracy", "only for static and steady cases without steps",
+                                 why);
     return s;
 }
 
@@ -652,10 +634,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
     const int many = rc->contact_elements >= MANY || rb_rolling_is_large(rc, &equal);
-    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
-        rc->mesh = !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
-                                                                  : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
+        rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
+        rc->mesh =
+            !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
         rc->mesh == RB_MESH_ALIGNED)
         rc->slip_operator = RB_SLIP_SECOND;

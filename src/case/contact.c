@@ -18,8 +18,7 @@ leave_out(rb_case_contact *c, const char *format, ...)
     va_start(args, format);
     vsnprintf(clause, sizeof clause, format, args);
     va_end(args);
-    rb_append(c->left_out, sizeof c->left_out, "%s%s", c->left_out[0] ? "; " : "",
-              clause);
+    rb_append(c->left_out, sizeof c->left_out, "%s%s", c->left_out[0] ? "; " : "", clause);
 }
 
 /* A rectangle under Hertz's pressure, of given curvature or half-length. */
@@ -62,12 +61,10 @@ static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
     else if (in->potential < 0 && !is_line_contact(in))
         leave_out(c, "a contact ellipse (IPOTCN = %d; -4 and -5 are of two dimensions)",
                   in->potential);
-    else if (is_line_contact(in) &&
-             !(d->N == 1 && in->normal > 0.0 && in->hertz[0] > 0.0 &&
-               in->hertz[1] > 0.0 && in->hertz[2] > 0.0))
-        leave_out(
-            c, "Hertzian input without a positive load, radius or length (IPOTCN = %d)",
-            in->potential);
+    else if (is_line_contact(in) && !(d->N == 1 && in->normal > 0.0 && in->hertz[0] > 0.0 &&
+                                      in->hertz[1] > 0.0 && in->hertz[2] > 0.0))
+        leave_out(c, "Hertzian input without a positive load, radius or length (IPOTCN = %d)",
+                  in->potential);
     else if (is_line_contact(in))
         return is_another_step(c, in);
     else if (in->base != 1 && in->base != 2)
@@ -92,8 +89,8 @@ static int falls(const rb_io_contact_case *in)
 /* What CONTACT has in a case that is run, and this program has not. */
 static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
 {
-    static const char *const materials[] = {
-        "", "", "the flexibility of the simplified theory", "that of Fastsim"};
+    static const char *const materials[] = {"", "", "the flexibility of the simplified theory",
+                                            "that of Fastsim"};
     const rb_io_contact_digits *d = &in->digit;
     if (in->fstat != in->fkin && d->T > 0 && !falls(in))
         leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
@@ -103,8 +100,7 @@ static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
     if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
         leave_out(c, "CETA, FY and CPHI");
     if (d->T == 3 && !is_line_contact(in) && fabs(in->dq / in->dx - 1.0) > 0.01)
-        leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq,
-                  in->dx);
+        leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq, in->dx);
     if (in->plan > 1)
         leave_out(c, "the planform (IPLAN = %d)", in->plan);
     if (d->H > 0)
@@ -140,8 +136,7 @@ static double set_hertz(const rb_io_contact_case *in, double width, rb_rolling_c
     const double flexibility = (1.0 - in->poisson[0]) / (2.0 * in->shear[0]) +
                                (1.0 - in->poisson[1]) / (2.0 * in->shear[1]); /* 1/E* */
     const double square = 4.0 * in->normal / width * flexibility / M_PI;      /* a^2/R */
-    const double a =
-        in->potential == -4 ? sqrt(square * 0.5 / in->hertz[0]) : in->hertz[0];
+    const double a = in->potential == -4 ? sqrt(square * 0.5 / in->hertz[0]) : in->hertz[0];
 
     rc->gap = RB_GAP_PARABOLA;
     rc->a.radius = a * a / square;
@@ -151,20 +146,19 @@ static double set_hertz(const rb_io_contact_case *in, double width, rb_rolling_c
 static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
 {
     rb_rolling_case *rc = &c->rc;
-    static const rb_rolling_friction_law laws[] = {
-        RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
+    static const rb_rolling_friction_law laws[] = {RB_FRICTION_linear, RB_FRICTION_rational,
+                                                   RB_FRICTION_exponential};
 
     rc->mu = in->digit.T == 0 ? 0.0 : in->fstat;
     if (in->digit.T == 0 || !falls(in))
         return;
     rc->mu = in->fkin;
     rc->speed = in->velocity;
-    rc->friction =
-        (rb_rolling_friction){.law = laws[in->law - 2],
-                              .fall = {in->fall[0], in->fall[1]},
-                              .slip_scale = {in->slip_scale[0], in->slip_scale[1]},
-                              .memory = in->memory,
-                              .memory_slip = in->memory > 0.0 ? in->memory_slip : 0.0};
+    rc->friction = (rb_rolling_friction){.law = laws[in->law - 2],
+                                         .fall = {in->fall[0], in->fall[1]},
+                                         .slip_scale = {in->slip_scale[0], in->slip_scale[1]},
+                                         .memory = in->memory,
+                                         .memory_slip = in->memory > 0.0 ? in->memory_slip : 0.0};
     if (in->start != 0.0 && in->digit.T == 2) {
         c->start_mu = in->start < 0.0 ? in->fkin : in->fstat;
         c->start = (rb_rolling_table){1, &c->centre, &c->start_mu};
@@ -200,8 +194,8 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     }
     set_friction(in, c);
     /* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
-    static const rb_rolling_formulation formulations[] = {RB_STATIC, RB_STATIC,
-                                                          RB_TRANSIENT, RB_STEADY};
+    static const rb_rolling_formulation formulations[] = {RB_STATIC, RB_STATIC, RB_TRANSIENT,
+                                                          RB_STEADY};
     const double tangential = c->sign * in->tangential;
     c->rc.formulation = formulations[in->digit.T];
     if (in->digit.N == 1)
@@ -233,14 +227,13 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->to = c->sign * ((c->sign > 0.0 ? to : from) - c->centre);
     c->rc.zone = 0.5 * (c->to - c->from);
     if (!(c->from < c->to)) { /* far away, elements are less than the numbers' digits */
-        leave_out(c, "a potential contact at %g without width beside %g", from,
-                  c->centre);
+        leave_out(c, "a potential contact at %g without width beside %g", from, c->centre);
         c->runs = 0;
     }
 }
 
-void rb_case_contact_follow(const rb_case_contact *before,
-                            const rb_rolling_solution *solution, rb_case_contact *c)
+void rb_case_contact_follow(const rb_case_contact *before, const rb_rolling_solution *solution,
+                            rb_case_contact *c)
 {
     if (!c->runs || !c->goes_on)
         return;
@@ -253,14 +246,12 @@ void rb_case_contact_follow(const rb_case_contact *before,
     c->runs = 0;
 }
 
-rb_status rb_case_contact_solve(const rb_case_contact *c,
-                                const rb_rolling_solution *before,
+rb_status rb_case_contact_solve(const rb_case_contact *c, const rb_rolling_solution *before,
                                 rb_rolling_solution *solution, rb_message *why)
 {
     return c->goes_on || c->step > 0.0
-               ? rb_rolling_step_between(&c->rc, c->from, c->to,
-                                         c->goes_on ? before : NULL, c->step, solution,
-                                         why)
+               ? rb_rolling_step_between(&c->rc, c->from, c->to, c->goes_on ? before : NULL,
+                                         c->step, solution, why)
                : rb_rolling_solve_between(&c->rc, c->from, c->to, solution, why);
 }
 
@@ -277,13 +268,11 @@ static double yielded_before(const rb_case_contact *c, const rb_rolling_solution
     if (!from || !from->plastic || !(ahead < from->n))
         return 0.0;
     const int j = (int)ahead;
-    return (1.0 - t) * from->plastic[j] +
-           (j + 1 < from->n ? t * from->plastic[j + 1] : 0.0);
+    return (1.0 - t) * from->plastic[j] + (j + 1 < from->n ? t * from->plastic[j + 1] : 0.0);
 }
 
 double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
-                             const rb_rolling_solution *before,
-                             const rb_rolling_solution *s)
+                             const rb_rolling_solution *before, const rb_rolling_solution *s)
 {
     double power = 0.0;
 
@@ -291,9 +280,7 @@ double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact
         return NAN;
     for (int i = 0; i < s->n; i++) {
         const double yields =
-            s->plastic
-                ? s->plastic[i] - yielded_before(c, c->goes_on ? before : NULL, s, i)
-                : 0.0;
+            s->plastic ? s->plastic[i] - yielded_before(c, c->goes_on ? before : NULL, s, i) : 0.0;
         const double rolled = c->step > 0.0 ? c->step / s->h[i] : 1.0;
         power -= fabs(s->q[i]) * (fabs(s->shift[i]) - yields) / rolled;
     }

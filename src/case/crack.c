@@ -34,8 +34,7 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("crack-length", PLACE(length), "a", RB_ABOVE(0), "along the crack"),
     RB_NUMBER_LINE("crack-angle", PLACE(angle), "degrees", RB_ANY,
                    "to the surface; below 90 the tip points to +x, where A rolls"),
-    RB_NUMBER_LINE("crack-mouth", PLACE(mouth), "a", RB_ANY,
-                   "x of its mouth, or of its upper end"),
+    RB_NUMBER_LINE("crack-mouth", PLACE(mouth), "a", RB_ANY, "x of its mouth, or of its upper end"),
     RB_NUMBER_LINE("crack-depth", PLACE(depth), "a", RB_FROM(0),
                    "of its upper end below the surface; 0: it has a mouth"),
     RB_NUMBER_LINE("crack-friction", PLACE(friction), "-", RB_FROM(0),
@@ -45,10 +44,9 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("from", PLACE(from), "a", RB_ANY,
                    "first position of the contact; of a static history the only one",
                    .unset = "-6; of a static history 0"),
-    RB_NUMBER_LINE(
-        "to", PLACE(to), "a", RB_ANY,
-        "last position; --steps says in how many equal steps, 120 unless given",
-        .unset = "6; of a transient as far as it rolls"),
+    RB_NUMBER_LINE("to", PLACE(to), "a", RB_ANY,
+                   "last position; --steps says in how many equal steps, 120 unless given",
+                   .unset = "6; of a transient as far as it rolls"),
     RB_INTEGER_LINE("passes", PLACE(passes), RB_FROM_TO(1, 1000),
                     "the same load passes again; results are those of the last pass"),
     RB_CHOICE_LINE("fluid", PLACE(fluid), fluids,
@@ -61,14 +59,12 @@ const rb_option rb_case_crack_options[] = {
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
                    "uniform stress in B along the surface, tension > 0"),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
-    RB_FLAG_LINE(
-        "coupled", PLACE(coupled),
-        "frictionless contact that depends on the crack: both are solved together"),
-    RB_NUMBER_LINE(
-        "paris", PLACE(paris), "-", RB_ABOVE(0),
-        "C,m: the crack grows by da/dN = C dK^m a pass, in the units of length "
-        "and K",
-        .unset = "it does not grow", .list = PLACE(paris_law)),
+    RB_FLAG_LINE("coupled", PLACE(coupled),
+                 "frictionless contact that depends on the crack: both are solved together"),
+    RB_NUMBER_LINE("paris", PLACE(paris), "-", RB_ABOVE(0),
+                   "C,m: the crack grows by da/dN = C dK^m a pass, in the units of length "
+                   "and K",
+                   .unset = "it does not grow", .list = PLACE(paris_law)),
     RB_CHOICE_LINE("paris-range", PLACE(paris_range), ranges,
                    "dK of that law: (dK_I^4 + 8 dK_II^4)^(1/4) (Tanaka), or dK_II"),
     RB_NUMBER_LINE("threshold", PLACE(threshold), "MPa.mm^0.5", RB_FROM(0),
@@ -81,8 +77,7 @@ const rb_option rb_case_crack_options[] = {
     RB_INTEGER_LINE("grow-steps", PLACE(grow_steps), RB_FROM_TO(1, 60),
                     "increments of that growth"),
 };
-const int rb_case_crack_options_n =
-    sizeof rb_case_crack_options / sizeof rb_case_crack_options[0];
+const int rb_case_crack_options_n = sizeof rb_case_crack_options / sizeof rb_case_crack_options[0];
 
 rb_case_crack rb_case_crack_defaults(void)
 {
@@ -117,8 +112,7 @@ static double to_of(const rb_case_crack *k)
     return isnan(k->to) ? FAR : k->to;
 }
 
-static rb_status check_positions(const rb_resolved_case *c, const rb_case_crack *k,
-                                 rb_message *why)
+static rb_status check_positions(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
 {
     const double from = from_of(c, k), to = to_of(k);
     const int n = intervals(c), steps = rb_case_has_steps(c);
@@ -140,13 +134,11 @@ static rb_status check_positions(const rb_resolved_case *c, const rb_case_crack 
     return RB_OK;
 }
 
-rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
-                              rb_message *why)
+rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
 {
     const rb_rolling_case *rc = &c->rc;
     const double a = c->derived.half_width;
-    const double deepest =
-        a * (k->depth + k->length * fabs(sin(k->angle * M_PI / 180.0)));
+    const double deepest = a * (k->depth + k->length * fabs(sin(k->angle * M_PI / 180.0)));
 
     if (!(k->angle >= 0.0 && k->angle < 180.0) || (k->depth == 0.0 && k->angle == 0.0))
         return rb_fail(why, RB_EINVAL,
@@ -164,9 +156,8 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
     if (k->unloaded && k->remote_stress == 0.0)
         return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
-        return rb_fail(
-            why, RB_EINVAL,
-            "--fluid pressure: is the contact pressure, and --unloaded has none");
+        return rb_fail(why, RB_EINVAL,
+                       "--fluid pressure: is the contact pressure, and --unloaded has none");
     if (!k->unloaded && rc->elastic_b &&
         !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_fail(why, RB_EINVAL,
@@ -178,10 +169,9 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
                        "its radius needs its shape, expected at most %g",
                        deepest / fabs(rc->b.radius), DEEPEST);
     if (k->coupled && (rb_rolling_largest_mu(rc) > 0.0 || rb_case_has_steps(c)))
-        return rb_fail(
-            why, RB_EINVAL,
-            "--coupled: for a contact without friction and without steps of its "
-            "own, --mu 0");
+        return rb_fail(why, RB_EINVAL,
+                       "--coupled: for a contact without friction and without steps of its "
+                       "own, --mu 0");
     if (k->coupled && !rc->elastic_b)
         return rb_fail(why, RB_EINVAL,
                        "--coupled: a rigid body B is not changed by its crack; make it "
@@ -195,8 +185,8 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 /* ---- Load -------------------------------------------------------------------------- */
 
 /* A run that starts again on a wider zone calls this with step 0 again. */
-static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
-                     int step, int steps, void *context)
+static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                     int steps, void *context)
 {
     rb_rolling_states *states = context;
     (void)history;
@@ -224,8 +214,7 @@ static rb_status solve_contact(const rb_resolved_case *c, const rb_case_crack *k
             plain.rc.zone = ZONE * c->derived.half_width;
     }
     const rb_status s =
-        k->unloaded ? RB_OK
-                    : rb_case_solve(&plain, keep_step, &r->states, &r->contact, why);
+        k->unloaded ? RB_OK : rb_case_solve(&plain, keep_step, &r->states, &r->contact, why);
     return s == RB_INTERRUPTED ? RB_ENOMEM : s; /* by keep_step alone */
 }
 
@@ -252,8 +241,7 @@ static rb_status set_loads(int n, const double *x, const double *h, const double
     return RB_OK;
 }
 
-static rb_crack_shape shape_of(const rb_resolved_case *c, const rb_case_crack *k,
-                               double a)
+static rb_crack_shape shape_of(const rb_resolved_case *c, const rb_case_crack *k, double a)
 {
     const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
     return (rb_crack_shape){
@@ -262,8 +250,7 @@ static rb_crack_shape shape_of(const rb_resolved_case *c, const rb_case_crack *k
         .friction = k->friction,
         .shear = 0.5 * b->young / (1.0 + b->poisson),
         /* of plane stress: the same kappa */
-        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson)
-                                                  : b->poisson};
+        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
 }
 
 static void note(rb_case_crack_result *r, const char *text, double value)
@@ -311,8 +298,7 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
 }
 
 rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
-                               rb_case_crack_result *r, rb_case_crack_track *t,
-                               rb_message *why)
+                               rb_case_crack_result *r, rb_case_crack_track *t, rb_message *why)
 {
     const int has_steps = rb_case_has_steps(c) && !k->unloaded,
               rolls = c->rc.formulation == RB_TRANSIENT;
@@ -322,8 +308,7 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
     rb_status s = RB_OK;
 
     memset(t, 0, sizeof *t);
-    r->half_width =
-        has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
+    r->half_width = has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
     r->shape = shape_of(c, k, r->half_width);
     r->passes = k->unloaded ? 1 : k->passes;
     t->n = k->unloaded ? 1 : has_steps ? steps->steps : intervals(c) + 1;
@@ -333,11 +318,10 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
     if (!t->x || !t->load)
         return RB_ENOMEM;
     for (int i = 0; i < t->n; i++)
-        t->x[i] =
-            r->half_width * (k->unloaded  ? from
-                             : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
-                             : rolls      ? from + r->contact.history.distance[i]
-                                          : from);
+        t->x[i] = r->half_width * (k->unloaded  ? from
+                                   : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
+                                   : rolls      ? from + r->contact.history.distance[i]
+                                                : from);
     for (int i = 1; i < t->n && has_steps; i++)
         if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
             return rb_fail(why, RB_EINVAL,
@@ -353,8 +337,7 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
     return s;
 }
 
-rb_crack_passage rb_case_crack_passage(const rb_case_crack *k,
-                                       const rb_case_crack_track *t)
+rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_crack_track *t)
 {
     return (rb_crack_passage){.steps = t->n,
                               .x = t->x,
@@ -446,8 +429,8 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
 }
 
-rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k,
-                            rb_rolling_row *row, rb_message *why)
+rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k, rb_rolling_row *row,
+                            rb_message *why)
 {
     rb_case_crack_result r;
     const rb_status s = rb_case_crack_solve(c, k, &r, why);

@@ -9,9 +9,9 @@
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-#define OF(type, name_, member, ...)                                                     \
-    {                                                                                    \
-        .name = name_, .offset = offsetof(type, member), __VA_ARGS__                     \
+#define OF(type, name_, member, ...)                                                               \
+    {                                                                                              \
+        .name = name_, .offset = offsetof(type, member), __VA_ARGS__                               \
     }
 #define NUMBER(name, ...) OF(rb_case_crack_summary, #name, name, __VA_ARGS__)
 #define COLUMN(name, ...) OF(rb_crack_history, #name, name, __VA_ARGS__)
@@ -58,8 +58,7 @@ static const rb_rolling_result columns[] = {
     COLUMN(open_length, .unit = "mm", .meaning = "of the faces that are apart"),
     COLUMN(stick_length, .unit = "mm", .meaning = "of the faces that do not slide"),
     COLUMN(fluid_pressure, .unit = "MPa", .meaning = "in the crack"),
-    COLUMN(max_pressure, .unit = "MPa",
-           .meaning = "of a contact that depends on the crack"),
+    COLUMN(max_pressure, .unit = "MPa", .meaning = "of a contact that depends on the crack"),
 };
 
 #define GROWTH(name, ...) OF(rb_case_crack_growth, #name, name, __VA_ARGS__)
@@ -75,9 +74,9 @@ static const rb_rolling_result growth_columns[] = {
     GROWTH(cycles, .meaning = "passes until it has this length"),
 };
 
-#define TABLE(rows)                                                                      \
-    {                                                                                    \
-        sizeof(rows) / sizeof *(rows), rows                                              \
+#define TABLE(rows)                                                                                \
+    {                                                                                              \
+        sizeof(rows) / sizeof *(rows), rows                                                        \
     }
 const rb_rolling_results rb_case_crack_scalars = TABLE(scalars);
 const rb_rolling_results rb_case_crack_columns = TABLE(columns);
@@ -92,9 +91,7 @@ const rb_rolling_result_table *rb_case_result_table(int k)
     const rb_rolling_result_table *t = rb_rolling_result_tables;
     for (; t->name && k > 0; t++)
         k--;
-    return t->name                                           ? t
-           : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k]
-                                                             : NULL;
+    return t->name ? t : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k] : NULL;
 }
 
 static double *number_of(rb_case_crack_summary *s, int k)
@@ -106,8 +103,7 @@ void rb_case_crack_set_errors(const rb_case_crack_summary *finer, rb_case_crack_
 {
     rb_case_crack_summary fine = *finer;
     for (int k = 0; k < rb_case_crack_scalars.n; k++)
-        *number_of(&r->errors, k) =
-            2.0 * fabs(*number_of(&fine, k) - *number_of(&r->summary, k));
+        *number_of(&r->errors, k) = 2.0 * fabs(*number_of(&fine, k) - *number_of(&r->summary, k));
 }
 
 int rb_case_crack_has_result(const rb_rolling_result *r, const rb_case_crack *k)
@@ -203,9 +199,8 @@ rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *h, int pas
             s.kink_angle = theta * (180.0 / M_PI);
         }
         if (passes > 1) /* fmax takes the other one of a NAN */
-            s.pass_change =
-                fmax(s.pass_change, fmax(fabs(h->K_I[k] - h->K_I[k - steps]),
-                                         fabs(h->K_II[k] - h->K_II[k - steps])));
+            s.pass_change = fmax(s.pass_change, fmax(fabs(h->K_I[k] - h->K_I[k - steps]),
+                                                     fabs(h->K_II[k] - h->K_II[k - steps])));
     }
     s.open_max = rb_norm_inf((size_t)steps, h->open_length + from);
     s.fluid_pressure_max = rb_norm_inf((size_t)steps, h->fluid_pressure + from);
@@ -227,8 +222,7 @@ void rb_case_crack_set_row(rb_case_crack_result *r, rb_rolling_row *row)
     }
 }
 
-double rb_case_crack_of_row(const rb_rolling_result *r, int is_error,
-                            const rb_rolling_row *row)
+double rb_case_crack_of_row(const rb_rolling_result *r, int is_error, const rb_rolling_row *row)
 {
     return row->own[(is_error ? NUMBERS : 0) + (r - scalars)];
 }

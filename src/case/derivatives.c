@@ -25,9 +25,8 @@ static double *place_of(const rb_option *o, int entry, rb_resolved_case *words)
 {
     rb_numbers *list = (rb_numbers *)(void *)((char *)words + o->list);
 
-    return o->list && (entry > 0 || list->n > 0)
-               ? &list->value[entry]
-               : (double *)(void *)((char *)words + o->offset);
+    return o->list && (entry > 0 || list->n > 0) ? &list->value[entry]
+                                                 : (double *)(void *)((char *)words + o->offset);
 }
 
 /* A copy of the case in which the number is given, with another value in mm, N, MPa. */
@@ -56,8 +55,8 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
 {
     const rb_case_number *number = context;
     rb_case *copy = varied(number->c, number->option, number->entry, value);
-    const rb_status s = copy ? rb_case_resolve(copy, why)
-                             : rb_fail(why, RB_ENOMEM, "out of memory for a case");
+    const rb_status s =
+        copy ? rb_case_resolve(copy, why) : rb_fail(why, RB_ENOMEM, "out of memory for a case");
 
     if (s == RB_OK)
         *rc = copy->resolved.rc;
@@ -75,15 +74,14 @@ static int has_meaning(const rb_case *c, const rb_option *o, int entry, double v
         rb_message why;
         rb_case *copy = varied(c, o, entry, value + side * step);
         const double x = value + side * step;
-        means = copy && x >= o->range.from && x <= o->range.to &&
-                rb_case_resolve(copy, &why) == RB_OK;
+        means =
+            copy && x >= o->range.from && x <= o->range.to && rb_case_resolve(copy, &why) == RB_OK;
         rb_case_free(copy);
     }
     return means;
 }
 
-rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
-                          rb_message *why)
+rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_message *why)
 {
     *n = 0;
     (void)why;
@@ -97,23 +95,21 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
             const double value = *place_of(o, entry, &resolved);
 
             if (!(*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
-                  (entry == 0 &&
-                   isnan(*(double *)(void *)((char *)&words + o->offset))) ||
+                  (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
                   (o->word && value == o->word_value && o->word_value != 0.0) ||
-                  (o->word && value == o->word_value && value == 0.0 &&
-                   o->range.from >= 0.0) ||
+                  (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
                   rb_case_is_replaced(c, o) || !has_meaning(c, o, entry, value))) {
                 rb_case_number *it = &number[(*n)++];
                 *it = (rb_case_number){.option = o, .entry = entry, .c = c};
                 snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name,
                          entry + 1);
-                it->input = (rb_sensitivity_input){
-                    .value = value,
-                    .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
-                    .from = o->range.from,
-                    .to = o->range.to,
-                    .vary = vary,
-                    .context = it};
+                it->input = (rb_sensitivity_input){.value = value,
+                                                   .scale = value != 0.0 ? fabs(value)
+                                                                         : natural_scale(c, o),
+                                                   .from = o->range.from,
+                                                   .to = o->range.to,
+                                                   .vary = vary,
+                                                   .context = it};
             }
         }
     }
@@ -122,16 +118,15 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
 
 /* ---- By gap and mu over x ---------------------------------------------------------- */
 
-const char *const rb_case_over_x_names[RB_CASE_OVER_X_N] = {
-    [RB_CASE_OVER_X_LOAD] = "normal_load",
-    [RB_CASE_OVER_X_FORCE] = "tangential_load",
-    [RB_CASE_OVER_X_APPROACH] = "approach",
-    [RB_CASE_OVER_X_CREEPAGE] = "creepage"};
+const char *const rb_case_over_x_names[RB_CASE_OVER_X_N] = {[RB_CASE_OVER_X_LOAD] = "normal_load",
+                                                            [RB_CASE_OVER_X_FORCE] =
+                                                                "tangential_load",
+                                                            [RB_CASE_OVER_X_APPROACH] = "approach",
+                                                            [RB_CASE_OVER_X_CREEPAGE] = "creepage"};
 
 /* One adjoint solve each (D3), by the matrix of the model or, if it was solved without
  * one, of a copy. */
-static rb_status differentiate_over_x(const rb_sensitivity *s,
-                                      const rb_rolling_model *model,
+static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_model *model,
                                       rb_case_derivatives *all, rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
@@ -143,8 +138,8 @@ static rb_status differentiate_over_x(const rb_sensitivity *s,
     rb_sensitivity_rate adjoint = {0};
     rb_status status = RB_OK;
 
-    if ((!has_matrix && n >= RB_ROLLING_LARGE) ||
-        rb_rolling_law_depends_on_state(model->rc) || all->degenerate)
+    if ((!has_matrix && n >= RB_ROLLING_LARGE) || rb_rolling_law_depends_on_state(model->rc) ||
+        all->degenerate)
         return RB_OK;
     if (!has_matrix) {
         status = rb_rolling_variant_with_matrix(model, &copy, why);
@@ -172,16 +167,15 @@ static rb_status differentiate_over_x(const rb_sensitivity *s,
         weight.xi = k == RB_CASE_OVER_X_CREEPAGE;
         status = rb_sensitivity_adjoint(s, &weight, &adjoint, why);
         /* a given part of what friction carries changes with it */
-        const double part = p->force_given
-                                ? adjoint.tangential * p->force_ratio /
-                                      (p->mu * p->stress * model->bodies.f.h[0])
-                                : 0.0;
+        const double part = p->force_given ? adjoint.tangential * p->force_ratio /
+                                                 (p->mu * p->stress * model->bodies.f.h[0])
+                                           : 0.0;
         for (int i = 0; i < n && status == RB_OK; i++) {
             by_gap[i] = adjoint.gap[i];
             by_mu[i] =
-                adjoint.bound[i] - (part != 0.0 ? part * (p->load_N[i] * state->p[i] +
-                                                          p->load_T[i] * state->q[i])
-                                                : 0.0);
+                adjoint.bound[i] -
+                (part != 0.0 ? part * (p->load_N[i] * state->p[i] + p->load_T[i] * state->q[i])
+                             : 0.0);
         }
     }
     all->n_x = status == RB_OK ? n : 0;
@@ -189,23 +183,19 @@ static rb_status differentiate_over_x(const rb_sensitivity *s,
     rb_contact_state_free(&weight);
     rb_sensitivity_free(of_copy);
     rb_rolling_model_free(&copy);
-    return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives")
-                               : RB_OK;
+    return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives") : RB_OK;
 }
 
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
-                                const char *const *names, rb_case_derivatives *all,
-                                rb_message *why)
+                                const char *const *names, rb_case_derivatives *all, rb_message *why)
 {
     int numbers;
     rb_sensitivity *s = NULL;
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
 
-    *all = (rb_case_derivatives){
-        .of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative))};
-    rb_status status = number && all->of
-                           ? rb_sensitivity_create(model, 1, &s, why)
-                           : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    *all = (rb_case_derivatives){.of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative))};
+    rb_status status = number && all->of ? rb_sensitivity_create(model, 1, &s, why)
+                                         : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
     for (int k = 0; status == RB_OK && k < numbers; k++) {
@@ -288,8 +278,8 @@ const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_col
 }
 
 /* "0.02", "1%", "0.5mm" of the number; RB_EINVAL. */
-static rb_status read_deviation(const rb_case_number *number, const char *text,
-                                double *deviation, rb_message *why)
+static rb_status read_deviation(const rb_case_number *number, const char *text, double *deviation,
+                                rb_message *why)
 {
     char digits[64];
     const size_t n = strlen(text);
@@ -317,12 +307,11 @@ static int is_among(const char *name, const rb_case_tolerances *t)
     return k < t->n;
 }
 
-rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
-                                  rb_case_tolerances *t, rb_message *why)
+rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_tolerances *t,
+                                  rb_message *why)
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
-    rb_status s =
-        number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for tolerances");
+    rb_status s = number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for tolerances");
     int numbers = 0;
 
     t->n = 0;
@@ -343,13 +332,12 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text,
         else if (is_among(word, t))
             s = rb_fail(why, RB_EINVAL, "%s: given twice", word);
         else if (!value)
-            s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation",
-                        word, word);
+            s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation", word, word);
         else if (read_deviation(&number[k], value, &t->deviation[t->n], why) != RB_OK ||
                  !(t->deviation[t->n] >= 0.0))
             s = rb_fail(why, RB_EINVAL,
-                        "%s: expected a standard deviation >= 0 or per cent, got '%s'",
-                        word, value);
+                        "%s: expected a standard deviation >= 0 or per cent, got '%s'", word,
+                        value);
         else {
             t->value[t->n] = number[k].input.value;
             memcpy(t->name[t->n++], number[k].name, sizeof number[k].name);
@@ -373,8 +361,7 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
             if (of == all->of + all->n || of->status != RB_OK)
                 return rb_fail(why, RB_EINVAL, "tolerance: %s: %s", t->name[i],
                                of == all->of + all->n ? "no derivatives" : of->why.text);
-            const double left =
-                             of->d.has[0] ? rb_rolling_number(r, &of->d.value[0]) : NAN,
+            const double left = of->d.has[0] ? rb_rolling_number(r, &of->d.value[0]) : NAN,
                          right = of->d.sides == 1 ? left
                                  : of->d.has[1]   ? rb_rolling_number(r, &of->d.value[1])
                                                   : NAN;

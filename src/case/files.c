@@ -11,16 +11,15 @@ void rb_case_confine(rb_case *c, const char *folder)
     c->folder = folder;
 }
 
-rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s,
-                                  rb_message *why)
+rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s, rb_message *why)
 {
     return c->confined && s == RB_EFORMAT
                ? rb_fail(why, s, "%s: not what is expected of this file", path)
                : s;
 }
 
-rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
-                             size_t *size, rb_message *why)
+rb_status rb_case_read_input(const rb_case *c, const char *path, char **text, size_t *size,
+                             rb_message *why)
 {
     const rb_status s = c->confined ? rb_io_check_harmless(path, c->folder, why) : RB_OK;
     *text = NULL;
@@ -28,8 +27,8 @@ rb_status rb_case_read_input(const rb_case *c, const char *path, char **text,
 }
 
 /* columns: how many there must be; 0: any. */
-static rb_status read_table(const rb_case *c, const char *path, int columns,
-                            rb_io_table *t, rb_message *why)
+static rb_status read_table(const rb_case *c, const char *path, int columns, rb_io_table *t,
+                            rb_message *why)
 {
     char *text;
     size_t size;
@@ -69,9 +68,8 @@ static rb_units units_of_file(const rb_case *c, const char *option)
 }
 
 /* Two columns, of which the first `lengths` are in mm: the second over the first. */
-static rb_status read_over_x(const rb_case *c, case_table *t, const char *path,
-                             rb_units units, int lengths, rb_rolling_table *over_x,
-                             rb_message *why)
+static rb_status read_over_x(const rb_case *c, case_table *t, const char *path, rb_units units,
+                             int lengths, rb_rolling_table *over_x, rb_message *why)
 {
     if (!is_read(t, path, units)) {
         free_table(t);
@@ -106,11 +104,9 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     rb_rolling_table gap;
     if (resolved->rc.gap != RB_GAP_TABLE)
         return rb_case_refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) ||
-        c->profile.noise != noise)
+    if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise)
         free_profile(&c->profile);
-    rb_status s =
-        read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
+    rb_status s = read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
@@ -125,9 +121,9 @@ static rb_status read_friction(rb_case *c, rb_message *why)
     rb_resolved_case *resolved = &c->resolved;
     if (resolved->rc.friction.law != RB_FRICTION_table)
         return RB_OK;
-    const rb_status s = read_over_x(c, &c->table[CASE_FRICTION], resolved->friction_file,
-                                    units_of_file(c, "friction-law"), 1,
-                                    &resolved->rc.friction.table, why);
+    const rb_status s =
+        read_over_x(c, &c->table[CASE_FRICTION], resolved->friction_file,
+                    units_of_file(c, "friction-law"), 1, &resolved->rc.friction.table, why);
     if (s != RB_OK)
         return s;
     /* The table stands in the place of --mu: on the command line it wins over mu of the
@@ -154,8 +150,8 @@ static int program_column(const char *name, rb_guess *guess)
     return -1;
 }
 
-static rb_status set_program(const rb_io_table *t, const char *path,
-                             rb_rolling_program *program, rb_message *why)
+static rb_status set_program(const rb_io_table *t, const char *path, rb_rolling_program *program,
+                             rb_message *why)
 {
     *program = (rb_rolling_program){.n = t->rows};
     for (int j = 0; j < t->columns; j++) {
@@ -165,8 +161,7 @@ static rb_status set_program(const rb_io_table *t, const char *path,
             return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
                            rb_guess_text(&guess, ""));
         const double *column = t->x + (size_t)j * (size_t)t->rows;
-        memcpy((char *)program + rb_rolling_program_columns[k].column, &column,
-               sizeof column);
+        memcpy((char *)program + rb_rolling_program_columns[k].column, &column, sizeof column);
     }
     return RB_OK;
 }
@@ -222,11 +217,10 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
     const char *path = c->words.history_file;
     if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
-    rb_status s = read_program_table(c, &c->table[CASE_HISTORY], path,
-                                     units_of_file(c, "history"), why);
+    rb_status s =
+        read_program_table(c, &c->table[CASE_HISTORY], path, units_of_file(c, "history"), why);
     if (s == RB_OK)
-        s = rb_case_without_content(c, path, set_program(t, path, &c->words.program, why),
-                                    why);
+        s = rb_case_without_content(c, path, set_program(t, path, &c->words.program, why), why);
     if (s != RB_OK)
         return s;
     /* A column stands in the place of an option: as between two options the command line
@@ -240,8 +234,8 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
         const rb_option *option = replaced_option(t->name[j]);
         snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
         if (option)
-            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
-                                          reason, why);
+            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"), reason,
+                                          why);
     }
     return s;
 }
@@ -257,11 +251,10 @@ rb_status rb_case_read_files(rb_case *c, rb_message *why)
 
         if (resolved->irregularity_file)
             s = read_over_x(c, &c->table[CASE_IRREGULARITY], resolved->irregularity_file,
-                            units_of_file(c, "irregularity"), 2,
-                            &resolved->rc.irregularity, why);
+                            units_of_file(c, "irregularity"), 2, &resolved->rc.irregularity, why);
         if (s == RB_OK && resolved->worn_file)
-            s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file,
-                            units_of_file(c, "worn"), 2, &resolved->rc.worn, why);
+            s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file, units_of_file(c, "worn"),
+                            2, &resolved->rc.worn, why);
     }
     return s == RB_OK ? read_friction(c, why) : s;
 }

@@ -82,13 +82,11 @@ typedef struct {
 /* 1: both points differ by the creepage alone. */
 static int are_alike(const rb_case_data *d, int i, int j)
 {
-    return (!d->load || d->load[i] == d->load[j]) &&
-           (!d->speed || d->speed[i] == d->speed[j]) &&
+    return (!d->load || d->load[i] == d->load[j]) && (!d->speed || d->speed[i] == d->speed[j]) &&
            (!d->temperature || d->temperature[i] == d->temperature[j]);
 }
 
-static rb_status resolve(const place *at, double value, rb_rolling_case *rc,
-                         rb_message *why)
+static rb_status resolve(const place *at, double value, rb_rolling_case *rc, rb_message *why)
 {
     const problem *p = at->p;
     const rb_case_data *d = p->data;
@@ -115,8 +113,7 @@ static rb_status resolve(const place *at, double value, rb_rolling_case *rc,
 }
 
 /* The case of a point: options are resolved once for all that are alike. */
-static rb_status case_at(void *context, double value, rb_rolling_case *rc,
-                         rb_message *why)
+static rb_status case_at(void *context, double value, rb_rolling_case *rc, rb_message *why)
 {
     const place *at = context;
     problem *p = at->p;
@@ -125,9 +122,8 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc,
     const resolved *known = p->known;
     rb_status s = RB_OK;
 
-    while (known < p->known + p->known_n &&
-           !(known->varied == varied && known->value == x &&
-             are_alike(p->data, known->point, at->point)))
+    while (known < p->known + p->known_n && !(known->varied == varied && known->value == x &&
+                                              are_alike(p->data, known->point, at->point)))
         known++;
     if (known < p->known + p->known_n)
         *rc = known->rc;
@@ -162,8 +158,8 @@ static double measure(const problem *p, const rb_rolling_model *model)
 /* The derivatives of the force at a solved point with respect to all parameters: one
  * adjoint solve. */
 static rb_status differentiate(problem *p, const double *theta, int k,
-                               const rb_rolling_model *model, const rb_sensitivity *s,
-                               double *row, rb_message *why)
+                               const rb_rolling_model *model, const rb_sensitivity *s, double *row,
+                               rb_message *why)
 {
     const rb_contact_problem *q = &model->problem;
     const double P = rb_contact_load(q, &model->state), f = measure(p, model);
@@ -187,13 +183,11 @@ static rb_status differentiate(problem *p, const double *theta, int k,
     for (int j = 0; j < p->n && status == RB_OK; j++) {
         const rb_case_parameter *of = &p->fit->parameter[j];
         place at = {p, theta, k, j};
-        const rb_sensitivity_input input = {theta[j], of->scale, of->from,
-                                            of->to,   case_at,   &at};
+        const rb_sensitivity_input input = {theta[j], of->scale, of->from, of->to, case_at, &at};
         double mu_rate = 0.0;
         status = rb_sensitivity_rates(s, &input, &rate, &mu_rate, why);
         if (status == RB_OK)
-            row[j] =
-                rb_sensitivity_dot(&adjoint, &rate) - (ratio ? f / q->mu * mu_rate : 0.0);
+            row[j] = rb_sensitivity_dot(&adjoint, &rate) - (ratio ? f / q->mu * mu_rate : 0.0);
         rb_sensitivity_rate_free(&rate);
     }
     rb_sensitivity_rate_free(&adjoint);
@@ -228,8 +222,7 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
             status = rb_sensitivity_tangent(s, &left, 1, &step, why);
         if (status != RB_OK)
             break;
-        change =
-            rb_norm_inf((size_t)step.n, step.q) / rb_contact_friction_scale(&v->problem);
+        change = rb_norm_inf((size_t)step.n, step.q) / rb_contact_friction_scale(&v->problem);
         rb_rolling_variant_set(&v->state, &step, 1.0, &v->state);
         if (!(change < 0.5 * before))
             break;
@@ -241,14 +234,12 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
     v->state.residual = violation.scaled;
     rb_contact_state_free(&step);
     rb_sensitivity_rate_free(&left);
-    return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER
-                                                                        : status;
+    return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER : status;
 }
 
 /* Solves a point; the first of those that share elements makes the flexibility.  A point
  * that was not solved before starts from the solution of the one before it. */
-static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k,
-                             rb_message *why)
+static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k, rb_message *why)
 {
     point *at = &p->at[k];
     const int now = p->last == 0;
@@ -341,8 +332,7 @@ static int shares_elements(const problem *p, int k, int with)
 
 /* Makes the elements of all points for the numbers theta.  *moved: 1: some are others
  * than before. */
-static rb_status place_elements(problem *p, const double *theta, int *moved,
-                                rb_message *why)
+static rb_status place_elements(problem *p, const double *theta, int *moved, rb_message *why)
 {
     rb_status s = RB_OK;
 
@@ -364,9 +354,8 @@ static rb_status place_elements(problem *p, const double *theta, int *moved,
             s = rb_rolling_model_create(&rc, &fresh, why);
         const rb_rolling_mesh *old = &of->base.mesh, *mesh = &fresh.mesh;
         if (of->first == k && s == RB_OK)
-            *moved |= old->n != mesh->n ||
-                      memcmp(old->ends, mesh->ends,
-                             ((size_t)mesh->n + 1) * sizeof *mesh->ends) != 0;
+            *moved |= old->n != mesh->n || memcmp(old->ends, mesh->ends,
+                                                  ((size_t)mesh->n + 1) * sizeof *mesh->ends) != 0;
         rb_rolling_model_free(&of->base);
         of->base = fresh;
     }
@@ -466,8 +455,7 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, points, n);
     gsl_vector *x = gsl_vector_alloc(n);
     state at = {.p = p, .worst = 1.0, .why = why};
-    gsl_multifit_nlinear_fdf fdf = {
-        .f = residuals, .df = rows, .n = points, .p = n, .params = &at};
+    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = rows, .n = points, .p = n, .params = &at};
     double chi2 = INFINITY;
     int done = 0;
     rb_status s = w && x ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a fit");
@@ -498,8 +486,7 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
         }
         if (s == RB_OK && observer && observer->step &&
             observer->step(p->fit->iterations, chi2, p->n, theta, observer->context))
-            s = rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d steps",
-                        p->fit->iterations);
+            s = rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d steps", p->fit->iterations);
     }
     p->fit->chi_square = chi2;
     if (w)
@@ -568,9 +555,9 @@ static int falling_points(const problem *p)
         if (fabs(d->force[k]) > fabs(d->force[top]))
             top = k;
     for (int k = 0; k < p->points; k++)
-        falling += fabs(d->creep[k]) > fabs(d->creep[top]) &&
-                   fabs(d->force[top]) - fabs(d->force[k]) >
-                       3.0 * noise * (d->sigma ? d->sigma[k] : 1.0);
+        falling +=
+            fabs(d->creep[k]) > fabs(d->creep[top]) &&
+            fabs(d->force[top]) - fabs(d->force[k]) > 3.0 * noise * (d->sigma ? d->sigma[k] : 1.0);
     return falling;
 }
 
@@ -588,11 +575,9 @@ static void not_identified(const problem *p, int j)
     of->identified = 0;
     p->fit->unidentified++;
     if (is_of_fall(of) && falling_points(p) < 2)
-        say(p->fit, "%sno point in the falling part: %s is not identified\n", "",
-            of->name);
+        say(p->fit, "%sno point in the falling part: %s is not identified\n", "", of->name);
     else
-        say(p->fit, "%sthe data do not determine %s: it is not identified\n", "",
-            of->name);
+        say(p->fit, "%sthe data do not determine %s: it is not identified\n", "", of->name);
 }
 
 static void set_intervals(problem *p, const double *theta)
@@ -603,8 +588,7 @@ static void set_intervals(problem *p, const double *theta)
     int which = -1;
 
     fit->degrees_of_freedom = p->points - n;
-    const double variance =
-        p->data->sigma ? 1.0 : fit->chi_square / fit->degrees_of_freedom;
+    const double variance = p->data->sigma ? 1.0 : fit->chi_square / fit->degrees_of_freedom;
     const double t = gsl_cdf_tdist_Pinv(0.5 + 0.5 * fit->level, fit->degrees_of_freedom);
     const rb_status s = covariance(p, C, &which);
 
@@ -617,8 +601,8 @@ static void set_intervals(problem *p, const double *theta)
         of->interval[1] = theta[j] + half;
         of->deviation = half / t;
         of->identified = 1;
-        of->at_bound = theta[j] <= of->low + 1e-8 * of->scale ||
-                       theta[j] >= of->high - 1e-8 * of->scale;
+        of->at_bound =
+            theta[j] <= of->low + 1e-8 * of->scale || theta[j] >= of->high - 1e-8 * of->scale;
         for (int i = 0; i < n; i++)
             of->correlation[i] =
                 s == RB_OK ? C[i + j * n] / sqrt(C[i + i * n] * C[j + j * n]) : NAN;
@@ -632,8 +616,7 @@ static void set_intervals(problem *p, const double *theta)
             (of->positive && !(half < fabs(of->value))))
             not_identified(p, j);
         if (of->at_bound && of->identified)
-            say(fit,
-                "%s lies at an end of its range; its interval does not hold there%s\n",
+            say(fit, "%s lies at an end of its range; its interval does not hold there%s\n",
                 of->name, "");
         for (int i = 0; i < j; i++)
             if (fabs(of->correlation[i]) > CORRELATED)
@@ -681,10 +664,10 @@ static double start_of(const problem *p, const char *name)
         const double P = p->data->load ? p->data->load[k] : c->derived.load;
 
         const double xi = fabs(d->creep[k]),
-                     f = fabs(p->data->force[k]) *
-                         (p->data->measure == RB_CASE_FORCE         ? 1.0 / P
-                          : p->data->measure == RB_CASE_FORCE_RATIO ? c->rc.mu
-                                                                    : 1.0);
+                     f = fabs(p->data->force[k]) * (p->data->measure == RB_CASE_FORCE ? 1.0 / P
+                                                    : p->data->measure == RB_CASE_FORCE_RATIO
+                                                        ? c->rc.mu
+                                                        : 1.0);
         most = fmax(most, f);
         if (xi >= far) {
             far = xi;
@@ -724,16 +707,14 @@ static rb_status set_parameter(problem *p, int j, rb_message *why)
 
     if (!o || o->kind != RB_OPTION_NUMBER || o->frozen ||
         (o == p->creep && strcmp(of->name, "creep") == 0))
-        return rb_fail(why, RB_EINVAL,
-                       "--fit: '%s' is not a number that can be fitted to forces",
+        return rb_fail(why, RB_EINVAL, "--fit: '%s' is not a number that can be fitted to forces",
                        of->name);
     p->option[j] = o;
     of->unit = o->unit;
     const int offset = o == p->creep;
     if (offset)
         p->offset = j;
-    const double own =
-        *(const double *)(const void *)((const char *)&p->c->resolved + o->offset);
+    const double own = *(const double *)(const void *)((const char *)&p->c->resolved + o->offset);
     const int by = p->c->given[o - rb_case_table];
     const int given = by != 0 && by != RB_GIVEN_NUMBER; /* else it was prepared */
     const double guess = start_of(p, of->name);
@@ -745,18 +726,17 @@ static rb_status set_parameter(problem *p, int j, rb_message *why)
     of->to = offset ? INFINITY : o->range.to;
     of->low_open = o->range.from_open;
     of->high_open = o->range.to_open;
-    of->positive = !offset && o->range.from == 0.0 &&
-                   (o->range.from_open || strcmp(of->name, "mu") == 0);
+    of->positive =
+        !offset && o->range.from == 0.0 && (o->range.from_open || strcmp(of->name, "mu") == 0);
     of->low = fmax(of->low, strcmp(of->name, "mu") == 0        ? LEAST_MU
                             : strcmp(of->name, "mu-fall") == 0 ? 0.0
                                                                : of->from);
-    of->high =
-        fmin(of->high, strncmp(of->name, "mu", 3) == 0 || strcmp(of->name, "mu-fall") == 0
-                           ? MOST_MU
-                           : of->to);
+    of->high = fmin(of->high, strncmp(of->name, "mu", 3) == 0 || strcmp(of->name, "mu-fall") == 0
+                                  ? MOST_MU
+                                  : of->to);
     if (!isfinite(of->value))
-        return rb_fail(why, RB_EINVAL, "--fit: %s has no value to start from; give --%s",
-                       of->name, of->name);
+        return rb_fail(why, RB_EINVAL, "--fit: %s has no value to start from; give --%s", of->name,
+                       of->name);
     of->scale = of->value != 0.0                 ? fabs(of->value)
                 : offset                         ? 0.1 * d->half_width / d->radius
                 : strcmp(o->unit, "mm/MPa") == 0 ? 1e-2 * d->half_width / d->modulus
@@ -773,8 +753,8 @@ static int is_fitted(const rb_case_fit *fit, const char *name)
     return found;
 }
 
-rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
-                              const rb_case_fit *fit, rb_message *why)
+rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
+                              rb_message *why)
 {
     const int falls = is_fitted(fit, "mu-fall") || is_fitted(fit, "slip-scale");
     rb_status s = RB_OK;
@@ -787,8 +767,8 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data,
         s = rb_case_set_number(c, "slip-scale", 1.0, why);
     if (s == RB_OK && data->speed && !rb_case_given(c, "speed"))
         s = rb_case_set_number(c, "speed", 1.0, why);
-    if (s == RB_OK && data->load && !rb_case_given(c, "load") &&
-        !rb_case_given(c, "half-width") && !rb_case_given(c, "approach"))
+    if (s == RB_OK && data->load && !rb_case_given(c, "load") && !rb_case_given(c, "half-width") &&
+        !rb_case_given(c, "approach"))
         s = rb_case_set_number(c, "load", data->load[0], why);
     return s;
 }
@@ -805,8 +785,7 @@ static int falls_unidentified(const rb_case_fit *fit)
 }
 
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
-                            const rb_case_fit_observer *observer, rb_case_fit *fit,
-                            rb_message *why)
+                            const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
 {
     const size_t points = (size_t)data->n;
     problem p = {.c = c,
@@ -825,8 +804,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
-        return rb_fail(why, RB_EINVAL,
-                       "--fit: %d points are not enough for %d parameters", data->n,
+        return rb_fail(why, RB_EINVAL, "--fit: %d points are not enough for %d parameters", data->n,
                        fit->n);
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(RESOLVED_MAX, sizeof *p.known);
@@ -857,11 +835,10 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         set_intervals(&p, theta);
     /* a fall that the data do not tell has a kappa that they do not tell */
     if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
-        s = rb_fail(
-            why, RB_INACCURATE,
-            "fit: kappa = %.3g at the best fit: above 1 the model itself has "
-            "several solutions; give friction a memory (--memory), or fit that too",
-            p.kappa);
+        s = rb_fail(why, RB_INACCURATE,
+                    "fit: kappa = %.3g at the best fit: above 1 the model itself has "
+                    "several solutions; give friction a memory (--memory), or fit that too",
+                    p.kappa);
     fit->status = s;
     release(&p, p.last);
     for (size_t k = 0; p.at && k < points; k++)

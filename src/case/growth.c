@@ -12,28 +12,25 @@ rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
     if (isnan(k->paris))
         return isnan(k->grow_to) && k->threshold == 0.0 && !k->tension
                    ? RB_OK
-                   : rb_fail(
-                         why, RB_EINVAL,
-                         "--grow-to, --threshold and --growth: of a crack that grows; "
-                         "give --paris C,m");
+                   : rb_fail(why, RB_EINVAL,
+                             "--grow-to, --threshold and --growth: of a crack that grows; "
+                             "give --paris C,m");
     if (k->paris_law.n != 2 || !(k->paris_law.value[1] > 0.0))
         return rb_fail(why, RB_EINVAL, "--paris: expected two numbers C,m > 0");
     if (k->unloaded)
         return rb_fail(why, RB_EINVAL,
                        "--paris: cracks grow under loads that pass; --unloaded has none");
     if (!isnan(k->grow_to) && !(k->grow_to > k->length))
-        return rb_fail(
-            why, RB_EINVAL,
-            "--grow-to: expected more than the length of the crack, %g, got %g",
-            k->length, k->grow_to);
+        return rb_fail(why, RB_EINVAL,
+                       "--grow-to: expected more than the length of the crack, %g, got %g",
+                       k->length, k->grow_to);
     return RB_OK;
 }
 
 static rb_status growth_alloc(int n, rb_case_crack_growth *g)
 {
-    double **const column[] = {&g->length,  &g->tip_x,   &g->tip_y,
-                               &g->angle,   &g->K_I_max, &g->delta_K_II,
-                               &g->delta_K, &g->rate,    &g->cycles};
+    double **const column[] = {&g->length,     &g->tip_x,   &g->tip_y, &g->angle, &g->K_I_max,
+                               &g->delta_K_II, &g->delta_K, &g->rate,  &g->cycles};
     enum { COLUMNS = sizeof column / sizeof *column };
     double *all = rb_alloc((size_t)n, COLUMNS);
 
@@ -47,8 +44,7 @@ static rb_status growth_alloc(int n, rb_case_crack_growth *g)
 static double last_angle(const rb_crack_path *path)
 {
     const int k = path->pieces;
-    return atan2(path->y[k - 1] - path->y[k], path->x[k] - path->x[k - 1]) *
-           (180.0 / M_PI);
+    return atan2(path->y[k - 1] - path->y[k], path->x[k] - path->x[k - 1]) * (180.0 / M_PI);
 }
 
 /* Straight on, or as a new piece in another direction. */
@@ -66,9 +62,8 @@ static int extend(double by, double angle, rb_crack_path *path)
 }
 
 /* dK and da/dN, whose law is written in the units of the case. */
-static void add_length(const rb_resolved_case *c, const rb_case_crack *k,
-                       const rb_crack_path *path, double length,
-                       const rb_case_crack_summary *s, rb_case_crack_growth *g)
+static void add_length(const rb_resolved_case *c, const rb_case_crack *k, const rb_crack_path *path,
+                       double length, const rb_case_crack_summary *s, rb_case_crack_growth *g)
 {
     const int i = g->n++;
     const double opens = fmax(s->K_I_max, 0.0) - fmax(s->K_I_min, 0.0);
@@ -83,18 +78,17 @@ static void add_length(const rb_resolved_case *c, const rb_case_crack *k,
                         ? s->delta_K_II
                         : pow(gsl_pow_4(opens) + 8.0 * gsl_pow_4(s->delta_K_II), 0.25);
     g->rests = g->delta_K[i] <= k->threshold;
-    g->rate[i] =
-        g->rests
-            ? 0.0
-            : rb_unit_stored(c->units, "mm",
-                             k->paris_law.value[0] *
-                                 pow(rb_unit_shown(c->units, "MPa.mm^0.5", g->delta_K[i]),
-                                     k->paris_law.value[1]));
+    g->rate[i] = g->rests
+                     ? 0.0
+                     : rb_unit_stored(c->units, "mm",
+                                      k->paris_law.value[0] *
+                                          pow(rb_unit_shown(c->units, "MPa.mm^0.5", g->delta_K[i]),
+                                              k->paris_law.value[1]));
     if (i > 0) /* the law's 1/rate over the length, by trapezia */
         g->cycles[i] =
-            g->cycles[i - 1] + 0.5 * (length - g->length[i - 1]) *
-                                   (1.0 / g->rate[i - 1] +
-                                    (g->rests ? 1.0 / g->rate[i - 1] : 1.0 / g->rate[i]));
+            g->cycles[i - 1] +
+            0.5 * (length - g->length[i - 1]) *
+                (1.0 / g->rate[i - 1] + (g->rests ? 1.0 / g->rate[i - 1] : 1.0 / g->rate[i]));
 }
 
 rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
@@ -113,8 +107,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
     for (int i = 1; i <= k->grow_steps && s == RB_OK && !g->rests; i++) {
         rb_crack *crack = NULL;
         rb_crack_history history = {0};
-        const double angle =
-            last_angle(&shape.path) - (k->tension ? summary.kink_angle : 0.0);
+        const double angle = last_angle(&shape.path) - (k->tension ? summary.kink_angle : 0.0);
         if (!extend((last - first) / k->grow_steps, angle, &shape.path)) {
             g->surfaced = 1;
             break;
@@ -126,8 +119,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
         if (s == RB_OK) {
             summary = rb_case_crack_summarise(&history, passage->passes);
             g->path = shape.path;
-            add_length(c, k, &shape.path, first + (last - first) * i / k->grow_steps,
-                       &summary, g);
+            add_length(c, k, &shape.path, first + (last - first) * i / k->grow_steps, &summary, g);
         }
         rb_crack_history_free(&history);
         rb_crack_free(crack);

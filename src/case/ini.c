@@ -28,8 +28,7 @@ static char *read_line(char *line, int size, void *context)
     st->line++;
     const size_t n = strcspn(st->at, "\n");
     if (n + 2 > (size_t)size) {
-        st->status =
-            rb_fail(st->why, RB_EFORMAT, "%s:%d: line too long", st->path, st->line);
+        st->status = rb_fail(st->why, RB_EFORMAT, "%s:%d: line too long", st->path, st->line);
         return NULL;
     }
     const size_t indent = strspn(st->at, " \t");
@@ -59,13 +58,11 @@ static rb_status check_section(const ini_state *st, const rb_option_set *set, in
     const char *wanted = rb_case_section(&set->options[i]);
     if (*section == '\0' || strcmp(section, wanted) == 0)
         return RB_OK;
-    return rb_fail(st->why, RB_EFORMAT,
-                   "%s:%d: key '%s' belongs to section [%s], not [%s]", st->path,
-                   st->line, set->options[i].name, wanted, section);
+    return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' belongs to section [%s], not [%s]",
+                   st->path, st->line, set->options[i].name, wanted, section);
 }
 
-static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
-                           const char *value)
+static rb_status set_value(const ini_state *st, const rb_option_set *set, int i, const char *value)
 {
     char what[400];
     const rb_option *o = &set->options[i];
@@ -75,10 +72,8 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
     snprintf(what, sizeof what, "%s:%d: %s", st->path, st->line, o->name);
     if (strstr(value, " #"))
         return rb_fail(st->why, RB_EFORMAT,
-                       "%s: a comment after a value begins with ';', got '%.60s'", what,
-                       value);
-    return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK
-                                                                            : RB_EFORMAT;
+                       "%s: a comment after a value begins with ';', got '%.60s'", what, value);
+    return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK : RB_EFORMAT;
 }
 
 static rb_status set_key(const ini_state *st, const char *section, const char *name,
@@ -86,21 +81,19 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
 {
     int i;
     rb_guess guess = {.word = name}, near = {.word = section};
-    const rb_option_set *set =
-        rb_option_find(st->n, st->sets, name, strlen(name), &i, &guess);
+    const rb_option_set *set = rb_option_find(st->n, st->sets, name, strlen(name), &i, &guess);
     if (*section != '\0' && !known_section(st, section, &near))
-        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown section '%s'%s", st->path,
-                       st->line, section, rb_guess_text(&near, ""));
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown section '%s'%s", st->path, st->line,
+                       section, rb_guess_text(&near, ""));
     if (!set)
-        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown key '%s'%s", st->path,
-                       st->line, name, rb_guess_text(&guess, ""));
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown key '%s'%s", st->path, st->line, name,
+                       rb_guess_text(&guess, ""));
     if (check_section(st, set, i, section) != RB_OK)
         return RB_EFORMAT;
     const int before = set->given ? set->given[i] : 0;
     if (before > 0)
-        return rb_fail(st->why, RB_EFORMAT,
-                       "%s:%d: key '%s' was given before, in line %d", st->path, st->line,
-                       name, before);
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' was given before, in line %d",
+                       st->path, st->line, name, before);
     if (strcmp(name, "units") == 0) {
         /* The file's numbers are in its own units, whatever an argument wants to see. */
         const int former = set->given[i];
@@ -116,8 +109,7 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
     return before == RB_GIVEN_ARGUMENT ? RB_OK : set_value(st, set, i, value);
 }
 
-static int handle_key(void *context, const char *section, const char *name,
-                      const char *value)
+static int handle_key(void *context, const char *section, const char *name, const char *value)
 {
     ini_state *st = context; /* behind an error read_line ends the file */
     st->status = set_key(st, section, name, value);
@@ -140,9 +132,8 @@ static rb_status read_text(rb_case *c, const char *path, const char *text, int n
     if (st.status == RB_OK && bad_line < 0)
         st.status = rb_fail(st.why, RB_ENOMEM, "%s: out of memory", st.path);
     else if (st.status == RB_OK && bad_line)
-        st.status =
-            rb_fail(st.why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
-                    st.path, bad_line);
+        st.status = rb_fail(st.why, RB_EFORMAT, "%s:%d: expected [section] or key = value", st.path,
+                            bad_line);
     const rb_status s = st.status;
     free(sets);
     return s;
@@ -161,8 +152,7 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
     return rb_case_without_content(c, path, s, why);
 }
 
-rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
-                            rb_message *why)
+rb_status rb_case_read_text(rb_case *c, const char *name, const char *text, rb_message *why)
 {
     return read_text(c, name, text, 0, NULL, why);
 }

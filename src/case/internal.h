@@ -54,8 +54,7 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
 
 /* Reports an error in a file; if c is confined, the message does not contain the content
  * of the file. */
-rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s,
-                                  rb_message *why);
+rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s, rb_message *why);
 
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 
@@ -70,8 +69,7 @@ rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
 /* Error bars from the summary on twice as many elements: of second order, a third of the
  * difference is left in it. */
-void rb_case_crack_set_errors(const rb_case_crack_summary *finer,
-                              rb_case_crack_result *result);
+void rb_case_crack_set_errors(const rb_case_crack_summary *finer, rb_case_crack_result *result);
 /* The summary and its error bars as the own numbers of a row. */
 void rb_case_crack_set_row(rb_case_crack_result *result, rb_rolling_row *row);
 
@@ -105,8 +103,7 @@ rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence
                             rb_message *why);
 /* Resets the options that exclude `option`, whose value comes from another place (by, as
  * in `given`); refused with the reason if rb_option_resolve would refuse both. */
-rb_status rb_option_resolve_against(const rb_option_set *set,
-                                    const rb_option_precedence *how,
+rb_status rb_option_resolve_against(const rb_option_set *set, const rb_option_precedence *how,
                                     const rb_option *option, int by, const char *reason,
                                     rb_message *why);
 

@@ -13,18 +13,16 @@ unsigned rb_case_alike(rb_rolling_formulation formulation)
 
 rb_option_precedence rb_case_precedence(const rb_case *c)
 {
-    return (rb_option_precedence){&c->defaults, rb_case_alike(c->words.rc.formulation),
-                                  c->path};
+    return (rb_option_precedence){&c->defaults, rb_case_alike(c->words.rc.formulation), c->path};
 }
 
-const char *rb_option_source(const rb_option *option, int given, const char *path,
-                             char *text, size_t size)
+const char *rb_option_source(const rb_option *option, int given, const char *path, char *text,
+                             size_t size)
 {
     if (given > 0)
         snprintf(text, size, "%s:%d: %s", path, given, option->name);
     else
-        snprintf(text, size, "%s%s", given == RB_GIVEN_ARGUMENT ? "--" : "",
-                 option->name);
+        snprintf(text, size, "%s%s", given == RB_GIVEN_ARGUMENT ? "--" : "", option->name);
     return text;
 }
 
@@ -43,8 +41,7 @@ static size_t size_of(rb_option_kind kind)
 static void take_back(const rb_option_set *set, int i, const void *defaults)
 {
     const rb_option *o = &set->options[i];
-    memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset,
-           size_of(o->kind));
+    memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset, size_of(o->kind));
     set->given[i] = 0;
 }
 
@@ -61,8 +58,8 @@ static int is_argument_over_file(int by, int other)
 }
 
 /* i and j are both given and exclude each other. */
-static rb_status resolve_pair(const rb_option_set *set, const rb_option_precedence *how,
-                              int i, int j, rb_message *why)
+static rb_status resolve_pair(const rb_option_set *set, const rb_option_precedence *how, int i,
+                              int j, rb_message *why)
 {
     char first[400], second[400];
     const int by_i = set->given[i], by_j = set->given[j];
@@ -83,8 +80,7 @@ rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence
     for (int i = 0; i < set->n; i++)
         for (int j = i + 1; j < set->n && set->given[i]; j++) {
             if (!set->given[j] ||
-                !exclude_each_other(set->options[i].excludes, set->options[j].excludes,
-                                    how->alike))
+                !exclude_each_other(set->options[i].excludes, set->options[j].excludes, how->alike))
                 continue;
             const rb_status s = resolve_pair(set, how, i, j, why);
             if (s != RB_OK)
@@ -93,22 +89,19 @@ rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence
     return RB_OK;
 }
 
-rb_status rb_option_resolve_against(const rb_option_set *set,
-                                    const rb_option_precedence *how,
+rb_status rb_option_resolve_against(const rb_option_set *set, const rb_option_precedence *how,
                                     const rb_option *option, int by, const char *reason,
                                     rb_message *why)
 {
     char text[400];
     for (int i = 0; i < set->n; i++) {
         const int given = set->given[i];
-        if (!given ||
-            !exclude_each_other(option->excludes, set->options[i].excludes, how->alike))
+        if (!given || !exclude_each_other(option->excludes, set->options[i].excludes, how->alike))
             continue;
         if (!is_argument_over_file(by, given))
-            return rb_fail(
-                why, given > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
-                rb_option_source(&set->options[i], given, how->path, text, sizeof text),
-                reason);
+            return rb_fail(why, given > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
+                           rb_option_source(&set->options[i], given, how->path, text, sizeof text),
+                           reason);
         take_back(set, i, how->defaults);
     }
     return RB_OK;

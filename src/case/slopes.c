@@ -8,8 +8,7 @@
 
 /* ---- Which columns ----------------------------------------------------------------- */
 
-static const rb_rolling_result *find_result(const rb_rolling_results *table,
-                                            const char *name)
+static const rb_rolling_result *find_result(const rb_rolling_results *table, const char *name)
 {
     for (int k = 0; k < table->n; k++)
         if (rb_sensitivity_has(&table->row[k]) && strcmp(table->row[k].name, name) == 0)
@@ -36,9 +35,8 @@ static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
 }
 
 /* "RESULT", by all numbers, or "RESULT:OPTION". */
-static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *word,
-                          int numbers, const rb_case_number *number, int most,
-                          rb_message *why)
+static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *word, int numbers,
+                          const rb_case_number *number, int most, rb_message *why)
 {
     char *input = strchr(word, ':');
     const int all = strcmp(word, "all") == 0;
@@ -53,10 +51,9 @@ static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *wo
         for (int k = 0; k < s->table->n; k++)
             if (rb_sensitivity_has(&s->table->row[k]))
                 rb_guess_try(&guess, s->table->row[k].name);
-        return rb_fail(why, RB_EINVAL,
-                       "expected a result that has derivatives%s, got '%s'%s",
-                       s->table == &rb_rolling_history_columns ? " step by step" : "",
-                       word, rb_guess_text(&guess, ""));
+        return rb_fail(why, RB_EINVAL, "expected a result that has derivatives%s, got '%s'%s",
+                       s->table == &rb_rolling_history_columns ? " step by step" : "", word,
+                       rb_guess_text(&guess, ""));
     }
     if (!all && !rb_rolling_has_result(find_result(s->table, word), rc))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
@@ -77,8 +74,7 @@ static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *wo
 }
 
 rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
-                                const char *words, int most, rb_case_slopes *s,
-                                rb_message *why)
+                                const char *words, int most, rb_case_slopes *s, rb_message *why)
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
     int numbers = 0;
@@ -133,8 +129,7 @@ void rb_case_slopes_convert(rb_case_slopes *s, rb_units units)
 {
     s->units = units;
     for (size_t i = 0; i < 2 * (size_t)s->rows * (size_t)s->n; i++)
-        s->value[i] =
-            rb_case_slope_shown(&s->of[i / 2 % (size_t)s->n], units, s->value[i]);
+        s->value[i] = rb_case_slope_shown(&s->of[i / 2 % (size_t)s->n], units, s->value[i]);
 }
 
 static void append_word(const char *word, char text[RB_CASE_SLOPE_HEADING])
@@ -182,8 +177,7 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
 {
     const char *name[RB_CASE_NUMBERS_MAX];
     rb_case_derivatives all;
-    const rb_status status =
-        rb_case_differentiate(c, model, inputs_of(s, name), name, &all, why);
+    const rb_status status = rb_case_differentiate(c, model, inputs_of(s, name), name, &all, why);
 
     for (int k = 0; k < s->n && status == RB_OK; k++)
         for (int j = 0; j < all.n; j++) {
@@ -193,8 +187,7 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
             for (int side = 0; side < 2; side++) {
                 const int from = of->d.sides == 1 ? 0 : side;
                 if (of->d.has[from])
-                    row[2 * k + side] =
-                        rb_rolling_number(s->of[k].result, &of->d.value[from]);
+                    row[2 * k + side] = rb_rolling_number(s->of[k].result, &of->d.value[from]);
             }
         }
     rb_case_derivatives_free(&all);
@@ -252,8 +245,8 @@ static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *mo
     return NULL;
 }
 
-rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
-                               const char *words, rb_case_slopes *s, rb_message *why)
+rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
+                               rb_case_slopes *s, rb_message *why)
 {
     const curve_slopes of = {c, range, c->resolved.rc.mu, NULL};
     rb_case *point = case_of_point(&of, NULL, why);
@@ -261,14 +254,13 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range,
     *s = (rb_case_slopes){0};
     if (!point)
         return RB_EINVAL;
-    const rb_status status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars,
-                                                   words, RB_CASE_SLOPES_MAX, s, why);
+    const rb_status status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars, words,
+                                                   RB_CASE_SLOPES_MAX, s, why);
     rb_case_free(point);
     return status;
 }
 
-static rb_status see_point(const rb_rolling_model *model, int k, void *context,
-                           rb_message *why)
+static rb_status see_point(const rb_rolling_model *model, int k, void *context, rb_message *why)
 {
     const curve_slopes *of = context;
     rb_case *point = case_of_point(of, model, why);
@@ -290,8 +282,7 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
     rc.mu = mu;
     if (rb_case_slopes_alloc(2 * range->points, s) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    const rb_status status =
-        rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why);
+    const rb_status status = rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why);
     s->rows = curve->n;
     return status;
 }
@@ -340,14 +331,12 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states,
         v->of = *stencil;
     for (int k = 0; k < v->of.n && s == RB_OK; k++) {
         rb_rolling_case at;
-        s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at,
-                        why);
+        s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at, why);
         if (s == RB_OK)
-            s = rb_rolling_follower_create(&at, states, base,
-                                           grow ? unit_of_way(&at, states->program) /
-                                                      unit_of_way(rc, states->program)
-                                                : 1.0,
-                                           &v->at[k], why);
+            s = rb_rolling_follower_create(
+                &at, states, base,
+                grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
+                &v->at[k], why);
     }
     return s;
 }
@@ -363,8 +352,8 @@ static void varied_free(varied *v)
 /* The equations of the step at the four values change at the state that is there also by
  * what the states before, which have moved, left to them; that gives the tangent along
  * which the state of this step moves. */
-static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base,
-                                    varied *v, rb_message *why)
+static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
+                                    rb_message *why)
 {
     rb_status status = RB_OK;
 
@@ -387,8 +376,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
     for (int k = 0; k < v->of.n && status == RB_OK; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
-        rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step,
-                               &at->state);
+        rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step, &at->state);
         status = rb_rolling_variant_complete(at, NULL, NULL, why);
         if (status == RB_OK)
             rb_rolling_follower_end(v->at[k]);
@@ -396,8 +384,8 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
     return status;
 }
 
-static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base,
-                           int n, varied *v, rb_case_slopes *slopes, rb_message *why)
+static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base, int n,
+                           varied *v, rb_case_slopes *slopes, rb_message *why)
 {
     rb_rolling_model *model = rb_rolling_follower_model(base);
     rb_status status = RB_OK;
@@ -432,8 +420,7 @@ static void take_columns(const varied *v, int n, rb_case_slopes *s)
                 double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
                 double sum = 0.0, at = 0.0;
                 for (int i = 0; i < v[j].of.n; i++) {
-                    at =
-                        rb_rolling_entry(r, rb_rolling_follower_history(v[j].at[i]), row);
+                    at = rb_rolling_entry(r, rb_rolling_follower_history(v[j].at[i]), row);
                     sum += v[j].of.weight[i] / v[j].step * at;
                 }
                 const rb_rolling_case *rc = rb_rolling_follower_model(v[j].at[0])->rc;
@@ -454,8 +441,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     rb_rolling_follower *base = NULL;
     int numbers = 0, n = 0;
     rb_status status =
-        rb_rolling_law_depends_on_state(&c->resolved.rc) ||
-                c->resolved.rc.yield_stress > 0.0
+        rb_rolling_law_depends_on_state(&c->resolved.rc) || c->resolved.rc.yield_stress > 0.0
             ? rb_fail(why, RB_EINVAL,
                       "derivatives of a history: not for friction that depends on the "
                       "state or an interface that yields, whose state variables are "
@@ -476,8 +462,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
     if (status == RB_OK)
-        status =
-            rb_rolling_follower_create(&c->resolved.rc, states, NULL, 1.0, &base, why);
+        status = rb_rolling_follower_create(&c->resolved.rc, states, NULL, 1.0, &base, why);
     for (int k = 0; k < numbers && status == RB_OK; k++)
         for (int j = 0; j < asked && status == RB_OK; j++)
             if (strcmp(number[k].name, name[j]) == 0) {

@@ -11,8 +11,8 @@ rb_status rb_case_solve(const rb_resolved_case *c, rb_rolling_step *step, void *
     return rb_case_solve_again(c, step, context, r, why);
 }
 
-rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step,
-                              void *context, rb_case_result *r, rb_message *why)
+rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step, void *context,
+                              rb_case_result *r, rb_message *why)
 {
     rb_rolling_model model = r->model;
 
@@ -28,9 +28,8 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step,
         const double start = rb_seconds();
         const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
         const rb_rolling_observer observer = {step, context};
-        rb_status s =
-            (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
-                &c->rc, program, &observer, &r->model, &r->history, why);
+        rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
+            &c->rc, program, &observer, &r->model, &r->history, why);
         if (s >= 0 && r->model.state.p) {
             const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
             s = t == RB_OK ? s : t;

@@ -85,8 +85,7 @@ static int set_integer(const rb_option *o, int *place, const char *value, readin
     int v;
     const double beyond = whole_number(value, &v);
     if (beyond > 0.0 && isinf(o->range.to))
-        rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX,
-                value);
+        rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX, value);
     if (beyond != 0.0 || !rb_option_in_range(o, v)) /* NAN as well */
         return 0;
     *place = v;
@@ -146,14 +145,12 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
 
     const int stated = set_any(option, set->target, text, &r);
     if (!stated && option->one_only && strchr(text, ','))
-        return rb_fail(why, RB_EINVAL, "%s: %s; expected %s, got '%s'", what,
-                       option->one_only,
+        return rb_fail(why, RB_EINVAL, "%s: %s; expected %s, got '%s'", what, option->one_only,
                        rb_option_expected(option, expected, sizeof expected), text);
     if (!stated)
-        return r.why.text[0]
-                   ? rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r.why.text)
-                   : rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
-                             rb_option_expected(option, expected, sizeof expected), text);
+        return r.why.text[0] ? rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r.why.text)
+                             : rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
+                                       rb_option_expected(option, expected, sizeof expected), text);
     if (set->given)
         set->given[k] = by;
     if (set->plain)
@@ -205,9 +202,7 @@ const char *rb_option_path(const rb_option *o, const void *target)
     const char *values = target;
     if (o->file == RB_FILE_NONE)
         return NULL;
-    if (o->kind == RB_OPTION_CHOICE &&
-        *(const int *)(values + o->offset) != o->path_value)
+    if (o->kind == RB_OPTION_CHOICE && *(const int *)(values + o->offset) != o->path_value)
         return NULL;
-    return *(const char *const *)(values +
-                                  (o->kind == RB_OPTION_CHOICE ? o->path : o->offset));
+    return *(const char *const *)(values + (o->kind == RB_OPTION_CHOICE ? o->path : o->offset));
 }

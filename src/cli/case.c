@@ -33,8 +33,7 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
                         path);
     if (strcmp(path, "solve") == 0 || strcmp(path, "run") == 0)
         return cli_fail(CLI_USAGE,
-                        "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves",
-                        path);
+                        "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves", path);
     const rb_status s = rb_case_read(c, path, spec->set_n - 2, spec->sets + 1, &why);
     if (s != RB_ENOENT)
         return cli_say(s, &why);
@@ -42,16 +41,15 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
 }
 
-cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                       cli_args *args)
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
 {
     cli_exit code = cli_parse(spec, argc, argv, args);
     if (code == CLI_CONTINUE && args->operands > 1 &&
         (strcmp(args->operand[0], "solve") == 0 || strcmp(args->operand[0], "run") == 0))
         code = read_case_file(spec, args->operand[0], c);
     if (code == CLI_CONTINUE && args->operands > 1)
-        code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'",
-                        args->operand[0], args->operand[1]);
+        code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'", args->operand[0],
+                        args->operand[1]);
     if (code == CLI_CONTINUE && args->operands == 1)
         code = read_case_file(spec, args->operand[0], c);
     return code == CLI_CONTINUE ? cli_example_read(c, args) : code;
@@ -64,8 +62,7 @@ cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args
     return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
 }
 
-cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                        cli_args *args)
+cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
 {
     const cli_exit code = cli_case_read(spec, argc, argv, c, args);
     return code == CLI_CONTINUE ? cli_case_resolve(spec, c, args) : code;
@@ -76,14 +73,13 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
     return cli_say(rb_case_locate(c, s, why), why);
 }
 
-json_t *cli_case_json(const rb_case *c, const rb_rolling_case *rc,
-                      const rb_rolling_solution *s, json_t *inputs)
+json_t *cli_case_json(const rb_case *c, const rb_rolling_case *rc, const rb_rolling_solution *s,
+                      json_t *inputs)
 {
     const rb_resolved_case *resolved = rb_case_resolved(c);
     json_t *root = rb_report_json_start(cli_command_line());
     if (s)
-        rb_report_json_set(&root, "notes",
-                           rb_report_json_notes(rc ? rc : &resolved->rc, s));
+        rb_report_json_set(&root, "notes", rb_report_json_notes(rc ? rc : &resolved->rc, s));
     rb_report_json_set(&root, "units", rb_report_json_units(resolved->units));
     rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(c));
     rb_report_json_set(&root, "inputs", inputs);
@@ -143,8 +139,7 @@ static cli_spec spec_of(cli_case_run *run)
     return (cli_spec){command->synopsis,
                       command->about,
                       command->notes,
-                      {rb_case_options(run->words),
-                       command->options_last ? output : run->set,
+                      {rb_case_options(run->words), command->options_last ? output : run->set,
                        command->options_last ? run->set : output, cli_example_set()},
                       4};
 }
@@ -158,8 +153,8 @@ static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, ch
 }
 
 /* given, plain: CLI_COMMAND_OPTIONS_MAX zeros each, which the run borrows. */
-static cli_case_run run_of(const cli_case_command *command, void *own, int *given,
-                           int *plain, rb_case *words)
+static cli_case_run run_of(const cli_case_command *command, void *own, int *given, int *plain,
+                           rb_case *words)
 {
     return (cli_case_run){.command = command,
                           .own = own,
@@ -167,8 +162,8 @@ static cli_case_run run_of(const cli_case_command *command, void *own, int *give
                           .words = words};
 }
 
-cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
-                         char **argv, rb_case *words, int *files)
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
+                         rb_case *words, int *files)
 {
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run = run_of(command, own, given, plain, words);
@@ -184,12 +179,10 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
     return code;
 }
 
-cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
-                              char **argv)
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv)
 {
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
-    cli_case_run run =
-        run_of(command, own, given, plain, cli_case_create(command->purpose));
+    cli_case_run run = run_of(command, own, given, plain, cli_case_create(command->purpose));
     if (!run.words)
         return CLI_INTERNAL;
     const cli_spec spec = spec_of(&run);

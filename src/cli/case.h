@@ -5,23 +5,23 @@
 #include "cli/output.h"
 
 /* For --help of every command that takes a case. */
-#define CLI_CASE_SIGNS                                                                   \
-    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"     \
-    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"  \
-    "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"    \
-    "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"   \
-    "others or a value its own (--young 210GPa); columns name theirs.\n"                 \
-    "\n"                                                                                 \
-    "    y, n                   .---.         P, approach: A moves down\n"               \
-    "     |                   /       \\\n"                                              \
-    "     |                  |    A    |  -->  rolls towards +x\n"                       \
-    "     +--- x, t           \\       /\n"                                              \
-    "                           '-^-'         p >= 0 pushes A up\n"                      \
-    "    ==============================================================\n"               \
+#define CLI_CASE_SIGNS                                                                             \
+    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"               \
+    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"            \
+    "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"              \
+    "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"             \
+    "others or a value its own (--young 210GPa); columns name theirs.\n"                           \
+    "\n"                                                                                           \
+    "    y, n                   .---.         P, approach: A moves down\n"                         \
+    "     |                   /       \\\n"                                                        \
+    "     |                  |    A    |  -->  rolls towards +x\n"                                 \
+    "     +--- x, t           \\       /\n"                                                        \
+    "                           '-^-'         p >= 0 pushes A up\n"                                \
+    "    ==============================================================\n"                         \
     "     B                      -->          q > 0, Q > 0: friction on A"
 
-#define CLI_CASE_NOTES                                                                   \
-    "A case file holds the same names as keys, in the sections named in brackets or\n"   \
+#define CLI_CASE_NOTES                                                                             \
+    "A case file holds the same names as keys, in the sections named in brackets or\n"             \
     "in none; the command line wins over the file.\n"
 
 /* ---- A case from words ------------------------------------------------------------ */
@@ -32,11 +32,9 @@ rb_case *cli_case_create(rb_case_purpose purpose);
 /* Parses the arguments, reads the case file (the only operand allowed), resolves the
  * case, which is the first set of spec, and checks the files that the options name.
  * CLI_CONTINUE or an exit code, its line printed. */
-cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                        cli_args *args);
+cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 /* The same in two parts: what is given, and what it means. */
-cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                       cli_args *args);
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
 
 /* --example NAME, the last set of every spec of a case, and what it asks for. */
@@ -66,7 +64,7 @@ typedef struct {
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
     const rb_rolling_case *noted;        /* whose solution it is; NULL: that of c */
-    int printable; /* 1: there are results, if not all that were asked for */
+    int printable;                       /* 1: there are results, if not all that were asked for */
 } cli_case_run;
 
 /* A file that an option of the command asks for, written or drawn by one of the two
@@ -106,20 +104,18 @@ struct cli_case_command {
 };
 
 /* Reads, resolves, solves and prints: the whole command.  Its exit code. */
-cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
-                              char **argv);
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv);
 
 /* The resolved case of a command line of `rollbem` itself; what it would write is neither
  * looked at nor written.  CLI_CONTINUE, or the exit code after the line of why. */
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files);
 /* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
-cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files,
-                           double *yield_shear);
+cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files, double *yield_shear);
 /* The same of `rollbem crack`; inputs: of case and crack as JSON, NULL without memory. */
 cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files,
                           struct json_t **inputs);
 /* The same of any such command; files: written, how many case files it names. */
-cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
-                         char **argv, rb_case *words, int *files);
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
+                         rb_case *words, int *files);
 
 #endif

@@ -41,8 +41,8 @@ static cli_exit tell(const char *path, rb_status s, const rb_report_certificate 
     if (s != RB_OK)
         return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why->text);
     if (found->violations == 0)
-        printf("%s: valid: %d numbers computed again, residual %.2g\n", path,
-               found->numbers, found->residual);
+        printf("%s: valid: %d numbers computed again, residual %.2g\n", path, found->numbers,
+               found->residual);
     return found->violations ? CLI_UNSOLVED : CLI_OK;
 }
 
@@ -66,8 +66,8 @@ static rb_case_purpose purpose_of(const json_t *root)
 
 /* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
  * RB_ENOMEM. */
-static rb_status fault_of_command(const json_t *root, char **argv, int argc,
-                                  const char *folder, int is_confined, const char **fault)
+static rb_status fault_of_command(const json_t *root, char **argv, int argc, const char *folder,
+                                  int is_confined, const char **fault)
 {
     const char *other = other_command(argv[1]);
     const int is_stress = other && strcmp(other, "stress") == 0,
@@ -104,8 +104,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc,
         *fault = "it is not a command line of rollbem";
     else if (!json_equal(inputs, json_object_get(root, "inputs")))
         *fault = "it has other inputs than `inputs`";
-    else if (printed &&
-             (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
+    else if (printed && (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
         *fault = "yield_shear of shakedown is not --yield-shear";
     json_decref(inputs);
     rb_case_free(words);
@@ -114,8 +113,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc,
 
 /* The command line that the result quotes against its inputs.  RB_ENOMEM. */
 static rb_status compare_command(const char *path, const json_t *root, const char *folder,
-                                 int is_confined, rb_report_certificate *found,
-                                 rb_message *why)
+                                 int is_confined, rb_report_certificate *found, rb_message *why)
 {
     const char *text = json_string_value(json_object_get(root, "command"));
     const char *fault = "it is not a command line of rollbem";
@@ -125,8 +123,7 @@ static rb_status compare_command(const char *path, const json_t *root, const cha
         int argc;
         char **argv = line ? cli_split_line(line, &argc) : NULL;
         const int kept = cli_keep_failures(1);
-        s = argv ? fault_of_command(root, argv, argc, folder, is_confined, &fault)
-                 : RB_ENOMEM;
+        s = argv ? fault_of_command(root, argv, argc, folder, is_confined, &fault) : RB_ENOMEM;
         cli_keep_failures(kept);
         free(argv);
         free(line);
@@ -148,8 +145,8 @@ static void *noting_malloc(size_t size)
     return memory;
 }
 
-static cli_exit check_json(const char *path, const char *text, size_t size,
-                           const char *folder, int is_confined)
+static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder,
+                           int is_confined)
 {
     rb_report_certificate found = {0};
     rb_message why = {""};
@@ -262,9 +259,8 @@ static cli_exit check_file(const char *path, const check_options *o)
         rb_case_confine(words, o->any_folder ? NULL : folder);
     cli_wait_begin();
     if (words && folder)
-        code = first == '{' || first == '['
-                   ? check_json(path, text, size, folder, !o->any_folder)
-                   : check_table(path, text, words);
+        code = first == '{' || first == '[' ? check_json(path, text, size, folder, !o->any_folder)
+                                            : check_table(path, text, words);
     cli_wait_end();
     rb_case_free(words);
     free(folder);

@@ -26,10 +26,8 @@ typedef struct {
     int given[20];
 } compare_options;
 
-static const rb_choice costs[] = {{"flops", COST_FLOPS},
-                                  {"seconds", COST_SECONDS},
-                                  {"iterations", COST_ITERATIONS},
-                                  {NULL, 0}};
+static const rb_choice costs[] = {
+    {"flops", COST_FLOPS}, {"seconds", COST_SECONDS}, {"iterations", COST_ITERATIONS}, {NULL, 0}};
 
 #define PLACE(member) offsetof(compare_options, member)
 
@@ -41,17 +39,14 @@ static const rb_option options[] = {
                    "error, recomputed, that counts as solved"),
     RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
                    "which error decides, as for rollbem friction"),
-    RB_NUMBER_LINE("limit", PLACE(limit), "s", RB_ABOVE(0.0),
-                   "time for one solver on one problem"),
+    RB_NUMBER_LINE("limit", PLACE(limit), "s", RB_ABOVE(0.0), "time for one solver on one problem"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
                     .unset = "each solver's own"),
-    RB_CHOICE_LINE("cost", PLACE(cost), costs,
-                   "cost that the profiles and the picture compare"),
+    RB_CHOICE_LINE("cost", PLACE(cost), costs, "cost that the profiles and the picture compare"),
     RB_GROUP_LINE("output", "Output"),
     CLI_STYLE_LINES(PLACE(style)),
-    RB_TEXT_LINE("plot", PLACE(plot), "FILE",
-                 "picture of the profiles (.png, .svg, .pdf)", .unset = "none",
-                 .file = RB_FILE_PICTURE),
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture of the profiles (.png, .svg, .pdf)",
+                 .unset = "none", .file = RB_FILE_PICTURE),
     CLI_PICTURE_LINES(PLACE(pictures)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the table of the runs or JSON goes, whole or not at all",
@@ -190,9 +185,9 @@ typedef struct {
     rb_friction_info info;
 } told_run;
 
-#define ROW(name, column, kind, member)                                                  \
-    {                                                                                    \
-        name, column, CLI_ROW_##kind, offsetof(told_run, member)                         \
+#define ROW(name, column, kind, member)                                                            \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(told_run, member)                                   \
     }
 
 static const cli_row rows[] = {ROW("file", "file", TEXT, file),
@@ -227,8 +222,7 @@ static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
         rb_report_cell_text(&cells, c->solver[s]);
     rb_report_cells_end_row(&cells);
     rb_report_comment_origin(&cells, cli_command_line());
-    rb_report_comment(&cells, "profiles over %s, %d problems", costs[c->o->cost].name,
-                      c->problems);
+    rb_report_comment(&cells, "profiles over %s, %d problems", costs[c->o->cost].name, c->problems);
     for (int k = 0; k < TAUS; k++) {
         rb_report_cell_number(&cells, c->tau[k]);
         for (int s = 0; s < c->solvers; s++)
@@ -243,8 +237,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     const comparison *c = context;
     (void)why;
     if (c->o->style.format != RB_REPORT_JSON) {
-        const char *columns =
-            "file solver status iterations residual floor flops seconds scaled";
+        const char *columns = "file solver status iterations residual floor flops seconds scaled";
         rb_report_cells cells = rb_report_cells_begin(out, &c->o->style, columns);
         rb_report_comment_origin(&cells, cli_command_line());
         for (int k = 0; k < c->problems * c->solvers; k++) {
@@ -260,8 +253,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
         rb_report_json_append(&runs, cli_rows_json(ROWS, rows, &run, 1));
     }
     rb_report_json_set(&root, "cost", json_string(costs[c->o->cost].name));
-    rb_report_json_set(&root, "measure",
-                       json_string(cli_friction_measures[c->o->measure].name));
+    rb_report_json_set(&root, "measure", json_string(cli_friction_measures[c->o->measure].name));
     rb_report_json_set(&root, "tol", rb_report_json_number(c->o->tol));
     rb_report_json_set(&root, "runs", runs);
     rb_report_json_set(&root, "tau", rb_report_json_numbers(TAUS, c->tau));
@@ -272,8 +264,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const comparison *c = context;
     const rb_report_profiles profiles = {.problems = c->problems,

@@ -72,13 +72,13 @@ typedef struct {
 typedef struct {
     int number;
     const char *status, *left_out;
-    double FN, FX, FX_REL, CKSI, PEN, PMAX, FRIC_POWER, NPOT, NCON, NADH, NSLIP, P, Q,
-        line, residual, NPLAST;
+    double FN, FX, FX_REL, CKSI, PEN, PMAX, FRIC_POWER, NPOT, NCON, NADH, NSLIP, P, Q, line,
+        residual, NPLAST;
 } case_row;
 
-#define ROW(name, column, kind, member)                                                  \
-    {                                                                                    \
-        name, column, CLI_ROW_##kind, offsetof(case_row, member)                         \
+#define ROW(name, column, kind, member)                                                            \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(case_row, member)                                   \
     }
 #define NUMBER(name, member) ROW(name, name, NUMBER, member)
 
@@ -116,15 +116,15 @@ typedef struct {
     double X, H, PN, PX, S, UPL;
 } element_row;
 
-#define COLUMN(kind, column, member)                                                     \
-    {                                                                                    \
-        NULL, column, CLI_ROW_##kind, offsetof(element_row, member)                      \
+#define COLUMN(kind, column, member)                                                               \
+    {                                                                                              \
+        NULL, column, CLI_ROW_##kind, offsetof(element_row, member)                                \
     }
 
-static const cli_row element_rows[] = {
-    COLUMN(WHOLE, "case", number), COLUMN(NUMBER, "X", X),    COLUMN(NUMBER, "H", H),
-    COLUMN(NUMBER, "PN", PN),      COLUMN(NUMBER, "PX", PX),  COLUMN(NUMBER, "S", S),
-    COLUMN(WHOLE, "zone", zone),   COLUMN(NUMBER, "UPL", UPL)};
+static const cli_row element_rows[] = {COLUMN(WHOLE, "case", number), COLUMN(NUMBER, "X", X),
+                                       COLUMN(NUMBER, "H", H),        COLUMN(NUMBER, "PN", PN),
+                                       COLUMN(NUMBER, "PX", PX),      COLUMN(NUMBER, "S", S),
+                                       COLUMN(WHOLE, "zone", zone),   COLUMN(NUMBER, "UPL", UPL)};
 
 enum { ELEMENT_ROWS = sizeof element_rows / sizeof *element_rows };
 
@@ -138,26 +138,25 @@ static case_row case_row_of(const contact_runs *all, int k)
     const rb_io_contact_case *in = r->in;
     const double known = s->n > 0 ? 0.0 : NAN, sign = r->c.sign, width = r->c.width;
     const int yielding = s->yielding > 0 ? s->yielding : 0;
-    return (case_row){
-        .number = k + 1,
-        .status = r->c.runs ? rb_status_text(r->status) : "not run",
-        .left_out = r->c.left_out,
-        .FN = s->normal_load * width + known,
-        .FX = sign * s->tangential_load * width + known,
-        .FX_REL = sign * s->force_ratio + known,
-        .CKSI = sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift) + known,
-        .PEN = s->approach + known,
-        .PMAX = s->max_pressure + known,
-        .FRIC_POWER = rb_case_contact_power(in, &r->c, r->before, s) + known,
-        .NPOT = s->n + known,
-        .NCON = s->contact + known,
-        .NADH = s->stick + known,
-        .NSLIP = s->slipping - yielding + known,
-        .P = s->normal_load + known,
-        .Q = s->tangential_load + known,
-        .line = in->line + known,
-        .residual = s->residual + known,
-        .NPLAST = yielding + known};
+    return (case_row){.number = k + 1,
+                      .status = r->c.runs ? rb_status_text(r->status) : "not run",
+                      .left_out = r->c.left_out,
+                      .FN = s->normal_load * width + known,
+                      .FX = sign * s->tangential_load * width + known,
+                      .FX_REL = sign * s->force_ratio + known,
+                      .CKSI = sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift) + known,
+                      .PEN = s->approach + known,
+                      .PMAX = s->max_pressure + known,
+                      .FRIC_POWER = rb_case_contact_power(in, &r->c, r->before, s) + known,
+                      .NPOT = s->n + known,
+                      .NCON = s->contact + known,
+                      .NADH = s->stick + known,
+                      .NSLIP = s->slipping - yielding + known,
+                      .P = s->normal_load + known,
+                      .Q = s->tangential_load + known,
+                      .line = in->line + known,
+                      .residual = s->residual + known,
+                      .NPLAST = yielding + known};
 }
 
 static element_row element_row_of(const contact_runs *all, int k, int i)
@@ -181,8 +180,7 @@ static rb_status print_table(FILE *out, const contact_runs *all)
     rb_report_comment_origin(&cells, cli_command_line());
     for (int k = 0; k < all->n; k++)
         if (all->run[k].c.left_out[0])
-            rb_report_comment(&cells, "case %d leaves out %s", k + 1,
-                              all->run[k].c.left_out);
+            rb_report_comment(&cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
     for (int k = 0; k < all->n; k++) {
         const rb_rolling_solution *s = &all->run[k].s;
         const case_row row = case_row_of(all, k);
@@ -224,14 +222,14 @@ static void say_left_out(const contact_runs *all, int k)
     const contact_run *r = &all->run[k];
     int as_before = 0;
     for (int j = 0; j < k && !as_before; j++)
-        as_before = all->run[j].c.runs == r->c.runs &&
-                    strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+        as_before =
+            all->run[j].c.runs == r->c.runs && strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
     if (!r->c.left_out[0] || all->o->quiet || as_before)
         return;
     int alike = 0;
     for (int j = k + 1; j < all->n; j++)
-        alike += all->run[j].c.runs == r->c.runs &&
-                 strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+        alike +=
+            all->run[j].c.runs == r->c.runs && strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
     char more[40] = "";
     if (alike > 0)
         snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
@@ -304,8 +302,7 @@ int cli_contact(int argc, char **argv)
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands != 1)
-        code = cli_fail(CLI_USAGE, "contact: expected one FILE.inp, got %d files",
-                        args.operands);
+        code = cli_fail(CLI_USAGE, "contact: expected one FILE.inp, got %d files", args.operands);
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {

@@ -23,11 +23,10 @@ static const rb_option pictures[] = {
                  "picture of the crack with its faces moved apart, magnified: .png, .svg "
                  "or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
-    RB_NUMBER_LINE("at", PLACE(at), "a", RB_ANY,
-                   "position of the contact in that picture"),
+    RB_NUMBER_LINE("at", PLACE(at), "a", RB_ANY, "position of the contact in that picture"),
     RB_TEXT_LINE("orbit", PLACE(orbit), "FILE",
-                 "picture of K_II over K_I in the last pass: .png, .svg or .pdf",
-                 .unset = "none", .file = RB_FILE_PICTURE),
+                 "picture of K_II over K_I in the last pass: .png, .svg or .pdf", .unset = "none",
+                 .file = RB_FILE_PICTURE),
     RB_FLAG_LINE("states", PLACE(states),
                  "with --json: opening, sliding, tractions and zone of every node of the "
                  "faces at every position, and the contact, which rollbem check needs"),
@@ -46,9 +45,9 @@ static const char about[] =
     "history stays at --from.\n"
     "\n" CLI_CASE_SIGNS;
 
-static const char notes[] = CLI_CASE_NOTES
-    "Example: rollbem crack --similar --support halfplane --half-width 1 --mu 0 \\\n"
-    "           --crack-angle 30 --plot crack.png\n";
+static const char notes[] =
+    CLI_CASE_NOTES "Example: rollbem crack --similar --support halfplane --half-width 1 --mu 0 \\\n"
+                   "           --crack-angle 30 --plot crack.png\n";
 
 static cli_exit check(cli_case_run *run)
 {
@@ -57,8 +56,7 @@ static cli_exit check(cli_case_run *run)
     const rb_status s = rb_case_crack_check(run->c, &own->crack, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
-    if (own->states &&
-        (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
+    if (own->states && (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
     return own->crack.unloaded && (run->o.plot || own->orbit)
                ? cli_fail(CLI_USAGE, "%s: --unloaded has no positions to draw over",
@@ -81,15 +79,13 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
-    rb_report_json_crack_inputs(inputs, &((const crack_run *)run->own)->crack,
-                                run->c->units);
+    rb_report_json_crack_inputs(inputs, &((const crack_run *)run->own)->crack, run->c->units);
 }
 
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const crack_run *own = run->own;
-    rb_report_json_set(root, "input_hash",
-                       rb_report_json_crack_hash(run->words, &own->crack));
+    rb_report_json_set(root, "input_hash", rb_report_json_crack_hash(run->words, &own->crack));
     rb_report_json_crack(root, &own->result);
     if (own->states)
         rb_report_json_crack_faces(root, &own->result);
@@ -97,12 +93,11 @@ static void add_json(const cli_case_run *run, json_t **root)
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    return rb_report_crack_table(out, &((const crack_run *)run->own)->result,
-                                 cli_command_line(), &run->o.style);
+    return rb_report_crack_table(out, &((const crack_run *)run->own)->result, cli_command_line(),
+                                 &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const crack_run *own = ((const cli_case_run *)context)->own;
     return rb_report_crack_picture(out, canvas, &own->result, why);
@@ -115,8 +110,7 @@ static rb_status draw_orbit(FILE *out, rb_report_canvas canvas, const void *cont
     return rb_report_crack_orbit(out, canvas, &own->result, why);
 }
 
-static rb_status draw_open(FILE *out, rb_report_canvas canvas, const void *context,
-                           rb_message *why)
+static rb_status draw_open(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const crack_run *own = ((const cli_case_run *)context)->own;
     return rb_report_crack_open(out, canvas, &own->result, own->at, why);
@@ -129,8 +123,7 @@ static const cli_case_file files[] = {{"plot", .draw = draw},
 
 static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_crack_summary(out, &((const crack_run *)run->own)->result,
-                            cli_is_coloured(stderr));
+    rb_report_crack_summary(out, &((const crack_run *)run->own)->result, cli_is_coloured(stderr));
 }
 
 /* Options of the library, then those of the pictures. */
@@ -157,8 +150,7 @@ static cli_case_command command(void)
     };
 }
 
-cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files,
-                          json_t **inputs)
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files, json_t **inputs)
 {
     const cli_case_command of = command();
     crack_run own = {.crack = rb_case_crack_defaults()};

@@ -31,8 +31,8 @@ static const double default_end[] = {0.0, 1.5};
 
 static const rb_option options[] = {
     RB_GROUP_LINE("curve", "Range of the curve"),
-    RB_TEXT_LINE("from", PLACE(end[0]), "X",
-                 "first value; a speed [mm/s] may have a unit", .unset = "0"),
+    RB_TEXT_LINE("from", PLACE(end[0]), "X", "first value; a speed [mm/s] may have a unit",
+                 .unset = "0"),
     RB_TEXT_LINE("to", PLACE(end[1]), "X", "last value", .unset = "1.5"),
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
@@ -110,20 +110,17 @@ static rb_rolling_range range_of(const range_options *r)
     return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points};
 }
 
-static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
-                             int with_errors, rb_rolling_curve *points,
-                             rb_rolling_curve *errors, rb_message *why)
+static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r, int with_errors,
+                             rb_rolling_curve *points, rb_rolling_curve *errors, rb_message *why)
 {
     const rb_rolling_range range = range_of(r);
-    return with_errors
-               ? rb_rolling_curve_with_errors(rc, &range, NULL, NULL, points, errors, why)
-               : rb_rolling_curve_solve(rc, &range, points, why);
+    return with_errors ? rb_rolling_curve_with_errors(rc, &range, NULL, NULL, points, errors, why)
+                       : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
 /* words NULL: without derivatives, as those of a picture. */
 static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
-                              const range_options *range, rb_report_curves *curves,
-                              rb_message *why)
+                              const range_options *range, rb_report_curves *curves, rb_message *why)
 {
     const rb_rolling_range all = range_of(range);
     const rb_numbers one = {1, {c->rc.mu}};
@@ -134,15 +131,14 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
         s = words && range->derivatives
-                ? rb_case_curve_choose(words, &all, range->derivatives,
-                                       &curves->slopes[k], &reason)
+                ? rb_case_curve_choose(words, &all, range->derivatives, &curves->slopes[k], &reason)
                 : RB_OK;
         if (s == RB_OK)
             s = words && range->derivatives
-                    ? rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k],
-                                          &curves->slopes[k], &reason)
-                    : solve_curve(&rc, range, c->error, &curves->curve[k],
-                                  &curves->error[k], &reason);
+                    ? rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k], &curves->slopes[k],
+                                          &reason)
+                    : solve_curve(&rc, range, c->error, &curves->curve[k], &curves->error[k],
+                                  &reason);
         curves->n += s >= 0;
         if (s != RB_OK && mus->n > 1)
             rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
@@ -203,10 +199,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
             common.to = -INFINITY;
             for (int k = 0; k < r->curves.n; k++) {
                 const rb_rolling_curve *c = &r->curves.curve[k];
-                common.from =
-                    fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
-                common.to =
-                    fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
+                common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
+                common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
             }
             s = solve_curves(NULL, run->c, &common, &r->drawn, why);
         }
@@ -224,12 +218,10 @@ static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
     const range_options *r = &((const curve *)run->own)->range;
     const rb_units units = run->c->units;
-    rb_report_json_set(inputs, "from",
-                       json_real(rb_unit_shown(units, unit_of(r), r->from)));
+    rb_report_json_set(inputs, "from", json_real(rb_unit_shown(units, unit_of(r), r->from)));
     rb_report_json_set(inputs, "to", json_real(rb_unit_shown(units, unit_of(r), r->to)));
     rb_report_json_set(inputs, "points", json_integer(r->points));
-    rb_report_json_set(inputs, "over",
-                       json_string(rb_case_curve_variables[r->over].name));
+    rb_report_json_set(inputs, "over", json_string(rb_case_curve_variables[r->over].name));
 }
 
 static void add_json(const cli_case_run *run, json_t **root)
@@ -239,12 +231,11 @@ static void add_json(const cli_case_run *run, json_t **root)
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    return rb_report_curve_table(out, &((const curve *)run->own)->curves,
-                                 cli_command_line(), &run->o.style);
+    return rb_report_curve_table(out, &((const curve *)run->own)->curves, cli_command_line(),
+                                 &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const cli_case_run *run = context;
     const curve *r = run->own;
@@ -295,8 +286,7 @@ static cli_exit check(cli_case_run *run)
         return CLI_CONTINUE;
     if (run->c->error)
         return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
-    const rb_status s =
-        rb_case_curve_choose(run->words, &range, r->derivatives, &slopes, &why);
+    const rb_status s = rb_case_curve_choose(run->words, &range, r->derivatives, &slopes, &why);
     rb_case_slopes_free(&slopes);
     return s == RB_OK ? CLI_CONTINUE : cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
 }

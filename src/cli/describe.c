@@ -75,9 +75,7 @@ static void print_troff(const char *text)
         if (n > 0 && (*text == '.' || *text == '\''))
             fputs("\\&", stdout);
         for (size_t k = 0; k < n; k++)
-            print_character(text[k], text[k] == '\\'  ? "\\e"
-                                     : text[k] == '-' ? "\\-"
-                                                      : NULL);
+            print_character(text[k], text[k] == '\\' ? "\\e" : text[k] == '-' ? "\\-" : NULL);
         if (n > 0)
             putchar('\n');
         text += n + (text[n] == '\n');
@@ -99,8 +97,7 @@ static void print_man(const cli_spec *spec)
     fputs(".TH ROLLBEM", stdout);
     fputs(dash, stdout);
     print_upper(command);
-    printf(" 1 \"\" \"rollbem %s\"\n.SH NAME\nrollbem%s%s \\- ", RB_VERSION, dash,
-           command);
+    printf(" 1 \"\" \"rollbem %s\"\n.SH NAME\nrollbem%s%s \\- ", RB_VERSION, dash, command);
     print_troff(cli_command_help(command));
     puts(".SH SYNOPSIS");
     print_troff(spec->synopsis);
@@ -131,8 +128,7 @@ static void print_man(const cli_spec *spec)
     }
     printf(".SH SEE ALSO\n%s", *command ? ".BR rollbem (1)\n" : "");
     for (int k = 0; !*command && cli_command_name(k); k++)
-        printf(".BR rollbem\\-%s (1)%s\n", cli_command_name(k),
-               cli_command_name(k + 1) ? "," : "");
+        printf(".BR rollbem\\-%s (1)%s\n", cli_command_name(k), cli_command_name(k + 1) ? "," : "");
 }
 
 /* ---- Pages of the reference -------------------------------------------------------- */
@@ -146,16 +142,14 @@ static void print_markdown(const cli_spec *spec)
 {
     char command[24], values[120], text[600];
     command_of(spec, command);
-    printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command,
-           cli_command_help(command));
+    printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command, cli_command_help(command));
     print_code_block(spec->synopsis);
     print_code_block(spec->about);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
             if (!is_option(o)) {
-                printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", o->help,
-                       o->name);
+                printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", o->help, o->name);
                 continue;
             }
             cli_option_metavar(o, values, sizeof values);
@@ -173,9 +167,8 @@ static void print_results(const cli_spec *spec)
 {
     const rb_rolling_result_table *t;
     (void)spec;
-    puts(
-        "# Results\n\nBy the names that JSON, tables, studies and the package for Python "
-        "use.");
+    puts("# Results\n\nBy the names that JSON, tables, studies and the package for Python "
+         "use.");
     for (int j = 0; (t = rb_case_result_table(j)); j++) {
         printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", t->title);
         for (int k = 0; k < t->results->n; k++) {
@@ -219,8 +212,7 @@ static void bash_name(const rb_option *o, const char *command)
 static void bash_command(const cli_spec *spec)
 {
     char command[24];
-    printf("    %s)\n        case $previous in\n",
-           *command_of(spec, command) ? command : "*");
+    printf("    %s)\n        case $previous in\n", *command_of(spec, command) ? command : "*");
     each_option(spec, bash_value);
     fputs("        esac\n        options=\"", stdout);
     each_option(spec, bash_name);
@@ -238,10 +230,7 @@ static void zsh_option(const rb_option *o, const char *command)
     }
     fputs("]", stdout);
     if (o->kind != RB_OPTION_FLAG) {
-        fputs(takes_file(o) ? ":file:_files"
-              : o->choices  ? ":value:("
-                            : ":value:",
-              stdout);
+        fputs(takes_file(o) ? ":file:_files" : o->choices ? ":value:(" : ":value:", stdout);
         if (!takes_file(o) && o->choices) {
             print_choices(o);
             putchar(')');
@@ -253,8 +242,7 @@ static void zsh_option(const rb_option *o, const char *command)
 static void zsh_command(const cli_spec *spec)
 {
     char command[24];
-    printf("    %s)\n        _arguments \\\n",
-           *command_of(spec, command) ? command : "*");
+    printf("    %s)\n        _arguments \\\n", *command_of(spec, command) ? command : "*");
     each_option(spec, zsh_option);
     puts("            '--help[this text]' '--usage[the options on a few lines]' "
          "'--version' '*:file:_files'\n        ;;");
@@ -290,9 +278,8 @@ static void fish_command(const cli_spec *spec)
 static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
-} forms[] = {{"man", print_man},           {"results", print_results},
-             {"markdown", print_markdown}, {"bash", bash_command},
-             {"zsh", zsh_command},         {"fish", fish_command},
+} forms[] = {{"man", print_man},           {"results", print_results}, {"markdown", print_markdown},
+             {"bash", bash_command},       {"zsh", zsh_command},       {"fish", fish_command},
              {"search", cli_find_options}, {"holder", cli_find_holder}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
@@ -392,8 +379,7 @@ static cli_exit fish_completion(void)
     print_commands(" ");
     puts("\nend");
     for (int k = 0; cli_command_name(k); k++) {
-        printf("complete -c rollbem -n __fish_use_subcommand -a %s -d '",
-               cli_command_name(k));
+        printf("complete -c rollbem -n __fish_use_subcommand -a %s -d '", cli_command_name(k));
         print_quoted(cli_command_help(cli_command_name(k)));
         puts("'");
     }
@@ -405,8 +391,7 @@ cli_exit cli_complete(const char *shell)
     static const struct {
         const char *name;
         cli_exit (*print)(void);
-    } shells[] = {
-        {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+    } shells[] = {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
     for (size_t k = 0; k < sizeof shells / sizeof *shells; k++)
         if (strcmp(shells[k].name, shell) == 0)
             return shells[k].print();

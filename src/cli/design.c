@@ -21,25 +21,21 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("design", "What is designed"),
-    RB_TEXT_LINE(
-        "minimise", PLACE(least), "RESULT",
-        "a result of the summary, or pressure_ripple: root mean square deviation of the "
-        "pressure from its mean over all elements, divided by the mean",
-        .unset = "none"),
-    RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, maximised",
+    RB_TEXT_LINE("minimise", PLACE(least), "RESULT",
+                 "a result of the summary, or pressure_ripple: root mean square deviation of the "
+                 "pressure from its mean over all elements, divided by the mean",
                  .unset = "none"),
-    RB_TEXT_LINE(
-        "over", PLACE(over), "NAME=A:B,...",
-        "numbers of the case by their options, with bounds; gap=A:B: every value "
-        "of the table of --gap, which may change by A to B",
-        .unset = "none"),
+    RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, maximised", .unset = "none"),
+    RB_TEXT_LINE("over", PLACE(over), "NAME=A:B,...",
+                 "numbers of the case by their options, with bounds; gap=A:B: every value "
+                 "of the table of --gap, which may change by A to B",
+                 .unset = "none"),
     RB_TEXT_LINE("subject", PLACE(subject), "RESULT<=X,...",
                  "constraints on results, <= or >=", .unset = "none"),
     RB_NUMBER_LINE("span", PLACE(span), "mm", RB_ABOVE(0),
                    "half-width of the span of pressure_ripple, about x = 0",
                    .unset = "all elements"),
-    RB_INTEGER_LINE("evaluations", PLACE(most), RB_FROM_TO(1, 100000),
-                    "solved cases at most"),
+    RB_INTEGER_LINE("evaluations", PLACE(most), RB_FROM_TO(1, 100000), "solved cases at most"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -69,8 +65,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     const rb_units units = rb_case_resolved(r->words)->units;
     (void)why;
     if (r->o->style.format != RB_REPORT_JSON)
-        return rb_report_design_table(out, &r->f->design, units, cli_command_line(),
-                                      &r->o->style);
+        return rb_report_design_table(out, &r->f->design, units, cli_command_line(), &r->o->style);
     json_t *root = cli_case_json(r->words, NULL, NULL, rb_report_json_inputs(r->words));
     rb_report_json_design(&root, &r->f->design, units);
     return rb_report_json_write(out, root);
@@ -99,9 +94,9 @@ static cli_exit read_design(designing *f, const rb_case *words)
         return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
     d->largest = f->largest != NULL;
     d->most = f->most;
-    d->span = isnan(f->span) ? 0.0
-                             : rb_unit_stored(rb_case_units(words, RB_GIVEN_ARGUMENT),
-                                              "mm", f->span);
+    d->span = isnan(f->span)
+                  ? 0.0
+                  : rb_unit_stored(rb_case_units(words, RB_GIVEN_ARGUMENT), "mm", f->span);
     rb_status s = rb_design_objective(d->largest ? f->largest : f->least, d, &why);
     if (s == RB_OK)
         s = rb_design_variables(words, f->over, d, &why);
@@ -155,11 +150,9 @@ int cli_design(int argc, char **argv)
     if (code == CLI_CONTINUE && args.operands > 1)
         code = cli_fail(CLI_USAGE, "design takes at most one case file");
     if (code == CLI_CONTINUE && args.operands == 1)
-        code =
-            cli_say(rb_case_read(words, args.operand[0], 2, spec.sets + 1, &why), &why);
+        code = cli_say(rb_case_read(words, args.operand[0], 2, spec.sets + 1, &why), &why);
     if (code == CLI_CONTINUE && !rb_design_available())
-        code = cli_fail(CLI_USAGE,
-                        "design: this rollbem was built without NLopt (libnlopt-dev)");
+        code = cli_fail(CLI_USAGE, "design: this rollbem was built without NLopt (libnlopt-dev)");
     if (code == CLI_CONTINUE)
         code = cli_case_resolve(&spec, words, &args);
     if (code == CLI_CONTINUE)

@@ -41,14 +41,13 @@ void cli_option_text(const rb_option *o, const void *target, char *text, size_t 
     const char *range = "";
     if (numeric) {
         const char *whole = rb_option_expected(o, expected, sizeof expected);
-        range =
-            whole + strlen(o->kind == RB_OPTION_NUMBER ? "a number" : "a whole number");
+        range = whole + strlen(o->kind == RB_OPTION_NUMBER ? "a number" : "a whole number");
     }
     if (o->kind == RB_OPTION_FLAG || (o->kind == RB_OPTION_TEXT && !o->unset))
         shown = "";
     snprintf(text, size, "%s%s%s%s%s%s%s%s%s", o->help, numeric && *o->unit ? " [" : "",
-             numeric ? o->unit : "", numeric && *o->unit ? "]" : "", *range ? "," : "",
-             range, *shown ? " (" : "", shown, *shown ? ")" : "");
+             numeric ? o->unit : "", numeric && *o->unit ? "]" : "", *range ? "," : "", range,
+             *shown ? " (" : "", shown, *shown ? ")" : "");
 }
 
 void cli_print_entry(const char *name, const char *text)

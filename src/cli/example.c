@@ -37,20 +37,15 @@ static const rb_choice meshes[] = {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("example", "Example"),
-    RB_TEXT_LINE("solver", PLACE(solver), "NAME",
-                 "friction solver, as in `rollbem friction`",
+    RB_TEXT_LINE("solver", PLACE(solver), "NAME", "friction solver, as in `rollbem friction`",
                  .unset = "bar nsn-nm, truss and wall nsn-ac"),
-    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "tolerance of the friction solver"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0), "tolerance of the friction solver"),
     RB_CHOICE_LINE("layout", PLACE(layout), layouts,
                    "truss: the upper nodes; the paper has its layout in a figure only"),
-    RB_INTEGER_LINE("nodes", PLACE(nodes), RB_FROM_TO(2, 100),
-                    "truss: contact nodes per side"),
-    RB_CHOICE_LINE(
-        "mesh", PLACE(mesh), meshes,
-        "wall: 161, 606 or 1722 contact points; fine: as large as the paper's"),
-    RB_NUMBER_LINE("step", PLACE(step), "s", RB_ABOVE(0.0),
-                   "wall: length of a time step"),
+    RB_INTEGER_LINE("nodes", PLACE(nodes), RB_FROM_TO(2, 100), "truss: contact nodes per side"),
+    RB_CHOICE_LINE("mesh", PLACE(mesh), meshes,
+                   "wall: 161, 606 or 1722 contact points; fine: as large as the paper's"),
+    RB_NUMBER_LINE("step", PLACE(step), "s", RB_ABOVE(0.0), "wall: length of a time step"),
     RB_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
     RB_INTEGER_LINE("problems", PLACE(problems), RB_FROM_TO(1, 75),
                     "wall: how many problems go to the folder"),
@@ -104,15 +99,14 @@ typedef struct {
     int rows;
 } step_table;
 
-static rb_status write_steps(FILE *out, const example_options *o, const step_table *t,
-                             int steps, const void *values, size_t size)
+static rb_status write_steps(FILE *out, const example_options *o, const step_table *t, int steps,
+                             const void *values, size_t size)
 {
     const char *at = values;
     if (o->style.format == RB_REPORT_JSON) {
         json_t *list = json_array();
         for (int k = 0; k < steps; k++)
-            rb_report_json_append(
-                &list, cli_rows_json(t->rows, t->row, at + (size_t)k * size, 1));
+            rb_report_json_append(&list, cli_rows_json(t->rows, t->row, at + (size_t)k * size, 1));
         json_t *root = rb_report_json_start(cli_command_line());
         rb_report_json_set(&root, "inputs", inputs_of(o, t->name));
         rb_report_json_set(&root, "steps", list);
@@ -134,21 +128,21 @@ typedef struct {
     rb_report_fem_sums sums;
 } model_step;
 
-#define ROW(name, column, kind, member)                                                  \
-    {                                                                                    \
-        name, column, CLI_ROW_##kind, offsetof(model_step, member)                       \
+#define ROW(name, column, kind, member)                                                            \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(model_step, member)                                 \
     }
-#define COMMON_ROWS                                                                      \
-    ROW(NULL, "step", WHOLE, number), ROW("status", NULL, TEXT, status),                 \
-        ROW("stick", "stick", WHOLE, stick), ROW("slip", "slip", WHOLE, slip),           \
-        ROW("separated", "separated", WHOLE, separated),                                 \
-        ROW("iterations", "iterations", WHOLE, iterations),                              \
+#define COMMON_ROWS                                                                                \
+    ROW(NULL, "step", WHOLE, number), ROW("status", NULL, TEXT, status),                           \
+        ROW("stick", "stick", WHOLE, stick), ROW("slip", "slip", WHOLE, slip),                     \
+        ROW("separated", "separated", WHOLE, separated),                                           \
+        ROW("iterations", "iterations", WHOLE, iterations),                                        \
         ROW("residual", "residual", NUMBER, residual)
 #define SUM(name, member) ROW(name, name, NUMBER, sums.member)
 
-static const cli_row bar_rows[] = {
-    COMMON_ROWS, SUM("corner_ux_mm", corner[0]), SUM("corner_uy_mm", corner[1]),
-    SUM("normal_sum_N", normal), SUM("tangential_sum_N", tangential[0])};
+static const cli_row bar_rows[] = {COMMON_ROWS, SUM("corner_ux_mm", corner[0]),
+                                   SUM("corner_uy_mm", corner[1]), SUM("normal_sum_N", normal),
+                                   SUM("tangential_sum_N", tangential[0])};
 static const cli_row truss_rows[] = {COMMON_ROWS, SUM("max_increment_mm", increment),
                                      SUM("normal_sum_N", normal)};
 
@@ -162,15 +156,13 @@ typedef struct {
                          const rb_fem_history *history, rb_message *why);
 } example;
 
-static const example bar = {
-    {"bar",
-     "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
-     "tangential_sum_N iterations residual",
-     bar_rows, sizeof bar_rows / sizeof *bar_rows},
-    rb_report_picture_bar};
+static const example bar = {{"bar",
+                             "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
+                             "tangential_sum_N iterations residual",
+                             bar_rows, sizeof bar_rows / sizeof *bar_rows},
+                            rb_report_picture_bar};
 static const example truss = {
-    {"truss",
-     "step stick slip separated max_increment_mm normal_sum_N iterations residual",
+    {"truss", "step stick slip separated max_increment_mm normal_sum_N iterations residual",
      truss_rows, sizeof truss_rows / sizeof *truss_rows},
     rb_report_picture_truss};
 
@@ -249,8 +241,7 @@ static cli_exit run_truss(const example_options *o)
 {
     rb_fem_model model;
     rb_message why = {""};
-    const rb_status s =
-        rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
+    const rb_status s = rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
     return run_history(o, &truss, s, &model, why);
 }
 
@@ -263,9 +254,9 @@ typedef struct {
     int steps;
 } wall_run;
 
-#define ROW(name, kind, member)                                                          \
-    {                                                                                    \
-        name, name, CLI_ROW_##kind, offsetof(rb_fem_wall_step, member)                   \
+#define ROW(name, kind, member)                                                                    \
+    {                                                                                              \
+        name, name, CLI_ROW_##kind, offsetof(rb_fem_wall_step, member)                             \
     }
 
 static const cli_row wall_rows[] = {
@@ -287,12 +278,10 @@ static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 {
     const wall_run *run = context;
     (void)why;
-    return write_steps(out, run->o, &wall_table, run->steps, run->step,
-                       sizeof *run->step);
+    return write_steps(out, run->o, &wall_table, run->steps, run->step, sizeof *run->step);
 }
 
-static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context,
-                           rb_message *why)
+static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const wall_run *run = context;
     return rb_report_picture_wall(out, canvas, run->wall, run->steps, run->step, why);
@@ -303,8 +292,8 @@ static rb_status write_problem(const wall_run *run, int rank, int step, rb_messa
     char name[40], title[200];
     rb_friction_problem problem = {0};
     snprintf(name, sizeof name, "wall-%02d.hdf5", rank);
-    snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations",
-             step + 1, run->step[step].iterations);
+    snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations", step + 1,
+             run->step[step].iterations);
     char *path = rb_io_join(run->o->output, name);
     rb_status s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
     if (s == RB_OK)
@@ -333,8 +322,8 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
             break;
         run->steps++;
         if (!o->quiet)
-            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n",
-                    run->steps, planned, rint(step->shear) + 0.0, /* no -0 */
+            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n", run->steps,
+                    planned, rint(step->shear) + 0.0, /* no -0 */
                     step->iterations, step->seconds);
     }
     cli_interrupts_leave();
@@ -366,8 +355,7 @@ static cli_exit finish_wall(const wall_run *run)
 
 static cli_exit run_wall(const example_options *o)
 {
-    static const int fine[2][3] = {{4, 3, 3}, {8, 6, 3}},
-                     coarse[2][3] = {{3, 2, 3}, {4, 3, 3}};
+    static const int fine[2][3] = {{4, 3, 3}, {8, 6, 3}}, coarse[2][3] = {{3, 2, 3}, {4, 3, 3}};
     rb_fem_wall_options w = rb_fem_wall_defaults();
     if (o->mesh != MESH_FINE) {
         memcpy(w.fine, fine[o->mesh], sizeof w.fine);
@@ -387,12 +375,10 @@ static cli_exit run_wall(const example_options *o)
         fprintf(stderr, "wall: %d contact points, %d degrees of freedom\n", contacts,
                 rb_fem_wall_dofs(run.wall));
         if (rb_fem_wall_rank(run.wall, &rank) == RB_OK)
-            fprintf(stderr, "H has rank %d: %d times hyperstatic\n", rank,
-                    3 * contacts - rank);
+            fprintf(stderr, "H has rank %d: %d times hyperstatic\n", rank, 3 * contacts - rank);
     }
     run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
-    cli_exit code =
-        run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");
+    cli_exit code = run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");
     if (run.steps > 0) {
         const cli_exit finished = finish_wall(&run);
         code = code == CLI_OK ? finished : code;
@@ -425,9 +411,8 @@ static cli_exit run_example(example_options *o, const char *name)
     static const struct {
         const char *name, *solver; /* the quickest */
         cli_exit (*run)(const example_options *o);
-    } examples[] = {{"bar", "nsn-nm", run_bar},
-                    {"truss", "nsn-ac", run_truss},
-                    {"wall", "nsn-ac", run_wall}};
+    } examples[] = {
+        {"bar", "nsn-nm", run_bar}, {"truss", "nsn-ac", run_truss}, {"wall", "nsn-ac", run_wall}};
     rb_guess guess = {.word = name};
     for (int k = 0; k < 3; k++) {
         if (strcmp(examples[k].name, name) == 0) {
@@ -436,11 +421,10 @@ static cli_exit run_example(example_options *o, const char *name)
         }
         rb_guess_try(&guess, examples[k].name);
     }
-    return cli_fail(
-        CLI_USAGE,
-        "example: expected bar, truss, wall or a name that `rollbem examples` "
-        "lists, got '%s'%s",
-        name, rb_guess_text(&guess, ""));
+    return cli_fail(CLI_USAGE,
+                    "example: expected bar, truss, wall or a name that `rollbem examples` "
+                    "lists, got '%s'%s",
+                    name, rb_guess_text(&guess, ""));
 }
 
 /* One of the cases of --example. */
@@ -489,19 +473,16 @@ static const struct {
 } finite_elements[] = {
     {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)"},
     {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)"},
-    {"wall",
-     "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)"}};
+    {"wall", "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)"}};
 enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
 
-static void list_example(json_t **list, const char *name, const char *kind,
-                         const char *what)
+static void list_example(json_t **list, const char *name, const char *kind, const char *what)
 {
     json_t *one = json_object();
     const size_t n = strlen(what);
     rb_report_json_set(&one, "name", json_string(name));
     rb_report_json_set(&one, "kind", json_string(kind));
-    rb_report_json_set(&one, "about",
-                       json_stringn(what, n > 0 && what[n - 1] == ' ' ? n - 1 : n));
+    rb_report_json_set(&one, "about", json_stringn(what, n > 0 && what[n - 1] == ' ' ? n - 1 : n));
     rb_report_json_append(list, one);
 }
 
@@ -514,8 +495,7 @@ static rb_status write_examples(FILE *out, const void *context, rb_message *why)
     for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
         list_example(&list, strrchr(name, ' ') + 1, "case", text);
     for (int k = 0; k < FINITE_ELEMENTS; k++)
-        list_example(&list, finite_elements[k].name, "finite elements",
-                     finite_elements[k].about);
+        list_example(&list, finite_elements[k].name, "finite elements", finite_elements[k].about);
     rb_report_json_set(&root, "examples", list);
     return rb_report_json_write(out, root);
 }
@@ -530,8 +510,7 @@ int cli_examples(int argc, char **argv)
     const cli_spec spec = {
         .synopsis = "rollbem examples [--json]",
         .about = "Lists the cases that --example NAME starts from, and what they are.",
-        .sets = {{json_option, sizeof json_option / sizeof json_option[0], &json, NULL,
-                  NULL}},
+        .sets = {{json_option, sizeof json_option / sizeof json_option[0], &json, NULL, NULL}},
         .set_n = 1};
     cli_args args = {0};
     cli_exit code = cli_parse(&spec, argc, argv, &args);

@@ -24,8 +24,7 @@ static const rb_option options[] = {
 
 rb_option_set cli_example_set(void)
 {
-    return (rb_option_set){options, sizeof options / sizeof options[0], &chosen, NULL,
-                           NULL};
+    return (rb_option_set){options, sizeof options / sizeof options[0], &chosen, NULL, NULL};
 }
 
 cli_exit cli_example_read(rb_case *c, const cli_args *args)
@@ -36,17 +35,16 @@ cli_exit cli_example_read(rb_case *c, const cli_args *args)
     if (!chosen)
         return CLI_CONTINUE;
     if (args->operands > 0)
-        return cli_fail(CLI_USAGE, "--example %s and the case file '%s': one of them",
-                        chosen, args->operand[0]);
+        return cli_fail(CLI_USAGE, "--example %s and the case file '%s': one of them", chosen,
+                        args->operand[0]);
     for (int k = 0; k < EXAMPLES; k++) {
         snprintf(title, sizeof title, "examples/%s", examples[k].name);
         if (strcmp(examples[k].name, chosen) == 0)
             return cli_say(rb_case_read_text(c, title, examples[k].text, &why), &why);
         rb_guess_try(&guess, examples[k].name);
     }
-    return cli_fail(CLI_USAGE,
-                    "--example: no example '%s'%s; `rollbem examples` lists them", chosen,
-                    rb_guess_text(&guess, ""));
+    return cli_fail(CLI_USAGE, "--example: no example '%s'%s; `rollbem examples` lists them",
+                    chosen, rb_guess_text(&guess, ""));
 }
 
 /* The comment that it begins with says what it is. */

@@ -270,8 +270,7 @@ static void find_everything(const rb_option_set *options)
             const rb_option *o = &options->options[i];
             if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
                 rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
-                rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ",
-                          o->name);
+                rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
         }
         search.title = "Units";
         if (*text)
@@ -290,10 +289,9 @@ static void find_everything(const rb_option_set *options)
 /* Words that a question has besides those that it is about. */
 static int is_small(const char *word)
 {
-    static const char *const small[] = {"a",    "an",   "and",   "are",   "can",  "do",
-                                        "does", "for",  "how",   "i",     "in",   "is",
-                                        "it",   "my",   "of",    "on",    "the",  "to",
-                                        "what", "when", "where", "which", "with", "why"};
+    static const char *const small[] = {
+        "a",  "an", "and", "are", "can", "do", "does", "for",  "how",   "i",     "in",   "is",
+        "it", "my", "of",  "on",  "the", "to", "what", "when", "where", "which", "with", "why"};
     for (size_t k = 0; k < sizeof small / sizeof *small; k++)
         if (strcasecmp(word, small[k]) == 0)
             return 1;

@@ -25,11 +25,10 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("fit", "What is fitted"),
-    RB_TEXT_LINE(
-        "fit", PLACE(names), "NAME,...",
-        "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
-        "interlayer-tangential; creep-offset: a constant added to the measured creepage",
-        .unset = "none"),
+    RB_TEXT_LINE("fit", PLACE(names), "NAME,...",
+                 "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
+                 "interlayer-tangential; creep-offset: a constant added to the measured creepage",
+                 .unset = "none"),
     RB_NUMBER_LINE("sigma", PLACE(sigma), "-", RB_ABOVE(0),
                    "standard deviation of the measured forces, in their units; a column "
                    "sigma gives one for each",
@@ -39,8 +38,7 @@ static const rb_option options[] = {
                  .unset = "the case's, or from the data"),
     RB_TEXT_LINE("bounds", PLACE(bounds), "NAME=A:B,...", "ranges of the numbers",
                  .unset = "those of the options"),
-    RB_NUMBER_LINE("level", PLACE(level), "-", RB_BETWEEN(0, 1),
-                   "of the intervals (Student's)"),
+    RB_NUMBER_LINE("level", PLACE(level), "-", RB_BETWEEN(0, 1), "of the intervals (Student's)"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -82,11 +80,9 @@ static cli_exit read_names(fitting *f)
     for (const char *at = f->names; *at;) {
         const size_t n = strcspn(at, ",");
         if (n == 0 || n > 39 || parameter_of(f, at, n))
-            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'",
-                            f->names);
+            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'", f->names);
         if (f->fit.n == RB_CASE_FIT_MAX)
-            return cli_fail(CLI_USAGE, "--fit: expected at most %d names",
-                            RB_CASE_FIT_MAX);
+            return cli_fail(CLI_USAGE, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
         rb_case_parameter *p = &f->fit.parameter[f->fit.n++];
         memcpy(p->name, at, n);
         p->start = NAN;
@@ -112,8 +108,8 @@ static cli_exit read_values(fitting *f, const char *option, const char *text, in
             (ranges ? found != 2 && !(found == 3 && end == ',')
                     : found != 1 && !(found == 2 && end == ',')) ||
             (ranges && !(x < y)))
-            return cli_fail(CLI_USAGE, "--%s: expected %s of a fitted number, got '%.*s'",
-                            option, ranges ? "NAME=A:B" : "NAME=X", (int)all, at);
+            return cli_fail(CLI_USAGE, "--%s: expected %s of a fitted number, got '%.*s'", option,
+                            ranges ? "NAME=A:B" : "NAME=X", (int)all, at);
         if (ranges) {
             p->low = x;
             p->high = y;
@@ -126,15 +122,14 @@ static cli_exit read_values(fitting *f, const char *option, const char *text, in
 }
 
 /* A column in mm, N, MPa; NULL: there is none. */
-static const double *column(fitting *f, const char *name, const char *unit,
-                            rb_units units)
+static const double *column(fitting *f, const char *name, const char *unit, rb_units units)
 {
     for (int j = 0; j < f->table.columns && f->table.name; j++)
         if (strncmp(f->table.name[j], name, strlen(name)) == 0) {
             const char *rest = f->table.name[j] + strlen(name);
             if (*rest == '\0' ||
-                (*rest == '_' && strcmp(unit, "-") != 0 &&
-                 strncmp(rest, "_ratio", 6) != 0 && strncmp(rest, "_over", 5) != 0)) {
+                (*rest == '_' && strcmp(unit, "-") != 0 && strncmp(rest, "_ratio", 6) != 0 &&
+                 strncmp(rest, "_over", 5) != 0)) {
                 rb_io_table_convert(&f->table, j, unit, units);
                 return f->table.x + (size_t)j * (size_t)f->table.rows;
             }
@@ -171,14 +166,13 @@ static cli_exit read_data(fitting *f, const char *path, rb_units units)
                         path);
     for (int k = 0; k < d->n && d->sigma; k++)
         if (!(d->sigma[k] > 0.0))
-            return cli_fail(CLI_DATA, "%s:%d: sigma: expected > 0, got %g", path,
-                            f->table.line[k], d->sigma[k]);
+            return cli_fail(CLI_DATA, "%s:%d: sigma: expected > 0, got %g", path, f->table.line[k],
+                            d->sigma[k]);
     if (!d->sigma && !isnan(f->sigma)) {
         f->sigmas = rb_alloc((size_t)d->n, 1);
         for (int k = 0; k < d->n && f->sigmas; k++)
-            f->sigmas[k] = d->measure == RB_CASE_FORCE
-                               ? rb_unit_stored(units, "N/mm", f->sigma)
-                               : f->sigma;
+            f->sigmas[k] =
+                d->measure == RB_CASE_FORCE ? rb_unit_stored(units, "N/mm", f->sigma) : f->sigma;
         d->sigma = f->sigmas;
     }
     return CLI_CONTINUE;
@@ -206,17 +200,14 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const results *r = context;
-    const rb_report_fit shown = {&r->f->fit, &r->f->data,
-                                 rb_case_resolved(r->words)->units};
+    const rb_report_fit shown = {&r->f->fit, &r->f->data, rb_case_resolved(r->words)->units};
     return rb_report_fit_picture(out, canvas, &shown, why);
 }
 
-static int tell(int iteration, double chi_square, int n, const double *value,
-                void *context)
+static int tell(int iteration, double chi_square, int n, const double *value, void *context)
 {
     const fitting *f = context;
     if (f->tells) {
@@ -287,8 +278,7 @@ int cli_fit(int argc, char **argv)
     if (code == CLI_CONTINUE && (args.operands < 1 || args.operands > 2))
         code = cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
     if (code == CLI_CONTINUE && args.operands == 2)
-        code =
-            cli_say(rb_case_read(words, args.operand[1], 2, spec.sets + 1, &why), &why);
+        code = cli_say(rb_case_read(words, args.operand[1], 2, spec.sets + 1, &why), &why);
     if (code == CLI_CONTINUE)
         code = read_names(&f);
     if (code == CLI_CONTINUE)

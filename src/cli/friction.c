@@ -33,23 +33,21 @@ static const rb_choice kinds[] = {{"any", RB_FRICTION_FILE_ANY},
 /* --format once named the kind of the files; both meanings are taken. */
 enum { KIND = 16 };
 
-static const rb_choice formats[] = {
-    {"tsv", RB_REPORT_TSV},
-    {"csv", RB_REPORT_CSV},
-    {"json", RB_REPORT_JSON},
-    {"any", KIND + RB_FRICTION_FILE_ANY},
-    {"fclib", KIND + RB_FRICTION_FILE_FCLIB},
-    {"siconos", KIND + RB_FRICTION_FILE_SICONOS},
-    {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
-    {NULL, 0}};
+static const rb_choice formats[] = {{"tsv", RB_REPORT_TSV},
+                                    {"csv", RB_REPORT_CSV},
+                                    {"json", RB_REPORT_JSON},
+                                    {"any", KIND + RB_FRICTION_FILE_ANY},
+                                    {"fclib", KIND + RB_FRICTION_FILE_FCLIB},
+                                    {"siconos", KIND + RB_FRICTION_FILE_SICONOS},
+                                    {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                    {NULL, 0}};
 
 #define PLACE(member) offsetof(friction_options, member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
-    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "tolerance of the error: see below"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0), "tolerance of the error: see below"),
     RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
                    "which error decides: scaled, or acary: (13), which depends on the "
                    "units of the file"),
@@ -57,21 +55,18 @@ static const rb_option options[] = {
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
                    .unset = "none"),
-    RB_CHOICE_LINE("kind", PLACE(kind), kinds,
-                   "format of the files, if it is not recognised"),
+    RB_CHOICE_LINE("kind", PLACE(kind), kinds, "format of the files, if it is not recognised"),
     RB_GROUP_LINE("output", "Output"),
-    RB_FLAG_LINE("facts", PLACE(facts),
-                 "rank, degree of hyperstaticity, nullity of K, asymmetry"),
+    RB_FLAG_LINE("facts", PLACE(facts), "rank, degree of hyperstaticity, nullity of K, asymmetry"),
     RB_FLAG_LINE("solution", PLACE(solution),
                  "a row per component of reactions r and velocities u instead of one per "
                  "file"),
     RB_FLAG_LINE("trace", PLACE(trace),
                  "every iterate with its error, also of the members of auto"),
     CLI_JSON_LINE(PLACE(style)),
-    RB_CHOICE_LINE(
-        "format", PLACE(format), formats,
-        "of the results: a table with tabs, with commas, or JSON; or, as --kind, "
-        "of the files"),
+    RB_CHOICE_LINE("format", PLACE(format), formats,
+                   "of the results: a table with tabs, with commas, or JSON; or, as --kind, "
+                   "of the files"),
     CLI_HEADER_LINE(PLACE(style)),
     CLI_OUTPUT_LINE(PLACE(output)),
 };
@@ -126,30 +121,29 @@ static int is_json(const friction_options *o)
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-#define ROW(name, column, kind, member)                                                  \
-    {                                                                                    \
-        name, column, CLI_ROW_##kind, offsetof(friction_result, member)                  \
+#define ROW(name, column, kind, member)                                                            \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(friction_result, member)                            \
     }
 
-static const cli_row rows[] = {
-    ROW("file", "file", TEXT, file),
-    ROW("solver", "solver", TEXT, info.solver),
-    ROW("status", "status", WORDS, status),
-    ROW("contacts", "contacts", WHOLE, contacts),
-    ROW("dimension", "dimension", SIZE, dimension),
-    ROW("iterations", "iterations", WHOLE, info.iters),
-    ROW("residual", "residual", NUMBER, info.residual),
-    ROW("scaled_residual", "scaled", NUMBER, info.scaled),
-    ROW("measure", NULL, TEXT, measure),
-    ROW("note", NULL, MESSAGE, note),
-    ROW("floor", "floor", NUMBER, info.floor),
-    ROW("flops", NULL, NUMBER, info.flops),
-    ROW("seconds", "seconds", NUMBER, info.seconds),
-    ROW("rank", "rank", WHOLE, facts.rank),
-    ROW("hyperstaticity", "hyperstaticity", WHOLE, facts.hyperstaticity),
-    ROW("nullity", "nullity", WHOLE, facts.nullity),
-    ROW("asymmetry", "asymmetry", NUMBER, facts.asymmetry),
-    ROW("indefinite", "indefinite", WHOLE, facts.indefinite)};
+static const cli_row rows[] = {ROW("file", "file", TEXT, file),
+                               ROW("solver", "solver", TEXT, info.solver),
+                               ROW("status", "status", WORDS, status),
+                               ROW("contacts", "contacts", WHOLE, contacts),
+                               ROW("dimension", "dimension", SIZE, dimension),
+                               ROW("iterations", "iterations", WHOLE, info.iters),
+                               ROW("residual", "residual", NUMBER, info.residual),
+                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
+                               ROW("measure", NULL, TEXT, measure),
+                               ROW("note", NULL, MESSAGE, note),
+                               ROW("floor", "floor", NUMBER, info.floor),
+                               ROW("flops", NULL, NUMBER, info.flops),
+                               ROW("seconds", "seconds", NUMBER, info.seconds),
+                               ROW("rank", "rank", WHOLE, facts.rank),
+                               ROW("hyperstaticity", "hyperstaticity", WHOLE, facts.hyperstaticity),
+                               ROW("nullity", "nullity", WHOLE, facts.nullity),
+                               ROW("asymmetry", "asymmetry", NUMBER, facts.asymmetry),
+                               ROW("indefinite", "indefinite", WHOLE, facts.indefinite)};
 
 enum { ROWS = sizeof rows / sizeof *rows, FACTS = 5 };
 
@@ -169,8 +163,7 @@ static cli_exit failed(friction_result *r, rb_status s, const char *text)
 {
     r->status = rb_status_text(s);
     r->m = 0;
-    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
-        NAN;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds = NAN;
     return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file,
                     text[0] ? text : rb_status_text(s));
 }
@@ -187,8 +180,7 @@ static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *wh
 #define MOST_ROWS 3000
 
 /* Ranks on request; unsymmetric and indefinite W in any case. */
-static cli_exit examine(const friction_run *run, const rb_friction_problem *p,
-                        friction_result *r)
+static cli_exit examine(const friction_run *run, const rb_friction_problem *p, friction_result *r)
 {
     if (!run->o->facts && r->m > MOST_ROWS)
         return CLI_OK;
@@ -196,8 +188,7 @@ static cli_exit examine(const friction_run *run, const rb_friction_problem *p,
     if (s != RB_OK)
         return failed(r, s, rb_status_text(s));
     if (r->facts.asymmetry > 1e-12)
-        fprintf(stderr,
-                "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
+        fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
                 r->file, r->facts.asymmetry);
     if (r->facts.indefinite)
         fprintf(stderr,
@@ -233,8 +224,7 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
         return CLI_OK;
     return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, %s %.2g", r->file,
                     r->info.solver, r->status, r->info.iters,
-                    run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)"
-                                                            : "scaled residual",
+                    run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)" : "scaled residual",
                     rb_friction_deciding(&r->info));
 }
 
@@ -242,14 +232,13 @@ static int trace(const rb_friction_progress *at, void *context)
 {
     friction_run *run = context;
     if (is_json(run->o))
-        rb_report_json_append(
-            &run->steps,
-            json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
-                      at->iters, "flops", rb_report_json_number(at->flops),
-                      "scaled_residual", rb_report_json_number(at->error)));
+        rb_report_json_append(&run->steps,
+                              json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
+                                        at->iters, "flops", rb_report_json_number(at->flops),
+                                        "scaled_residual", rb_report_json_number(at->error)));
     else
-        rb_report_comment(&run->files.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
-                          at->flops, at->error);
+        rb_report_comment(&run->files.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters, at->flops,
+                          at->error);
     return 0;
 }
 
@@ -278,8 +267,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     r->m = p.dimension * p.contacts;
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
-    cli_exit code =
-        r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
+    cli_exit code = r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};
@@ -357,10 +345,8 @@ static cli_exit solve_file(void *context, const char *path)
     if (is_json(run->o)) {
         json_t *p = cli_rows_json(run->o->facts ? ROWS : ROWS - FACTS, rows, &r, r.m > 0);
         if (run->o->solution) {
-            rb_report_json_set(&p, "r",
-                               r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
-            rb_report_json_set(&p, "u",
-                               r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
+            rb_report_json_set(&p, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
+            rb_report_json_set(&p, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
         }
         if (run->o->trace)
             rb_report_json_set(&p, "trace", json_incref(run->steps));
@@ -369,17 +355,15 @@ static cli_exit solve_file(void *context, const char *path)
         if (r.m && r.note.text[0])
             rb_report_comment(&run->files.cells, "note: %s: %s", r.file, r.note.text);
         if (r.m && run->o->solution) {
-            rb_report_comment(
-                &run->files.cells,
-                "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s", r.file,
-                r.status, r.info.solver, r.contacts, r.info.iters, r.info.residual,
-                r.info.seconds);
+            rb_report_comment(&run->files.cells,
+                              "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
+                              r.file, r.status, r.info.solver, r.contacts, r.info.iters,
+                              r.info.residual, r.info.seconds);
             if (run->o->facts)
-                rb_report_comment(
-                    &run->files.cells,
-                    "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
-                    r.facts.rank, r.facts.hyperstaticity, r.facts.nullity,
-                    r.facts.asymmetry, r.facts.indefinite ? ", indefinite" : "");
+                rb_report_comment(&run->files.cells,
+                                  "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                                  r.facts.rank, r.facts.hyperstaticity, r.facts.nullity,
+                                  r.facts.asymmetry, r.facts.indefinite ? ", indefinite" : "");
             for (int i = 0; i < r.m; i++) {
                 rb_report_cell_text(&run->files.cells, r.file);
                 rb_report_cell_whole(&run->files.cells, i + 1);

@@ -64,8 +64,8 @@ static void print_group_title(const rb_option *group)
 static int is_abbreviated(const cli_spec *spec, int s)
 {
     const rb_option *first = spec->sets[s].options;
-    return s == 0 || first->kind != RB_OPTION_GROUP ||
-           strcmp(first->name, "output") == 0 || strcmp(first->name, "example") == 0;
+    return s == 0 || first->kind != RB_OPTION_GROUP || strcmp(first->name, "output") == 0 ||
+           strcmp(first->name, "example") == 0;
 }
 
 /* All options of the set, or the common ones below one title. */
@@ -108,8 +108,7 @@ static void print_short_help(const cli_spec *spec)
     cli_print_entry("--help=GROUP", text);
     cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
                                          "a word, such as: rollbem help rubber");
-    cli_print_entry("rollbem help",
-                    "the other commands: curve, stress, wear, sweep, ...");
+    cli_print_entry("rollbem help", "the other commands: curve, stress, wear, sweep, ...");
 }
 
 /* The group or the option of that name; 0: there is none. */
@@ -153,10 +152,9 @@ int cli_print_help(const cli_spec *spec, const char *part)
         cli_print_entry("--version", "the version");
         cli_print_entry("--color=auto|always|never",
                         "colours on a terminal (auto: without NO_COLOR)");
-        cli_print_entry(
-            "--describe=man|markdown",
-            "this text as a manual page or for a page; =schema: the JSON Schema "
-            "of --json");
+        cli_print_entry("--describe=man|markdown",
+                        "this text as a manual page or for a page; =schema: the JSON Schema "
+                        "of --json");
         cli_print_entry("--completion=bash|zsh|fish", "the completion of a shell");
         if (spec->notes) {
             puts("");

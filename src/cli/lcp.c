@@ -27,9 +27,8 @@ static const rb_choice solvers[] = {{"auto", AUTO},
                                     {"newton", NEWTON},
                                     {NULL, 0}};
 
-static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
-                                  {"first-index", RB_LCP_FIRST_INDEX},
-                                  {NULL, 0}};
+static const rb_choice rules[] = {
+    {"lexicographic", RB_LCP_LEXICOGRAPHIC}, {"first-index", RB_LCP_FIRST_INDEX}, {NULL, 0}};
 
 #define PLACE(member) offsetof(lcp_options, member)
 
@@ -38,12 +37,11 @@ static const rb_option options[] = {
     RB_TEXT_LINE("q", PLACE(q), "FILE",
                  "q of a Matrix Market file: n numbers, plain or Matrix Market",
                  .file = RB_FILE_READ),
-    RB_TEXT_LINE("lower", PLACE(lower), "FILE",
-                 "lower bounds of z: n numbers, as --q; -inf: none", .unset = "zeros",
-                 .file = RB_FILE_READ),
+    RB_TEXT_LINE("lower", PLACE(lower), "FILE", "lower bounds of z: n numbers, as --q; -inf: none",
+                 .unset = "zeros", .file = RB_FILE_READ),
     RB_TEXT_LINE("upper", PLACE(upper), "FILE",
-                 "upper bounds of z, where w <= 0: n numbers, as --q; inf: none",
-                 .unset = "none", .file = RB_FILE_READ),
+                 "upper bounds of z, where w <= 0: n numbers, as --q; inf: none", .unset = "none",
+                 .file = RB_FILE_READ),
     RB_FLAG_LINE("game", PLACE(game),
                  "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
     RB_GROUP_LINE("solver", "Solver"),
@@ -57,16 +55,15 @@ static const rb_option options[] = {
                     "iteration limit of each method",
                     .unset = "lemke 50 n + 1000, newton 10 n + 100"),
     RB_TEXT_LINE("start", PLACE(start), "FILE",
-                 "z of a similar problem to start from: n numbers, as --q",
-                 .unset = "the bounds", .file = RB_FILE_READ),
+                 "z of a similar problem to start from: n numbers, as --q", .unset = "the bounds",
+                 .file = RB_FILE_READ),
     RB_FLAG_LINE("all", PLACE(all),
                  "all solutions, by trying every complementary basis (order 22 at most)"),
     RB_INTEGER_LINE("label", PLACE(label), RB_FROM_TO(1, 1e9),
-                    "--game: the strategy dropped first, rows then columns",
-                    .unset = "1"),
+                    "--game: the strategy dropped first, rows then columns", .unset = "1"),
     RB_TEXT_LINE("cover", PLACE(cover), "FILE",
-                 "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q",
-                 .unset = "ones", .file = RB_FILE_READ),
+                 "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q", .unset = "ones",
+                 .file = RB_FILE_READ),
     RB_CHOICE_LINE("rule", PLACE(rule), rules,
                    "which row leaves when ratios tie; first-index can cycle"),
     RB_GROUP_LINE("output", "Output"),
@@ -128,8 +125,8 @@ typedef struct {
     int n; /* 0: not read */
     rb_lcp_info info;
     double floor, seconds;
-    rb_sparse M;                /* owned, as the vectors */
-    rb_lcp_mixed_problem boxed; /* borrows M, lower, upper, and q of the file */
+    rb_sparse M;                           /* owned, as the vectors */
+    rb_lcp_mixed_problem boxed;            /* borrows M, lower, upper, and q of the file */
     double *lower, *upper, *cover, *start; /* n each, or NULL */
     double *z, *w;                         /* n x solutions */
     int solutions;                         /* 1 but for --all */
@@ -182,9 +179,9 @@ static json_t *vector(int n, const double *x)
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
 
-#define ROW(name, column, kind, member)                                                  \
-    {                                                                                    \
-        name, column, CLI_ROW_##kind, offsetof(lcp_result, member)                       \
+#define ROW(name, column, kind, member)                                                            \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(lcp_result, member)                                 \
     }
 
 static const cli_row rows[] = {ROW("file", "file", TEXT, file),
@@ -215,10 +212,9 @@ static void add_problem(lcp_run *run, const lcp_result *r)
         } else {
             json_t *list = json_array();
             for (int k = 0; k < r->solutions; k++)
-                rb_report_json_append(
-                    &list,
-                    json_pack("{s:o, s:o}", "z", vector(r->n, r->z + (size_t)k * r->n),
-                              "w", vector(r->n, r->w + (size_t)k * r->n)));
+                rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
+                                                       vector(r->n, r->z + (size_t)k * r->n), "w",
+                                                       vector(r->n, r->w + (size_t)k * r->n)));
             rb_report_json_set(&p, "solutions", list);
         }
     }
@@ -263,8 +259,8 @@ static cli_exit assess(const lcp_options *o, lcp_result *r, rb_status s)
     }
     r->status = rb_status_text(RB_INACCURATE);
     rb_fail(&r->info.msg, RB_INACCURATE,
-            "the residual of row %d is %.2g of its terms, above --tol %g",
-            r->info.row + 1, r->info.scaled, o->tol);
+            "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
+            r->info.scaled, o->tol);
     return CLI_UNSOLVED;
 }
 
@@ -320,8 +316,7 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
         return say_end(o, r, RB_OK);
     r->status = "no solution";
     r->info.res = r->info.scaled = r->floor = NAN;
-    return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file,
-                    all->bases);
+    return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file, all->bases);
 }
 
 /* r->z, the solutions, is taken over from all, and r->w made as large. */
@@ -343,8 +338,8 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     const double start = rb_seconds();
     rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
     if (rb_io_matrix_to_dense(M) == RB_OK)
-        s = rb_lcp_enumerate(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q},
-                             r->lower, r->upper, &all, &r->info.msg);
+        s = rb_lcp_enumerate(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, r->lower,
+                             r->upper, &all, &r->info.msg);
     r->seconds = rb_seconds() - start;
     if (s == RB_OK)
         s = take_all(r, &all);
@@ -380,8 +375,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
         return run_all(run, &p->M, r);
     const rb_lcp_options opt = solver_options(run, r);
     const double start = rb_seconds();
-    const rb_status s =
-        rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
+    const rb_status s = rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
     r->seconds = rb_seconds() - start;
     if (s < 0)
         return invalid(r, s, &r->info.msg);
@@ -430,8 +424,7 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
     if (run->o->all)
         s = rb_lcp_bimatrix_enumerate(&game, &all, &r->info.msg);
     else if (r->z && r->w)
-        s = rb_lcp_bimatrix(&game, (run->o->label ? run->o->label : 1) - 1, &opt, r->z,
-                            &r->info);
+        s = rb_lcp_bimatrix(&game, (run->o->label ? run->o->label : 1) - 1, &opt, r->z, &r->info);
     r->seconds = rb_seconds() - start;
     if (run->o->all && s == RB_OK)
         s = take_all(r, &all);
@@ -442,8 +435,8 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
     const size_t entries = (size_t)game.m * (size_t)game.n, n = (size_t)r->n;
     r->info.res = 0.0;
     for (int k = r->solutions - 1; k >= 0; k--) {
-        const double res = rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n,
-                                                  r->w + (size_t)k * n, r->payoff);
+        const double res =
+            rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n, r->w + (size_t)k * n, r->payoff);
         r->info.res = fmax(r->info.res, res);
     }
     const double size = fmax(rb_norm_inf(entries, game.A), rb_norm_inf(entries, game.B));
@@ -458,8 +451,7 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     rb_message why = {""};
     rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
     if (s == RB_OK && run->o->label > g.m + g.n)
-        s = rb_fail(&why, RB_EINVAL,
-                    "--label: expected one of the %d strategies of %.200s, got %d",
+        s = rb_fail(&why, RB_EINVAL, "--label: expected one of the %d strategies of %.200s, got %d",
                     g.m + g.n, r->file, run->o->label);
     const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, &why);
     rb_io_bimatrix_free(&g);
@@ -493,11 +485,10 @@ static cli_exit solve_file(void *context, const char *path)
             if (run->o->trace || run->o->solution || run->o->all) {
                 char residual[40] = ""; /* without a solution there is none */
                 if (isfinite(r.info.res))
-                    snprintf(residual, sizeof residual, ", scaled residual %.3g",
-                             r.info.scaled);
-                rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file,
-                                  r.status, r.solver, r.n, r.info.iters,
-                                  run->o->all ? "bases" : "pivots", residual, r.seconds);
+                    snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
+                rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file, r.status,
+                                  r.solver, r.n, r.info.iters, run->o->all ? "bases" : "pivots",
+                                  residual, r.seconds);
             } else
                 cli_rows_cells(c, run->files.columns, ROWS, rows, &r);
             if ((run->o->solution || run->o->all) && r.z)
@@ -530,21 +521,19 @@ static cli_exit check_options(const lcp_options *o)
         return cli_fail(CLI_USAGE, "lcp: --trace, --cover and --rule belong to Lemke's "
                                    "method: not with --solver newton");
     if (o->solver == NEWTON && (o->lower || o->upper))
-        return cli_fail(
-            CLI_USAGE,
-            "lcp: --lower and --upper need Lemke's method: not with --solver newton");
+        return cli_fail(CLI_USAGE,
+                        "lcp: --lower and --upper need Lemke's method: not with --solver newton");
     if (o->trace && o->solution && !is_json(o))
         return cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
                                    "them, or both with --json");
     if (o->all && (path || o->start || o->solver || o->max_pivots))
-        return cli_fail(
-            CLI_USAGE,
-            "lcp: --all tries every basis: not with --solver, --start, --cover, "
-            "--rule, --trace or --max-pivots");
+        return cli_fail(CLI_USAGE,
+                        "lcp: --all tries every basis: not with --solver, --start, --cover, "
+                        "--rule, --trace or --max-pivots");
     if (o->game && (vectors || o->q || o->solver || o->rule))
-        return cli_fail(
-            CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, --upper, "
-                       "--start, --cover, --solver or --rule");
+        return cli_fail(CLI_USAGE,
+                        "lcp: --game reads A and B alone: not with --q, --lower, --upper, "
+                        "--start, --cover, --solver or --rule");
     if (o->label && (!o->game || o->all))
         return cli_fail(CLI_USAGE, "lcp: --label belongs to Lemke and Howson's method: "
                                    "only with --game and without --all");
@@ -555,11 +544,8 @@ int cli_lcp(int argc, char **argv)
 {
     lcp_options o = {.tol = 1e-10};
     cli_args args = {0};
-    const cli_spec spec = {"rollbem lcp [OPTION...] FILE...",
-                           about,
-                           notes,
-                           {{options, OPTIONS, &o, NULL, NULL}},
-                           1};
+    const cli_spec spec = {
+        "rollbem lcp [OPTION...] FILE...", about, notes, {{options, OPTIONS, &o, NULL, NULL}}, 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
@@ -572,12 +558,11 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         lcp_run run = {
             .files = {.style = &o.style,
-                      .columns =
-                          o.trace ? "file pivot entering leaving row ratio z0"
-                          : o.all ? "file solution i z w"
-                          : o.solution
-                              ? "file i z w"
-                              : "file status n pivots residual seconds scaled solver",
+                      .columns = o.trace ? "file pivot entering leaving row ratio z0"
+                                 : o.all ? "file solution i z w"
+                                 : o.solution
+                                     ? "file i z w"
+                                     : "file status n pivots residual seconds scaled solver",
                       .conventions = conventions,
                       .solve = solve_file,
                       .context = &run},

@@ -13,8 +13,7 @@
 
 static const cli_command commands[] = {
     {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
-    {"sweep", cli_sweep,
-     "parameter studies over all processors and, under mpirun, machines"},
+    {"sweep", cli_sweep, "parameter studies over all processors and, under mpirun, machines"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"design", cli_design, "minimum or maximum of a result over numbers of a case"},
     {"fit", cli_fit, "numbers of a case fitted to a measured creep curve"},

@@ -50,9 +50,7 @@ cli_exit cli_fail(cli_exit code, const char *format, ...)
     if (keeps)
         snprintf(kept, sizeof kept, "%.399s", shown);
     else
-        fprintf(stderr,
-                cli_is_coloured(stderr) ? "\033[31mrollbem:\033[0m %s\n"
-                                        : "rollbem: %s\n",
+        fprintf(stderr, cli_is_coloured(stderr) ? "\033[31mrollbem:\033[0m %s\n" : "rollbem: %s\n",
                 shown);
     return code;
 }

@@ -34,14 +34,12 @@ static const rb_option options[] = {
     CLI_OUTPUT_LINE(PLACE(output)),
     CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
-    RB_FLAG_LINE("cite", PLACE(cite),
-                 "print references to the methods used to standard error"),
+    RB_FLAG_LINE("cite", PLACE(cite), "print references to the methods used to standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX,
-               "CLI_OUTPUT_OPTIONS_MAX is too small");
+_Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX, "CLI_OUTPUT_OPTIONS_MAX is too small");
 
 rb_option_set cli_output_set(cli_output *o)
 {
@@ -55,8 +53,7 @@ int cli_reader_is_person(void)
     const char *line = cli_command_line();
     if (strstr(line, " --format=brief") || strstr(line, " --format brief"))
         return 1;
-    return isatty(STDOUT_FILENO) && !strstr(line, " --header") &&
-           !strstr(line, " --format");
+    return isatty(STDOUT_FILENO) && !strstr(line, " --header") && !strstr(line, " --format");
 }
 
 static int lines_above; /* of a table on the terminal */
@@ -92,10 +89,9 @@ void cli_page_end(void)
 
 rb_status cli_show_table(char *text, int summary)
 {
-    const rb_report_window window = {
-        cli_terminal_height() - summary, cli_terminal_width(STDOUT_FILENO),
-        cli_is_coloured(stdout),
-        " h gap un ut shift principal_1 principal_2 hydrostatic "};
+    const rb_report_window window = {cli_terminal_height() - summary,
+                                     cli_terminal_width(STDOUT_FILENO), cli_is_coloured(stdout),
+                                     " h gap un ut shift principal_1 principal_2 hydrostatic "};
     return rb_report_terminal(page.text ? page.text : stdout, text, &window);
 }
 
@@ -169,25 +165,23 @@ static int is_output(const rb_option *o)
 }
 
 /* The output `path` of option `o` against all other files. */
-static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
-                            const rb_option *o, const char *path)
+static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb_option *o,
+                            const char *path)
 {
     const rb_option *other;
     const char *name;
     int set = 0, i = 0;
     for (int k = 0; k < args->operands; k++)
         if (same_file(path, args->operand[k]))
-            return cli_fail(CLI_USAGE,
-                            "--%s: '%s' is an input file and would be overwritten",
+            return cli_fail(CLI_USAGE, "--%s: '%s' is an input file and would be overwritten",
                             o->name, path);
     while ((name = next_path(spec, &set, &i, &other)) != NULL) {
         if (other == o || other->file == RB_FILE_FOLDER || !same_file(path, name))
             continue;
         if (is_output(other))
-            return cli_fail(CLI_USAGE, "--%s and --%s: both would write '%s'", o->name,
-                            other->name, path);
-        return cli_fail(CLI_USAGE,
-                        "--%s: '%s' is an input file (--%s) and would be overwritten",
+            return cli_fail(CLI_USAGE, "--%s and --%s: both would write '%s'", o->name, other->name,
+                            path);
+        return cli_fail(CLI_USAGE, "--%s: '%s' is an input file (--%s) and would be overwritten",
                         o->name, path, other->name);
     }
     return CLI_CONTINUE;
@@ -217,8 +211,7 @@ static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
     if (script && pictures != 1)
         return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
                         "%s: expected one picture (such as --plot FILE), got %d",
-                        rb_option_source(script_of, script, path, name, sizeof name),
-                        pictures);
+                        rb_option_source(script_of, script, path, name, sizeof name), pictures);
     return CLI_CONTINUE;
 }
 
@@ -234,8 +227,7 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
         if (code == CLI_CONTINUE && o->file != RB_FILE_READ) {
             rb_report_picture_kind kind;
             rb_message why = {""};
-            if (o->file == RB_FILE_PICTURE &&
-                rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
+            if (o->file == RB_FILE_PICTURE && rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
                 code = cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
             else
                 code = cli_say(o->file == RB_FILE_FOLDER ? rb_io_folder_check(path, &why)
@@ -248,8 +240,7 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 
 /* ---- Open, write, commit ----------------------------------------------------------- */
 
-rb_status cli_write_to(const char *path, cli_write *write, const void *context,
-                       rb_message *why)
+rb_status cli_write_to(const char *path, cli_write *write, const void *context, rb_message *why)
 {
     rb_io_writer w;
     if (!path && cli_reader_is_person()) {
@@ -274,8 +265,7 @@ rb_status cli_write_to(const char *path, cli_write *write, const void *context,
     if (s == RB_OK)
         return rb_io_writer_commit(&w, why);
     if (s == RB_EWRITE && ferror(w.file))
-        rb_fail(why, s, "%s: cannot write: %s", path ? path : "standard output",
-                strerror(errno));
+        rb_fail(why, s, "%s: cannot write: %s", path ? path : "standard output", strerror(errno));
     const int e = errno;
     rb_io_writer_abandon(&w);
     errno = e;
@@ -322,9 +312,8 @@ cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const c
     drawing script = d;
     script.canvas.script = 1;
     /* first the script, which does not need gnuplot */
-    const cli_exit code = pictures->script
-                              ? cli_write_file(pictures->script, draw_picture, &script)
-                              : CLI_OK;
+    const cli_exit code =
+        pictures->script ? cli_write_file(pictures->script, draw_picture, &script) : CLI_OK;
     return code == CLI_OK ? cli_write_file(path, draw_picture, &d) : code;
 }
 

@@ -9,23 +9,22 @@ enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
 
 /* Rows of an option table for a style that stands there. */
 extern const rb_choice cli_formats[], cli_headers[];
-#define CLI_JSON_LINE(style)                                                             \
-    RB_FLAG_LINE("json", style + offsetof(rb_report_style, format),                      \
-                 "JSON instead of the table", .common = 1)
-#define CLI_HEADER_LINE(style)                                                           \
-    RB_CHOICE_LINE("header", style + offsetof(rb_report_style, bare), cli_headers,       \
+#define CLI_JSON_LINE(style)                                                                       \
+    RB_FLAG_LINE("json", style + offsetof(rb_report_style, format), "JSON instead of the table",   \
+                 .common = 1)
+#define CLI_HEADER_LINE(style)                                                                     \
+    RB_CHOICE_LINE("header", style + offsetof(rb_report_style, bare), cli_headers,                 \
                    "of a table with tabs: # lines below the names, or the names alone")
-#define CLI_STYLE_LINES(style)                                                           \
-    CLI_JSON_LINE(style),                                                                \
-        RB_CHOICE_LINE(                                                                  \
-            "format", style + offsetof(rb_report_style, format), cli_formats,            \
-            "of the results: a table with tabs, with commas, JSON, or what a "           \
-            "terminal shows"),                                                           \
+#define CLI_STYLE_LINES(style)                                                                     \
+    CLI_JSON_LINE(style),                                                                          \
+        RB_CHOICE_LINE("format", style + offsetof(rb_report_style, format), cli_formats,           \
+                       "of the results: a table with tabs, with commas, JSON, or what a "          \
+                       "terminal shows"),                                                          \
         CLI_HEADER_LINE(style)
 
-#define CLI_OUTPUT_LINE(output)                                                          \
-    RB_TEXT_LINE("output", output, "FILE",                                               \
-                 "file for the table or JSON, written completely or not at all",         \
+#define CLI_OUTPUT_LINE(output)                                                                    \
+    RB_TEXT_LINE("output", output, "FILE",                                                         \
+                 "file for the table or JSON, written completely or not at all",                   \
                  .unset = "standard output", .file = RB_FILE_WRITTEN, .common = 1)
 
 /* How pictures are drawn. */
@@ -35,19 +34,17 @@ typedef struct {
 } cli_pictures;
 
 extern const rb_choice cli_picture_sizes[];
-#define CLI_PICTURE_LINES(pictures)                                                      \
-    RB_CHOICE_LINE("plot-size", pictures + offsetof(cli_pictures, size),                 \
-                   cli_picture_sizes,                                                    \
-                   "of the pictures: a column or the page of a paper, or a slide"),      \
-        RB_TEXT_LINE(                                                                    \
-            "plot-script", pictures + offsetof(cli_pictures, script), "FILE",            \
-            "also write the picture's gnuplot script with its data, for changes by "     \
-            "hand",                                                                      \
-            .unset = "none", .file = RB_FILE_WRITTEN)
+#define CLI_PICTURE_LINES(pictures)                                                                \
+    RB_CHOICE_LINE("plot-size", pictures + offsetof(cli_pictures, size), cli_picture_sizes,        \
+                   "of the pictures: a column or the page of a paper, or a slide"),                \
+        RB_TEXT_LINE("plot-script", pictures + offsetof(cli_pictures, script), "FILE",             \
+                     "also write the picture's gnuplot script with its data, for changes by "      \
+                     "hand",                                                                       \
+                     .unset = "none", .file = RB_FILE_WRITTEN)
 
-#define CLI_PLOT_LINES(plot, pictures)                                                   \
-    RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg or .pdf (by gnuplot)",       \
-                 .unset = "none", .file = RB_FILE_PICTURE, .common = 1),                 \
+#define CLI_PLOT_LINES(plot, pictures)                                                             \
+    RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg or .pdf (by gnuplot)",                 \
+                 .unset = "none", .file = RB_FILE_PICTURE, .common = 1),                           \
         CLI_PICTURE_LINES(pictures)
 
 typedef struct {
@@ -90,8 +87,7 @@ typedef rb_status cli_draw(FILE *out, rb_report_canvas canvas, const void *conte
                            rb_message *why);
 
 /* Opens, writes and commits; path NULL: standard output. */
-rb_status cli_write_to(const char *path, cli_write *write, const void *context,
-                       rb_message *why);
+rb_status cli_write_to(const char *path, cli_write *write, const void *context, rb_message *why);
 /* The same, its failure printed. */
 cli_exit cli_write_file(const char *path, cli_write *write, const void *context);
 /* The same for a picture, that --option asked for; path NULL: nothing to draw. */

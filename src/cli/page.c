@@ -20,12 +20,10 @@ typedef struct {
 static const rb_option options[] = {
     RB_GROUP_LINE("output", "Output"),
     RB_TEXT_LINE("page", PLACE(page), "FILE", "the page as `make page` builds it",
-                 .unset =
-                     "the one beside the program, or in share/rollbem beside its folder",
+                 .unset = "the one beside the program, or in share/rollbem beside its folder",
                  .file = RB_FILE_READ),
-    RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "file to write, completely or not at all", .unset = "standard output",
-                 .file = RB_FILE_WRITTEN),
+    RB_TEXT_LINE("output", PLACE(output), "FILE", "file to write, completely or not at all",
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -77,18 +75,16 @@ static cli_exit read_page(const char *given, built_page *p)
     size_t size;
     rb_message why = {""};
     if (!given && !find_page(found, sizeof found))
-        return cli_fail(CLI_NOINPUT,
-                        "page: rollbem.html is neither beside the program nor in "
-                        "share/rollbem; `make page` builds it, --page FILE "
-                        "names it");
+        return cli_fail(CLI_NOINPUT, "page: rollbem.html is neither beside the program nor in "
+                                     "share/rollbem; `make page` builds it, --page FILE "
+                                     "names it");
     const char *path = given ? given : found;
     const rb_status s = rb_io_read_text(path, &p->text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
     char *at = strstr(p->text, marker), *limits = strstr(p->text, limits_marker);
     if (limits)
-        p->limits =
-            json_loads(limits + strlen(limits_marker), JSON_DISABLE_EOF_CHECK, NULL);
+        p->limits = json_loads(limits + strlen(limits_marker), JSON_DISABLE_EOF_CHECK, NULL);
     if (!at || strncmp(at + strlen(marker), no_case, strlen(no_case)) != 0 || !p->limits)
         return cli_fail(CLI_DATA, "%s: expected the page of `make page`", path);
     p->place = at + strlen(marker);
@@ -103,8 +99,7 @@ static cli_exit refuse_files(rb_case *c)
     const rb_option_set set = rb_case_options(c);
     for (int k = 0; k < set.n; k++)
         if (rb_option_path(&set.options[k], set.target))
-            return cli_fail(CLI_USAGE,
-                            "--%s: names a file, which the page cannot contain",
+            return cli_fail(CLI_USAGE, "--%s: names a file, which the page cannot contain",
                             set.options[k].name);
     return CLI_CONTINUE;
 }
@@ -123,14 +118,12 @@ static cli_exit refuse_beyond(rb_case *c, const json_t *limits)
         for (size_t i = 0; i < json_array_size(left_out); i++) {
             const char *other = json_string_value(json_array_get(left_out, i));
             if (other && strcmp(other, name) == 0)
-                return cli_fail(CLI_USAGE, "--%s: not in the page, use the program",
-                                name);
+                return cli_fail(CLI_USAGE, "--%s: not in the page, use the program", name);
         }
         const json_t *most = json_object_get(largest, name);
         const char *text = rb_option_text(&set.options[k], set.target, buffer);
         if (most && strtod(text, NULL) > json_number_value(most))
-            return cli_fail(CLI_USAGE,
-                            "--%s: the page goes up to %g, use the program for %s", name,
+            return cli_fail(CLI_USAGE, "--%s: the page goes up to %g, use the program for %s", name,
                             json_number_value(most), text);
     }
     return CLI_CONTINUE;
@@ -167,8 +160,7 @@ static cli_exit fill_page(rb_case *c, const page_options *o)
         json_t *all = json_object();
         char buffer[64];
         for (int k = 0; k < set.n; k++)
-            if (set.options[k].kind != RB_OPTION_GROUP &&
-                rb_case_given(c, set.options[k].name))
+            if (set.options[k].kind != RB_OPTION_GROUP && rb_case_given(c, set.options[k].name))
                 rb_report_json_set(
                     &all, set.options[k].name,
                     json_string(rb_option_text(&set.options[k], set.target, buffer)));

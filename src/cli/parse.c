@@ -9,15 +9,14 @@
 /* ---- Command line ---------------------------------------------------------------- */
 
 /* The value after '=', the next argument, or "yes" for a flag.  NULL: there is none. */
-static const char *value_of(const rb_option *o, const char *equals, int *i, int argc,
-                            char **argv)
+static const char *value_of(const rb_option *o, const char *equals, int *i, int argc, char **argv)
 {
     if (equals)
         return equals + 1;
     if (o->kind == RB_OPTION_FLAG)
         return "yes";
-    if (o->alone && (*i + 1 >= argc || argv[*i + 1][0] == '-' ||
-                     strpbrk(argv[*i + 1], "./") || access(argv[*i + 1], R_OK) == 0))
+    if (o->alone && (*i + 1 >= argc || argv[*i + 1][0] == '-' || strpbrk(argv[*i + 1], "./") ||
+                     access(argv[*i + 1], R_OK) == 0))
         return o->alone;
     if (*i + 1 >= argc)
         return NULL;
@@ -35,8 +34,7 @@ static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv
     snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
     rb_guess guess = {.word = word};
     int k;
-    const rb_option_set *set =
-        rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
+    const rb_option_set *set = rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
     if (!set) {
         const char *commands = cli_commands_with(name, length);
         if (*commands)
@@ -90,18 +88,16 @@ static int answer_common(const cli_spec *spec, const char *argument)
         cli_exit code = CLI_CONTINUE;
         if (form && (code = cli_describe(spec, form)) == CLI_CONTINUE)
             return cli_fail(
-                CLI_USAGE,
-                "--describe: expected man, markdown, results or schema, got '%s'", form);
+                CLI_USAGE, "--describe: expected man, markdown, results or schema, got '%s'", form);
         if (shell && (code = cli_complete(shell)) == CLI_CONTINUE)
-            return cli_fail(CLI_USAGE,
-                            "--completion: expected bash, zsh or fish, got '%s'", shell);
+            return cli_fail(CLI_USAGE, "--completion: expected bash, zsh or fish, got '%s'", shell);
         return code;
     }
     return CLI_OK;
 }
 
-static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **argv,
-                               cli_args *args, int *operands_only)
+static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **argv, cli_args *args,
+                               int *operands_only)
 {
     char *argument = argv[*i];
     if (*operands_only || argument[0] != '-' || argument[1] == '\0') {
@@ -117,16 +113,15 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
     if (argument[1] != '-') {
         const size_t n = strcspn(argument + 1, "=");
         const char *other = cli_other_name(argument + 1, n);
-        return cli_fail(
-            CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)", argument,
-            other ? (int)strlen(other) : (int)n, other ? other : argument + 1);
+        return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)",
+                        argument, other ? (int)strlen(other) : (int)n,
+                        other ? other : argument + 1);
     }
     if (value_behind("--color=", argument)) {
         const char *when = value_behind("--color=", argument);
         if (cli_set_colour(when))
             return CLI_CONTINUE;
-        return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'",
-                        when);
+        return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
     }
     const cli_exit code = answer_common(spec, argument);
     return code == CLI_CONTINUE ? parse_option(spec, i, argc, argv) : code;

@@ -29,9 +29,8 @@ json_t *cli_rows_json(int n, const cli_row *rows, const void *values, int known)
     json_t *object = json_object();
     for (int k = 0; k < n; k++)
         if (rows[k].name)
-            rb_report_json_set(
-                &object, rows[k].name,
-                json_of(&rows[k], (const char *)values + rows[k].place, known));
+            rb_report_json_set(&object, rows[k].name,
+                               json_of(&rows[k], (const char *)values + rows[k].place, known));
     return object;
 }
 

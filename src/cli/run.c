@@ -41,13 +41,13 @@ static char *name_snapshot(const char *folder, int step, const rb_report_style *
 }
 
 rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case *rc,
-                             const rb_rolling_solution *solution,
-                             const rb_report_style *style, rb_message *why)
+                             const rb_rolling_solution *solution, const rb_report_style *style,
+                             rb_message *why)
 {
     const snapshot it = {rc, solution, style};
     char *path = name_snapshot(folder, step, style);
-    const rb_status s = path ? cli_write_to(path, write_table, &it, why)
-                             : rb_fail(why, RB_ENOMEM, "out of memory");
+    const rb_status s =
+        path ? cli_write_to(path, write_table, &it, why) : rb_fail(why, RB_ENOMEM, "out of memory");
     free(path);
     return s;
 }
@@ -65,8 +65,8 @@ static rb_status keep_state(const rb_rolling_model *model, int step, int steps,
     return RB_OK;
 }
 
-static int after_step(const rb_rolling_model *model, const rb_rolling_history *history,
-                      int step, int steps, void *context)
+static int after_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                      int steps, void *context)
 {
     watch *w = context;
     const cli_steps *asked = w->steps;
@@ -81,8 +81,8 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
                 fprintf(stderr,
                         "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f "
                         "s left%s",
-                        w->steps->terminal ? "\r" : "", step + 1, steps,
-                        history->distance[step], history->creepage[step],
+                        w->steps->terminal ? "\r" : "", step + 1, steps, history->distance[step],
+                        history->creepage[step],
                         rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
                         rb_unit_name(w->units, "N/mm"),
                         (now - w->start) / (step + 1) * (steps - step - 1),
@@ -118,8 +118,8 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     return cli_interrupted() || w->failed != RB_OK;
 }
 
-rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
-                       rb_case_result *r, rb_message *why)
+rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps, rb_case_result *r,
+                       rb_message *why)
 {
     static const cli_steps silent = {0};
     rb_message failure = {""};

@@ -18,13 +18,13 @@ typedef struct {
 /* The tractions after that step as a file of the folder: step_000012.tsv, or .csv.  rc
  * NULL: no # lines about the case. */
 rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case *rc,
-                             const rb_rolling_solution *solution,
-                             const rb_report_style *style, rb_message *why);
+                             const rb_rolling_solution *solution, const rb_report_style *style,
+                             rb_message *why);
 
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
  * after the current one.  steps NULL: nothing on the way.  Free the result in any
  * case. */
-rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
-                       rb_case_result *r, rb_message *why);
+rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps, rb_case_result *r,
+                       rb_message *why);
 
 #endif

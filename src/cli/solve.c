@@ -35,26 +35,22 @@ static const rb_option options[] = {
                  "the contact problem with its approach and creepage as FCLib (HDF5), "
                  "for rollbem friction and others",
                  .unset = "none", .file = RB_FILE_WRITTEN),
-    RB_FLAG_LINE("trace", PLACE(trace),
-                 "every pivot of Lemke's method, on standard error"),
-    RB_FLAG_LINE(
-        "all-solutions", PLACE(all_solutions),
-        "steady, friction that depends on the slip or the temperature: solutions "
-        "that differ, each with its residual, on standard error and as solutions "
-        "in JSON"),
+    RB_FLAG_LINE("trace", PLACE(trace), "every pivot of Lemke's method, on standard error"),
+    RB_FLAG_LINE("all-solutions", PLACE(all_solutions),
+                 "steady, friction that depends on the slip or the temperature: solutions "
+                 "that differ, each with its residual, on standard error and as solutions "
+                 "in JSON"),
 
-    RB_TEXT_LINE(
-        "derivatives", PLACE(derivatives), "RESULT,...",
-        "derivatives of these results (without names: of all) with respect to "
-        "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
-        "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
-        "respect to one number",
-        .unset = "none", .alone = "all"),
-    RB_TEXT_LINE(
-        "tolerance", PLACE(tolerance), "NAME=X,...",
-        "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
-        "results to first order to standard error, and as tolerances in JSON",
-        .unset = "none"),
+    RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
+                 "derivatives of these results (without names: of all) with respect to "
+                 "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
+                 "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
+                 "respect to one number",
+                 .unset = "none", .alone = "all"),
+    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
+                 "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
+                 "results to first order to standard error, and as tolerances in JSON",
+                 .unset = "none"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
@@ -110,8 +106,7 @@ static const char notes[] = CLI_CASE_NOTES
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const solved *it = run->own;
-    rb_report_json_result(root, &it->r, it->states ? &it->kept : NULL,
-                          &it->slopes_of_steps);
+    rb_report_json_result(root, &it->r, it->states ? &it->kept : NULL, &it->slopes_of_steps);
     if (it->all.n > 0)
         rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
     if (it->derivatives && it->slopes_of_steps.n == 0)
@@ -124,15 +119,14 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
     if (it->derivatives && it->slopes_of_steps.n > 0)
-        return rb_report_step_slopes(out, &it->r.history, &it->slopes_of_steps,
-                                     cli_command_line(), &run->o.style);
+        return rb_report_step_slopes(out, &it->r.history, &it->slopes_of_steps, cli_command_line(),
+                                     &run->o.style);
     if (it->derivatives && !run->o.output && cli_reader_is_person())
         return rb_report_brief_derivatives(out, run->solution, &it->shown);
     if (it->derivatives)
-        return rb_report_derivative_table(out, run->solution, &it->shown,
-                                          cli_command_line(), &run->o.style);
-    return rb_report_table(out, &run->c->rc, run->solution, cli_command_line(),
-                           &run->o.style);
+        return rb_report_derivative_table(out, run->solution, &it->shown, cli_command_line(),
+                                          &run->o.style);
+    return rb_report_table(out, &run->c->rc, run->solution, cli_command_line(), &run->o.style);
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
@@ -143,8 +137,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
     return rb_report_history(out, &it->r.history, cli_command_line(), &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const cli_case_run *run = context;
     return rb_report_picture(out, canvas, &run->c->rc, run->solution, why);
@@ -226,8 +219,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         /* Of what is asked for, in the units that are shown. */
         s = rb_case_differentiate(run->words, &it->r.model, 0, NULL, &it->slopes, why);
         if (s == RB_OK && it->tolerance)
-            s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation,
-                                  why);
+            s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation, why);
         if (s != RB_OK) /* the case has its solution, and nothing beside it */
             drop_derivatives(it);
         rb_rolling_solution_convert(&it->shown.deviation, run->c->units);
@@ -255,8 +247,8 @@ static cli_exit check_steps(const cli_case_run *run)
         if (steps && run->set.given[i])
             return cli_fail(run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
                             "%s: for --formulation transient, --history or --increments",
-                            rb_option_source(&options[i], run->set.given[i],
-                                             run->args.operand[0], name, sizeof name));
+                            rb_option_source(&options[i], run->set.given[i], run->args.operand[0],
+                                             name, sizeof name));
     }
     return CLI_CONTINUE;
 }
@@ -266,28 +258,22 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
 {
     const int model_kept = rb_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
     if ((it->dump || it->trace || it->fclib) && !model_kept)
-        return cli_fail(CLI_USAGE,
-                        "--dump, --fclib and --trace: not together with error bars");
-    if (it->all_solutions && (c->rc.formulation != RB_STEADY || !model_kept ||
-                              !rb_rolling_law_depends_on_state(&c->rc)))
-        return cli_fail(CLI_USAGE,
-                        "--all-solutions: only for steady rolling without error bars, "
-                        "with friction that depends on the slip or the temperature");
+        return cli_fail(CLI_USAGE, "--dump, --fclib and --trace: not together with error bars");
+    if (it->all_solutions &&
+        (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_depends_on_state(&c->rc)))
+        return cli_fail(CLI_USAGE, "--all-solutions: only for steady rolling without error bars, "
+                                   "with friction that depends on the slip or the temperature");
     if (it->all_solutions && (it->dump || it->trace || it->fclib))
         return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
                                    "--trace, which show one of them");
-    if (it->all_solutions &&
-        (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
-        return cli_fail(CLI_USAGE,
-                        "--all-solutions: at a given creepage, not under a given force");
+    if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
+        return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
     if ((it->derivatives || it->tolerance) && !model_kept)
-        return cli_fail(CLI_USAGE,
-                        "--derivatives and --tolerance: not together with error bars");
+        return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
     if (it->derivatives && rb_case_has_steps(c) && c->error)
         return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
     if (it->tolerance && rb_case_has_steps(c))
-        return cli_fail(CLI_USAGE,
-                        "--tolerance: only for one step; this case has several");
+        return cli_fail(CLI_USAGE, "--tolerance: only for one step; this case has several");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
@@ -306,8 +292,8 @@ static cli_exit check_derivatives(const cli_case_run *run, solved *it)
     if (it->derivatives && !steps &&
         rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
-    if (it->tolerance && rb_case_read_tolerances(run->words, it->tolerance,
-                                                 &it->tolerances, &why) != RB_OK)
+    if (it->tolerance &&
+        rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
     return CLI_CONTINUE;
 }
@@ -337,8 +323,7 @@ static cli_exit check(cli_case_run *run)
     if (code != CLI_CONTINUE)
         return code;
     /* Where the states of the steps are printed, and in which units. */
-    if (it->states &&
-        (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
+    if (it->states && (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
     return CLI_CONTINUE;
 }

@@ -26,6 +26,6 @@ void cli_friction_solver_lines(char *text, size_t size)
     const rb_friction_solver *all = rb_friction_solvers(&count);
     text[0] = '\0';
     for (int k = 0; k < count; k++)
-        rb_append(text, size, "  %-17s %s: %s%s\n", all[k].name, all[k].method,
-                  all[k].summary, all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
+        rb_append(text, size, "  %-17s %s: %s%s\n", all[k].name, all[k].method, all[k].summary,
+                  all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
 }

@@ -32,17 +32,16 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("stress", "Stress"),
-    RB_TEXT_LINE("grid", PLACE(grid), "NXxNY",
-                 "points along the surface and into the depth", .unset = "61x41"),
+    RB_TEXT_LINE("grid", PLACE(grid), "NXxNY", "points along the surface and into the depth",
+                 .unset = "61x41"),
     RB_NUMBER_LINE("depth", PLACE(depth), "mm", RB_ABOVE(0),
                    "of the grid and of the search for maxima; auto: 2.5 half-widths",
                    .word = "auto", .word_value = 0.0),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
                  "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none",
                  .file = RB_FILE_READ),
-    RB_TEXT_LINE("vtk", PLACE(vtk), "FILE",
-                 "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none",
-                 .file = RB_FILE_WRITTEN),
+    RB_TEXT_LINE("vtk", PLACE(vtk), "FILE", "for ParaView: .vtu, or .vti (half-planes only)",
+                 .unset = "none", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("fringes", PLACE(fringes), "FILE",
                  "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none",
                  .file = RB_FILE_PICTURE),
@@ -54,11 +53,10 @@ static const rb_option options[] = {
                  "largest p0 at which residual stresses keep A elastic under repeated "
                  "rolling (Melan, Tresca)"),
     RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
-                   "yield stress k of A in shear; shows the case in the map",
-                   .unset = "not given"),
+                   "yield stress k of A in shear; shows the case in the map", .unset = "not given"),
     RB_TEXT_LINE("shakedown-map", PLACE(map), "FILE",
-                 "picture of p0/k over Q/P with the case: .png, .svg or .pdf",
-                 .unset = "none", .file = RB_FILE_PICTURE),
+                 "picture of p0/k over Q/P with the case: .png, .svg or .pdf", .unset = "none",
+                 .file = RB_FILE_PICTURE),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -118,17 +116,15 @@ static cli_exit check(cli_case_run *run)
     int end = 0;
     st->nx = 61;
     st->ny = 41;
-    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 ||
-                     st->grid[end] || st->nx < 2 || st->ny < 2))
-        return cli_fail(CLI_USAGE,
-                        "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
+    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 || st->grid[end] ||
+                     st->nx < 2 || st->ny < 2))
+        return cli_fail(CLI_USAGE, "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
                         st->grid);
     if (st->grid && st->points)
         return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
     if (!st->points)
         return CLI_CONTINUE;
-    return read_points(st,
-                       rb_case_units(run->words, rb_option_given(&run->set, "points")));
+    return read_points(st, rb_case_units(run->words, rb_option_given(&run->set, "points")));
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */
@@ -138,8 +134,7 @@ static int wants_shakedown(const stress *st)
     return st->shakedown || st->map || !isnan(st->yield_shear);
 }
 
-static rb_report_stress of_grid(const cli_case_run *run,
-                                const rb_rolling_stress_grid *grid)
+static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress_grid *grid)
 {
     const stress *st = run->own;
     return (rb_report_stress){.nx = grid->nx,
@@ -151,8 +146,7 @@ static rb_report_stress of_grid(const cli_case_run *run,
                               .maxima = &st->maxima,
                               .errors = run->c->error ? &st->errors.stress : NULL,
                               .shakedown = wants_shakedown(st) ? &st->found : NULL,
-                              .yield_shear =
-                                  rb_unit_shown(run->c->units, "MPa", st->yield_shear),
+                              .yield_shear = rb_unit_shown(run->c->units, "MPa", st->yield_shear),
                               .rc = &run->c->rc,
                               .s = &st->run.solution};
 }
@@ -173,21 +167,17 @@ static rb_status find_stress(stress *st, int contours, rb_message *why)
             s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
         for (int k = 0; k < n && s == RB_OK; k++)
             if (!inside[k])
-                s = rb_fail(why, RB_EFORMAT,
-                            "%.200s:%d: the point (%g, %g) mm lies outside body A",
-                            st->points, st->place.line[k], st->place.x[k],
-                            st->place.x[k + n]);
+                s = rb_fail(why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) mm lies outside body A",
+                            st->points, st->place.line[k], st->place.x[k], st->place.x[k + n]);
         if (s == RB_OK)
             s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
         free(inside);
     } else if (s == RB_OK)
         s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
     if (s == RB_OK && st->fringes)
-        s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine,
-                                      why);
+        s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine, why);
     else if (s == RB_OK && contours)
-        s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine,
-                                      why);
+        s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine, why);
     return s;
 }
 
@@ -202,8 +192,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     if (s == RB_OK && run->c->error)
         s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
     if (s == RB_OK && run->c->error)
-        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima,
-                                       &st->errors, why);
+        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima, &st->errors, why);
     if (s == RB_OK)
         s = find_stress(st, run->o.plot != NULL, why);
     rb_rolling_stress_maxima none = st->maxima;
@@ -213,10 +202,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     rb_rolling_stress_convert(0, NULL, &st->errors.stress, run->c->units);
     rb_rolling_stress_convert(st->at_points ? st->place.rows : 0, st->at_points, &none,
                               run->c->units);
-    rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima,
-                              run->c->units);
-    rb_rolling_stress_convert(st->fine.nx * st->fine.ny, st->fine.at, &none,
-                              run->c->units);
+    rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima, run->c->units);
+    rb_rolling_stress_convert(st->fine.nx * st->fine.ny, st->fine.at, &none, run->c->units);
     found->x = rb_unit_shown(run->c->units, "mm", found->x);
     found->y = rb_unit_shown(run->c->units, "mm", found->y);
     found->residual = rb_unit_shown(run->c->units, "MPa", found->residual);
@@ -255,8 +242,7 @@ static int column_shown(const stress *st)
 static int shows_column(const cli_case_run *run)
 {
     const stress *st = run->own;
-    return !run->o.output && cli_reader_is_person() && st->table.nx > 1 &&
-           st->table.ny > 1;
+    return !run->o.output && cli_reader_is_person() && st->table.nx > 1 && st->table.ny > 1;
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
@@ -293,8 +279,7 @@ static rb_status write_vtk(FILE *out, const void *context, rb_message *why)
     return s == RB_OK ? rb_report_vtk(out, kind, &st->table) : s;
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const stress *st = ((const cli_case_run *)context)->own;
     return rb_report_stress_picture(out, canvas, &st->picture, why);
@@ -309,8 +294,7 @@ static rb_status draw_fringes(FILE *out, rb_report_canvas canvas, const void *co
                              rb_unit_shown(run->c->units, "MPa", st->fringe), why);
 }
 
-static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context,
-                          rb_message *why)
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const stress *st = ((const cli_case_run *)context)->own;
     return rb_report_shakedown_map(out, canvas, &st->table, why);

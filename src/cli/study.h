@@ -45,14 +45,14 @@ typedef struct {
     const rb_option_set *own;    /* the options of a study, whose values are in o */
     const rb_option_set *cracks; /* those of a crack, whose values are in crack */
     rb_case_crack crack;         /* as typed */
-    int has_crack; /* 1: one of them is given or varies: the contact passes over a crack
-                    */
+    int has_crack;           /* 1: one of them is given or varies: the contact passes over a crack
+                              */
     rb_case_crack one_crack; /* of the current case, in mm, N, MPa */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */
     double *owned[VARIED_MAX];
-    double *sampled; /* of --sample: columns of cases each; owned */
+    double *sampled;                              /* of --sample: columns of cases each; owned */
     double sum[RESULTS_MAX], square[RESULTS_MAX]; /* of their results, less the first */
     double first_result[RESULTS_MAX];
     int summed;
@@ -76,7 +76,7 @@ typedef struct {
     int created;         /* 1: there was no such file */
     int worst;           /* exit code so far */
     int unsolved, no_memory, first;
-    int unsolved_case; /* the first that may be solved again to say why; 0: none */
+    int unsolved_case;              /* the first that may be solved again to say why; 0: none */
     double start, shown, told_next; /* seconds; of the last one from the start */
 } study;
 

@@ -26,8 +26,8 @@ static int varies(const study *st, const study_column *c)
 
 /* The column of the option that --over or --family names; NULL: the last one that varies,
  * other than `but`, or -1. */
-static cli_exit choose_axis(const study *st, const char *option, const char *name,
-                            int but, int *found)
+static cli_exit choose_axis(const study *st, const char *option, const char *name, int but,
+                            int *found)
 {
     rb_guess guess = {.word = name};
     for (*found = st->columns - 1; *found >= 0; --*found) {
@@ -39,9 +39,8 @@ static cli_exit choose_axis(const study *st, const char *option, const char *nam
     }
     return *found >= 0 || !name
                ? CLI_CONTINUE
-               : cli_fail(CLI_USAGE, "--%s: expected %s option that varies, got '%s'%s",
-                          option, but < 0 ? "an" : "another", name,
-                          rb_guess_text(&guess, ""));
+               : cli_fail(CLI_USAGE, "--%s: expected %s option that varies, got '%s'%s", option,
+                          but < 0 ? "an" : "another", name, rb_guess_text(&guess, ""));
 }
 
 static rb_report_quantity axis_of(const study *st, int k, double *value)
@@ -70,13 +69,11 @@ static int bodies_vary(const study *st)
 /* "error_max_pressure" of an error bar. */
 static const char *name_of(const study_result *result, char buffer[STUDY_HEADING])
 {
-    snprintf(buffer, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
-             result->r->name);
+    snprintf(buffer, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "", result->r->name);
     return buffer;
 }
 
-typedef rb_status see_picture(const rb_report_study *picture, const void *context,
-                              rb_message *why);
+typedef rb_status see_picture(const rb_report_study *picture, const void *context, rb_message *why);
 
 /* Calls `see` with the picture of the study. */
 static rb_status with_picture(const study *st, see_picture *see, const void *context,
@@ -93,8 +90,7 @@ static rb_status with_picture(const study *st, see_picture *see, const void *con
         .x = axis_of(st, st->over, value),
         .y = axis_of(st, st->family, value + st->cases),
         .shown = {name_of(shown, name),
-                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "",
-                  st->drawn},
+                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn},
         .rc = bodies_vary(st) ? NULL : &c->rc,
         .units = c->units};
     const rb_status s = see(&picture, context, why);
@@ -102,8 +98,7 @@ static rb_status with_picture(const study *st, see_picture *see, const void *con
     return s;
 }
 
-static rb_status check_picture(const rb_report_study *picture, const void *context,
-                               rb_message *why)
+static rb_status check_picture(const rb_report_study *picture, const void *context, rb_message *why)
 {
     return rb_report_study_check(picture, *(const int *)context, why);
 }
@@ -141,8 +136,7 @@ cli_exit cli_study_prepare_pictures(study *st)
     if (code == CLI_CONTINUE && o->map)
         code = check_kind(st, "map", 1);
     st->drawn = code == CLI_CONTINUE ? rb_alloc((size_t)st->cases, 1) : NULL;
-    return code == CLI_CONTINUE && !st->drawn ? cli_fail(CLI_INTERNAL, "out of memory")
-                                              : code;
+    return code == CLI_CONTINUE && !st->drawn ? cli_fail(CLI_INTERNAL, "out of memory") : code;
 }
 
 typedef struct {
@@ -151,8 +145,7 @@ typedef struct {
     int map;
 } sheet;
 
-static rb_status draw_on(const rb_report_study *picture, const void *context,
-                         rb_message *why)
+static rb_status draw_on(const rb_report_study *picture, const void *context, rb_message *why)
 {
     const sheet *on = context;
     return rb_report_study_picture(on->out, on->canvas, picture, on->map, why);
@@ -165,8 +158,7 @@ static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *con
     return with_picture(context, draw_on, &on, why);
 }
 
-static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context,
-                          rb_message *why)
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const sheet on = {out, canvas, 1};
     return with_picture(context, draw_on, &on, why);

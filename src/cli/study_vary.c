@@ -25,8 +25,7 @@ static cli_exit code_of(const study *st, const char *option)
 /* Of a crack below the contact. */
 static int is_of_crack(const rb_option *o)
 {
-    return o >= rb_case_crack_options &&
-           o < rb_case_crack_options + rb_case_crack_options_n;
+    return o >= rb_case_crack_options && o < rb_case_crack_options + rb_case_crack_options_n;
 }
 
 const rb_option *cli_study_option(const char *name)
@@ -62,9 +61,8 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     st->has_crack |= o && is_of_crack(o);
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
-               : cli_fail(bad,
-                          "%s: '%s' is not an option of a case with a number as value",
-                          source, name);
+               : cli_fail(bad, "%s: '%s' is not an option of a case with a number as value", source,
+                          name);
 }
 
 static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows)
@@ -100,9 +98,8 @@ static typed typed_of(const study *st, const char *source, const char *name)
 static double converted(const typed *t, double value)
 {
     const char *unit = t->option->unit;
-    return t->from == t->to
-               ? value
-               : rb_unit_shown(t->to, unit, rb_unit_stored(t->from, unit, value));
+    return t->from == t->to ? value
+                            : rb_unit_shown(t->to, unit, rb_unit_stored(t->from, unit, value));
 }
 
 /* 1: it is one; a unit may stand behind it. */
@@ -126,15 +123,13 @@ static int read_range(typed *t, const char *word, double **value)
     const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
 
     if (parts < 3 || (parts == 4 && !logarithmic) || !read_value(t, a, &from) ||
-        !read_value(t, b, &to) || !rb_option_number(n, &count) || count < 2 ||
-        count > 1e7 || count != floor(count) ||
-        (logarithmic && !(from > 0.0 && to > 0.0)))
+        !read_value(t, b, &to) || !rb_option_number(n, &count) || count < 2 || count > 1e7 ||
+        count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
         return 0;
     *value = rb_alloc((size_t)count, 1);
     for (int k = 0; *value && k < count; k++) {
         const double part = k / (count - 1.0);
-        (*value)[k] =
-            logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
+        (*value)[k] = logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
     }
     if (*value)
         (*value)[(int)count - 1] = to;
@@ -182,9 +177,8 @@ static cli_exit add_varied(study *st, int k)
     if (rows == 0 && t.why.text[0])
         return cli_fail(c->bad, "%s: %s: expected %s", source, c->name, t.why.text);
     if (rows == 0)
-        return cli_fail(
-            c->bad, "%s: expected an option and numbers, or first:last:count, got '%s'",
-            source, st->o->vary[k]);
+        return cli_fail(c->bad, "%s: expected an option and numbers, or first:last:count, got '%s'",
+                        source, st->o->vary[k]);
     c->value = st->owned[k];
     return add_factor(st, source, c->bad, rows);
 }
@@ -279,13 +273,11 @@ double cli_study_value(const study *st, const study_column *c, int k)
 }
 
 /* The table of cases is the first factor, and is located by its line. */
-static cli_exit refuse_value(const study *st, const study_column *c, int k,
-                             const rb_message *why)
+static cli_exit refuse_value(const study *st, const study_column *c, int k, const rb_message *why)
 {
-    return st->o->cases && c->factor == 0
-               ? cli_fail(c->bad, "%s:%d: %s", st->o->cases,
-                          st->table.line[row_of(st, c, k)], why->text)
-               : cli_fail(c->bad, "case %d: %s", k + 1, why->text);
+    return st->o->cases && c->factor == 0 ? cli_fail(c->bad, "%s:%d: %s", st->o->cases,
+                                                     st->table.line[row_of(st, c, k)], why->text)
+                                          : cli_fail(c->bad, "case %d: %s", k + 1, why->text);
 }
 
 /* *bad: the column whose value is no value of its option; NULL: none. */
@@ -320,8 +312,7 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
 static rb_status try_crack(study *st, int k, const study_column **bad, rb_message *why)
 {
     int given[CLI_COMMAND_OPTIONS_MAX], plain[CLI_COMMAND_OPTIONS_MAX], at;
-    const rb_option_set set = {st->cracks->options, st->cracks->n, &st->one_crack, given,
-                               plain};
+    const rb_option_set set = {st->cracks->options, st->cracks->n, &st->one_crack, given, plain};
 
     *bad = NULL;
     st->one_crack = st->crack;
@@ -334,8 +325,7 @@ static rb_status try_crack(study *st, int k, const study_column **bad, rb_messag
         if (!rb_option_find(1, &set, column->name, strlen(column->name), &at, &none))
             continue;
         rb_format(text, sizeof text, "%.17g", cli_study_value(st, column, k));
-        const rb_status s =
-            rb_option_assign(&set, at, RB_GIVEN_NUMBER, column->name, text, why);
+        const rb_status s = rb_option_assign(&set, at, RB_GIVEN_NUMBER, column->name, text, why);
         if (s != RB_OK) {
             *bad = column;
             return s;

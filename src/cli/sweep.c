@@ -23,13 +23,13 @@ static const rb_option options[] = {
                  "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
                  "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
                  .unset = "none"),
-    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC",
-                 "a second one: every combination is a case", .unset = "none"),
+    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every combination is a case",
+                 .unset = "none"),
     RB_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
     RB_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
-                 "a case per row; the columns are named like the options",
-                 .unset = "none", .file = RB_FILE_READ),
+                 "a case per row; the columns are named like the options", .unset = "none",
+                 .file = RB_FILE_READ),
     RB_INTEGER_LINE(
         "sample", PLACE(sample), RB_FROM_TO(0, 1000000),
         "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
@@ -51,10 +51,9 @@ static const rb_option options[] = {
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of a result over an option that varies: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
-    RB_TEXT_LINE(
-        "map", PLACE(map), "FILE",
-        "picture of a result over two options; every pair of their values must be a case",
-        .unset = "none", .file = RB_FILE_PICTURE),
+    RB_TEXT_LINE("map", PLACE(map), "FILE",
+                 "picture of a result over two options; every pair of their values must be a case",
+                 .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("show", PLACE(show), "RESULT", "the result of the pictures, by its name",
                  .unset = "force_ratio; of cracks delta_K_II"),
     RB_TEXT_LINE("over", PLACE(over), "OPTION", "the option along x of the pictures",
@@ -75,8 +74,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("progress", PLACE(progress),
                  "print the time left even when standard error is not a terminal"),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
-    RB_FLAG_LINE("cite", PLACE(cite),
-                 "print references to the methods used to standard error"),
+    RB_FLAG_LINE("cite", PLACE(cite), "print references to the methods used to standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -119,8 +117,7 @@ static cli_exit find_fingerprint(study *st)
     for (int k = 0; k < st->cracks->n && st->has_crack; k++) {
         char buffer[64];
         const rb_option *o = &st->cracks->options[k];
-        const char *text =
-            o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, buffer);
+        const char *text = o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, buffer);
         hash = rb_hash(hash, text, strlen(text));
     }
     for (int k = 0; k < st->columns; k++) {
@@ -176,11 +173,10 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     const char *own = bar ? name + 6 : name;
     rb_guess guess = {.word = own};
     const study_tables from =
-        st->has_crack
-            ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
-                             {OF_CRACK, OF_SOLUTION}}
-            : (study_tables){{&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
-                             {OF_SOLUTION, OF_STRESS}};
+        st->has_crack ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
+                                       {OF_CRACK, OF_SOLUTION}}
+                      : (study_tables){{&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
+                                       {OF_SOLUTION, OF_STRESS}};
     if (bar && !rb_case_resolved(st->base)->error)
         return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
     for (int t = 0; t < 2; t++)
@@ -243,9 +239,8 @@ static cli_exit choose_results(study *st)
         code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
         rb_message why = {""};
-        if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars,
-                                  st->o->derivatives, RB_ROW_OWN, &st->slopes,
-                                  &why) != RB_OK)
+        if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
+                                  RB_ROW_OWN, &st->slopes, &why) != RB_OK)
             code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     }
     /* Not every body's stress is known; what else is wrong is known with the first case.
@@ -296,8 +291,8 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
         return (double)row->solution.status;
     const int slope = j - st->columns - 2 - st->results;
     if (slope >= 0)
-        return rb_case_slope_shown(&st->slopes.of[slope],
-                                   rb_case_resolved(st->base)->units, row->own[slope]);
+        return rb_case_slope_shown(&st->slopes.of[slope], rb_case_resolved(st->base)->units,
+                                   row->own[slope]);
     const study_result *result = &st->result[j - st->columns - 2];
     if (result->of == OF_CRACK) {
         const double x = rb_case_crack_of_row(result->r, result->is_error, row);
@@ -305,11 +300,11 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
                    ? rb_unit_shown(rb_case_resolved(st->base)->units, result->r->unit, x)
                    : x;
     }
-    const void *owner = result->of == OF_STRESS ? result->is_error
-                                                      ? (const void *)&row->errors.stress
-                                                      : (const void *)&row->stress
-                        : result->is_error      ? (const void *)&row->errors.scalar
-                                                : (const void *)&row->solution;
+    const void *owner =
+        result->of == OF_STRESS
+            ? result->is_error ? (const void *)&row->errors.stress : (const void *)&row->stress
+        : result->is_error ? (const void *)&row->errors.scalar
+                           : (const void *)&row->solution;
     return rb_rolling_number(result->r, owner);
 }
 
@@ -383,13 +378,11 @@ static rb_status write_json(study *st)
         json_t *list = json_array_get(st->list, (size_t)j);
         rb_report_json_set(&table, column_name(st, j, heading), json_incref(list));
     }
-    rb_report_json_set(&root, "units",
-                       rb_report_json_units(rb_case_resolved(st->base)->units));
+    rb_report_json_set(&root, "units", rb_report_json_units(rb_case_resolved(st->base)->units));
     json_t *inputs = rb_report_json_inputs(st->base);
     rb_message why;
     if (st->has_crack && cli_study_try_one(st, 0, &why) == RB_OK)
-        rb_report_json_crack_inputs(&inputs, &st->one_crack,
-                                    rb_case_resolved(st->base)->units);
+        rb_report_json_crack_inputs(&inputs, &st->one_crack, rb_case_resolved(st->base)->units);
     rb_report_json_set(&root, "inputs", inputs);
     rb_report_json_set(&root, "table", table);
     return rb_report_json_write(st->out, root);
@@ -423,9 +416,7 @@ static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_messa
 {
     study *st = context;
     const rb_status s = cli_study_try_one(st, k, why);
-    return s == RB_OK
-               ? rb_case_crack_row(rb_case_resolved(st->one), &st->one_crack, row, why)
-               : s;
+    return s == RB_OK ? rb_case_crack_row(rb_case_resolved(st->one), &st->one_crack, row, why) : s;
 }
 
 /* ---- Progress ---------------------------------------------------------------------- */
@@ -458,11 +449,9 @@ static int tick(int seen, void *context)
     while (st->told_next <= spent)
         st->told_next *= 2.0;
     if (!st->o->quiet && (is_due || (seen > 0 && (terminal || st->o->progress)))) {
-        fprintf(stderr, "%scase %d of %d, ", terminal ? "\r" : "", st->first + seen,
-                st->cases);
+        fprintf(stderr, "%scase %d of %d, ", terminal ? "\r" : "", st->first + seen, st->cases);
         fprintf(stderr, seen > 0 ? "%.0f s left%s" : "%.0f s so far%s",
-                seen > 0 ? spent / seen * left : spent,
-                terminal && left > 0 ? "\033[K" : "\n");
+                seen > 0 ? spent / seen * left : spent, terminal && left > 0 ? "\033[K" : "\n");
     }
     return !flush_rows(st);
 }
@@ -491,8 +480,7 @@ static int has_head(const study *st, char **line, size_t *capacity)
     for (int k = 0; same && k < HEAD_LINES; k++) {
         const size_t n = strcspn(wanted, "\n") + 1;
         const ssize_t got = getline(line, capacity, st->out);
-        same = k == COMMAND_LINE ? got > 0
-                                 : got == (ssize_t)n && memcmp(*line, wanted, n) == 0;
+        same = k == COMMAND_LINE ? got > 0 : got == (ssize_t)n && memcmp(*line, wanted, n) == 0;
         wanted += n;
     }
     free(head);
@@ -548,29 +536,27 @@ static cli_exit resume(study *st)
     ssize_t n;
     cli_exit code = CLI_CONTINUE;
     if (!has_head(st, &line, &capacity))
-        code = cli_fail(CLI_CANTWRITE,
-                        "%s: has other contents; --restart would overwrite it", st->path);
+        code = cli_fail(CLI_CANTWRITE, "%s: has other contents; --restart would overwrite it",
+                        st->path);
     st->whole = ftell(st->out);
     while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
            line[n - 1] == '\n') {
         if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
-            code =
-                cli_fail(CLI_CANTWRITE,
-                         "%s:%d: not the row of case %d of this study; --restart would "
-                         "overwrite the file",
-                         st->path, HEAD_LINES + st->first + 1, st->first + 1);
+            code = cli_fail(CLI_CANTWRITE,
+                            "%s:%d: not the row of case %d of this study; --restart would "
+                            "overwrite the file",
+                            st->path, HEAD_LINES + st->first + 1, st->first + 1);
         st->first++;
         st->whole = ftell(st->out);
     }
     free(line);
     if (code != CLI_CONTINUE)
         st->path = NULL; /* it is another's: nothing of it is taken back */
-    if (code == CLI_CONTINUE && (ftruncate(fileno(st->out), st->whole) != 0 ||
-                                 fseek(st->out, st->whole, SEEK_SET) != 0))
+    if (code == CLI_CONTINUE &&
+        (ftruncate(fileno(st->out), st->whole) != 0 || fseek(st->out, st->whole, SEEK_SET) != 0))
         code = cannot_write(st->path);
     if (code == CLI_CONTINUE && !st->o->quiet && st->first > 0)
-        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", st->path, st->first,
-                st->cases);
+        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", st->path, st->first, st->cases);
     return code;
 }
 
@@ -578,8 +564,7 @@ static cli_exit resume(study *st)
 static cli_exit lock(const study *st)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fileno(st->out), F_SETLK, &all) != 0 &&
-        (errno == EACCES || errno == EAGAIN))
+    if (fcntl(fileno(st->out), F_SETLK, &all) != 0 && (errno == EACCES || errno == EAGAIN))
         return cli_fail(CLI_CANTWRITE, "%s: another process is writing it", st->path);
     return CLI_CONTINUE; /* or a file system without locks */
 }
@@ -750,8 +735,8 @@ static cli_exit run(study *st)
                         st->path ? "; the same command continues from there" : "");
     st->complete = 1;
     if (!st->o->quiet)
-        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
-                spent, st->unsolved, st->cases);
+        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count, spent,
+                st->unsolved, st->cases);
     if (!st->o->quiet) {
         char heading[STUDY_HEADING];
         const double n = st->summed;
@@ -760,26 +745,26 @@ static cli_exit run(study *st)
             const double mean = st->sum[j] / n;
             const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
             const rb_rolling_result *r = st->result[j].r;
-            const double rounding = rb_sensitivity_rounding(
-                &rb_case_resolved(st->base)->rc, r, st->first_result[j] + mean);
+            const double rounding = rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc, r,
+                                                            st->first_result[j] + mean);
             if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
                 fprintf(stderr, "  %-28s %.6g +- %.2g\n",
-                        column_name(st, st->columns + 2 + j, heading),
-                        st->first_result[j] + mean, sqrt(variance));
+                        column_name(st, st->columns + 2 + j, heading), st->first_result[j] + mean,
+                        sqrt(variance));
         }
     }
     say_why_unsolved(st, &sweep);
     if (st->o->cite)
         cli_print_citations(&rb_case_resolved(st->base)->rc, NULL);
     if (st->no_memory > 0)
-        cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d",
-                 st->no_memory, RB_ENOMEM);
+        cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d", st->no_memory,
+                 RB_ENOMEM);
     return (cli_exit)st->worst;
 }
 
 /* All that can be refused, and the output file. */
-static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                        cli_args *args, study *st)
+static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args,
+                        study *st)
 {
     cli_exit code = cli_case_read(spec, argc, argv, c, args);
 
@@ -833,8 +818,7 @@ int cli_sweep(int argc, char **argv)
     study_options o = {0};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_STUDY);
-    study st = {
-        .base = c, .o = &o, .crack = rb_case_crack_defaults(), .over = -1, .family = -1};
+    study st = {.base = c, .o = &o, .crack = rb_case_crack_defaults(), .over = -1, .family = -1};
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     if (!c)
         return CLI_INTERNAL;

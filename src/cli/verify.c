@@ -23,14 +23,13 @@ static void print_check(const rb_verify_check *c, void *context)
         const int red = !c->holds && cli_is_coloured(stdout);
         printf("%s%-5s%s %-43s", red ? "\033[31m" : "", c->holds ? "ok" : "WRONG",
                red ? "\033[0m" : "", c->what);
-        printf(strlen(c->what) > 43 ? "\n%49s %9.4g %9.4g %8.1e\n"
-                                    : "%s %9.4g %9.4g %8.1e\n",
-               "", c->wanted, c->got, c->error);
+        printf(strlen(c->what) > 43 ? "\n%49s %9.4g %9.4g %8.1e\n" : "%s %9.4g %9.4g %8.1e\n", "",
+               c->wanted, c->got, c->error);
         return;
     }
-    printf("%-6s %-56s wanted %-12.6g got %-12.6g %s %-8.2g bound %.2g",
-           c->holds ? "ok" : "WRONG", c->what, c->wanted, c->got,
-           c->relative ? "rel. error" : "error     ", c->error, c->bound);
+    printf("%-6s %-56s wanted %-12.6g got %-12.6g %s %-8.2g bound %.2g", c->holds ? "ok" : "WRONG",
+           c->what, c->wanted, c->got, c->relative ? "rel. error" : "error     ", c->error,
+           c->bound);
     if (c->why)
         printf("  (%s)", c->why);
     putchar('\n');
@@ -63,10 +62,9 @@ int cli_verify(int argc, char **argv)
     int json = 0;
     const cli_spec spec = {
         .synopsis = "rollbem verify [--json]",
-        .about =
-            "Computes every closed-form and published reference of docs/theory.md 6 and\n"
-            "prints what was wanted, what came out, the error and its bound, one line\n"
-            "each. Exit code 0 only if all hold.",
+        .about = "Computes every closed-form and published reference of docs/theory.md 6 and\n"
+                 "prints what was wanted, what came out, the error and its bound, one line\n"
+                 "each. Exit code 0 only if all hold.",
         .sets = {{options, sizeof options / sizeof options[0], &json, NULL, NULL}},
         .set_n = 1};
     cli_args args = {0};

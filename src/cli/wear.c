@@ -31,10 +31,9 @@ static const rb_option options[] = {
     RB_GROUP_LINE("wear", "Wear"),
     RB_CHOICE_LINE("wear-law", PLACE(law), laws,
                    "depth = K p s (Archard), or K times the work of friction per area"),
-    RB_NUMBER_LINE(
-        "wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),
-        "K: worn volume per load and sliding distance, or per work, mm3/(N mm)",
-        .unset = "none: it must be given"),
+    RB_NUMBER_LINE("wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),
+                   "K: worn volume per load and sliding distance, or per work, mm3/(N mm)",
+                   .unset = "none: it must be given"),
     RB_NUMBER_LINE("wear-share", PLACE(share), "-", RB_FROM_TO(0, 1),
                    "fraction of K that wears B: in the contact (fretting), along its "
                    "track (A slides) or at its radius (rolling)"),
@@ -78,15 +77,14 @@ static const char notes[] = CLI_CASE_NOTES
 
 /* ---- Run -------------------------------------------------------------------------- */
 
-static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
-                      int steps, void *context)
+static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step, int steps,
+                      void *context)
 {
     const cli_case_run *run = context;
     wear *w = run->own;
     rb_rolling_solution_convert(s, run->c->units);
     if (w->snapshots && (step % w->every == 0 || step == steps))
-        w->failed =
-            cli_write_snapshot(w->snapshots, step, NULL, s, &run->o.style, &w->why);
+        w->failed = cli_write_snapshot(w->snapshots, step, NULL, s, &run->o.style, &w->why);
     if (w->failed == RB_OK)
         w->failed = rb_report_wear_keep(&w->report, s, h, step, steps);
     return cli_interrupted() || w->failed != RB_OK;
@@ -107,9 +105,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     if (s != RB_OK)
         return s;
     cli_interrupts_catch();
-    s = rb_rolling_wear_run(&run->c->rc, &how,
-                            &(rb_rolling_wear_observer){after_step, run}, &w->history,
-                            &w->last, why);
+    s = rb_rolling_wear_run(&run->c->rc, &how, &(rb_rolling_wear_observer){after_step, run},
+                            &w->history, &w->last, why);
     cli_interrupts_leave();
     rb_rolling_wear_history_convert(&w->history, run->c->units);
     if (w->failed != RB_OK) {
@@ -160,13 +157,11 @@ static rb_status write_profile(FILE *out, const void *context, rb_message *why)
     const char *mm = rb_unit_name(s->units, "mm");
     fprintf(out, "x_%s\tdepth_%s\n# %s\n", mm, mm, cli_command_line());
     for (int i = 0; i < s->n; i++)
-        fprintf(out, "%s\t%s\n", rb_number_text(s->x[i], x),
-                rb_number_text(s->worn[i], worn));
+        fprintf(out, "%s\t%s\n", rb_number_text(s->x[i], x), rb_number_text(s->worn[i], worn));
     return rb_report_flush(out);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
-                      rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const wear *w = ((const cli_case_run *)context)->own;
     return rb_report_wear_picture(out, canvas, &w->report, why);
@@ -192,8 +187,7 @@ static cli_exit check(cli_case_run *run)
     if (isnan(w->slide) && isnan(w->cycles))
         return cli_fail(CLI_USAGE, "wear needs --slide or --cycles");
     if (run->c->rc.formulation == RB_STEADY && w->profile)
-        return cli_fail(CLI_USAGE,
-                        "--profile: a wheel that rolls stays round; see the radius");
+        return cli_fail(CLI_USAGE, "--profile: a wheel that rolls stays round; see the radius");
     return CLI_CONTINUE;
 }
 
@@ -215,12 +209,8 @@ static const cli_case_command command = {
 
 int cli_wear(int argc, char **argv)
 {
-    wear w = {.coefficient = NAN,
-              .slide = NAN,
-              .cycles = NAN,
-              .steps = 20,
-              .increments = 8,
-              .every = 1};
+    wear w = {
+        .coefficient = NAN, .slide = NAN, .cycles = NAN, .steps = 20, .increments = 8, .every = 1};
     const cli_exit code = cli_case_run_command(&command, &w, argc, argv);
     rb_report_wear_free(&w.report);
     rb_rolling_wear_history_free(&w.history);

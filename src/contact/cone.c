@@ -28,8 +28,7 @@ rb_status rb_contact_cone_create(const rb_contact_problem *p, double delta, doub
     cone->q = rb_alloc(m, 1);
     if (!cone->mu || !cone->W || !cone->q) {
         rb_contact_cone_free(cone);
-        return rb_fail(why, RB_ENOMEM, "out of memory for a cone problem of %d contacts",
-                       p->n);
+        return rb_fail(why, RB_ENOMEM, "out of memory for a cone problem of %d contacts", p->n);
     }
     for (size_t j = 0; j < m; j++) {
         const size_t column = 2 * (j % n) + j / n;
@@ -46,8 +45,7 @@ rb_status rb_contact_cone_create(const rb_contact_problem *p, double delta, doub
     return RB_OK;
 }
 
-rb_status rb_contact_cone_solve(const rb_contact_problem *p,
-                                const rb_contact_options *options,
+rb_status rb_contact_cone_solve(const rb_contact_problem *p, const rb_contact_options *options,
                                 rb_contact_state *state, rb_message *why)
 {
     const rb_contact_cone_solvers *by = options->cone_solvers;
@@ -60,8 +58,7 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *p,
     if (s != RB_OK)
         return s;
     double *r = rb_alloc(2 * (size_t)p->n, 1);
-    s = r ? by->solve(options->cone_solver, &cone, 1e-12, r, &state->iterations, why)
-          : RB_ENOMEM;
+    s = r ? by->solve(options->cone_solver, &cone, 1e-12, r, &state->iterations, why) : RB_ENOMEM;
     for (int i = 0; i < p->n && s >= 0; i++) {
         state->p[i] = p->stress * r[2 * i];
         state->q[i] = p->stress * r[2 * i + 1];

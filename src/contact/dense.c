@@ -42,12 +42,12 @@ static void add_product(int n, const double *A, int lda, const double *x, double
     while (from < to && x[to - 1] == 0.0)
         to--;
     if (from < to)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, to - from, 1.0,
-                    A + (size_t)from * (size_t)lda, lda, x + from, 1, 1.0, y, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, to - from, 1.0, A + (size_t)from * (size_t)lda,
+                    lda, x + from, 1, 1.0, y, 1);
 }
 
-static void dense_add(rb_contact_operator *op, const double *p, const double *q,
-                      double *gap, double *slip)
+static void dense_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
+                      double *slip)
 {
     const rb_contact_matrix *K = &op->matrix;
     const int n = op->n;
@@ -84,8 +84,7 @@ static rb_contact_response response(int n, const rb_contact_matrix *K)
 
     return (rb_contact_response){.gap = mean_diagonal(n, K->F, ldf),
                                  .slip = mean_diagonal(n, K->S + length * length, length),
-                                 .coupled_slip =
-                                     rb_norm_1((size_t)n, K->S + length / 2, (size_t)n),
+                                 .coupled_slip = rb_norm_1((size_t)n, K->S + length / 2, (size_t)n),
                                  .coupled = any_nonzero(n, K->S, n) ||
                                             any_nonzero(n, K->F + length * ldf, K->ldf)};
 }
@@ -94,8 +93,8 @@ static rb_contact_response response(int n, const rb_contact_matrix *K)
 
 /* Solves, and where a kept LU served or digits were lost, solves again for what the
  * equations still lack, until a correction is small.  *converged: 0 where none was. */
-static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu,
-                          rb_contact_state *state, rb_contact_reduced *r, int *converged)
+static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu, rb_contact_state *state,
+                          rb_contact_reduced *r, int *converged)
 {
     double size = 0.0;
     int passes = PASSES;
@@ -160,8 +159,7 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
     return RB_OK;
 }
 
-void rb_contact_operator_add_products(rb_contact_operator *dense,
-                                      rb_contact_operator *products)
+void rb_contact_operator_add_products(rb_contact_operator *dense, rb_contact_operator *products)
 {
     rb_contact_dense *of = (rb_contact_dense *)dense;
 
@@ -174,11 +172,9 @@ int rb_contact_dense_has_products(const rb_contact_operator *op)
     return op->matrix.F && ((const rb_contact_dense *)op)->products;
 }
 
-rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op,
-                                                     int unknowns)
+rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op, int unknowns)
 {
     if (!op->matrix.F)
         return op;
-    return unknowns >= LEAST_BY_PRODUCTS ? ((const rb_contact_dense *)op)->products
-                                         : NULL;
+    return unknowns >= LEAST_BY_PRODUCTS ? ((const rb_contact_dense *)op)->products : NULL;
 }

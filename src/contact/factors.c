@@ -55,7 +55,7 @@ typedef struct {
     int *source;       /* of r->x among (x, y) */
     border *border;
     int count, changes; /* borders; those that stand for zones */
-    int slight; /* unknowns that have turned, and so little that none stands for it */
+    int slight;         /* unknowns that have turned, and so little that none stands for it */
 } plan;
 
 void rb_contact_factors_clear(rb_contact_factors *factors)
@@ -101,8 +101,8 @@ static double slip_of(const rb_contact_problem *p, int i, traction t)
 }
 
 /* Answer of a border's equation to tractions. */
-static double border_row(const rb_contact_problem *p, const rb_contact_reduced *r,
-                         const border *b, traction t)
+static double border_row(const rb_contact_problem *p, const rb_contact_reduced *r, const border *b,
+                         traction t)
 {
     switch (b->kind) {
     case NEW_CONTACT:
@@ -112,16 +112,15 @@ static double border_row(const rb_contact_problem *p, const rb_contact_reduced *
     case APPROACH:
         return (t.N * p->load_N[t.at] + t.T * p->load_T[t.at]) * (p->stress / p->load);
     case CREEPAGE:
-        return (t.N * r->control_N[t.at] + t.T * r->control_T[t.at]) *
-               (p->stress / r->force_scale);
+        return (t.N * r->control_N[t.at] + t.T * r->control_T[t.at]) * (p->stress / r->force_scale);
     default:
         return 0.0;
     }
 }
 
 /* Answer of one border's equation to another one's unknown, or to its own. */
-static double corner(const rb_contact_problem *p, const rb_contact_reduced *r,
-                     const border *row, const border *column)
+static double corner(const rb_contact_problem *p, const rb_contact_reduced *r, const border *row,
+                     const border *column)
 {
     switch (column->kind) {
     case LAPSED:
@@ -169,8 +168,8 @@ static void compare(const kept_lu *k, int from, int to, int now, int end, plan *
     }
 }
 
-static void make_plan(const rb_contact_problem *p, const int *zone,
-                      const rb_contact_reduced *r, const kept_lu *k, plan *pl)
+static void make_plan(const rb_contact_problem *p, const int *zone, const rb_contact_reduced *r,
+                      const kept_lu *k, plan *pl)
 {
     const int tractions = r->contacts + r->sticks;
 
@@ -190,8 +189,7 @@ static void make_plan(const rb_contact_problem *p, const int *zone,
     if (r->load)
         pl->source[tractions] = k->size + add_border(pl, (border){APPROACH, 0, {0}});
     if (r->force)
-        pl->source[tractions + r->load] =
-            k->size + add_border(pl, (border){CREEPAGE, 0, {0}});
+        pl->source[tractions + r->load] = k->size + add_border(pl, (border){CREEPAGE, 0, {0}});
 }
 
 /* ---- The LU ------------------------------------------------------------------------ */
@@ -241,8 +239,8 @@ typedef struct {
     double *V, *f, *W, *T, *g;
 } bordered;
 
-static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r,
-                        const kept_lu *k, const plan *pl, const bordered *m)
+static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r, const kept_lu *k,
+                        const plan *pl, const bordered *m)
 {
     const int n = k->size, count = pl->count;
 
@@ -254,11 +252,11 @@ static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r
             row->kind == TURNED || row->kind == NEW_CONTACT || row->kind == NEW_STICK;
 
         for (int i = 0; i < k->contacts; i++)
-            column[i] = is_traction ? gap_of(p, k->unknown[i].at, row->unknown)
+            column[i] = is_traction             ? gap_of(p, k->unknown[i].at, row->unknown)
                         : row->kind == APPROACH ? -1.0
                                                 : 0.0;
         for (int i = k->contacts; i < k->size; i++)
-            column[i] = is_traction ? slip_of(p, k->unknown[i].at, row->unknown)
+            column[i] = is_traction             ? slip_of(p, k->unknown[i].at, row->unknown)
                         : row->kind == CREEPAGE ? p->e_T[k->unknown[i].at] / p->e_T[0]
                                                 : 0.0;
         if (row->kind == LAPSED)
@@ -281,29 +279,26 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m, doubl
     if (!pivots)
         return RB_ENOMEM;
     if (n > 0)
-        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots,
-                            m->V, n);
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots, m->V, n);
     *growth = rb_norm_inf((size_t)n, m->f);
     if (n > 0 && count > 0) {
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0,
-                    m->W, count, m->V, n, 1.0, m->T, count);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, count, n, -1.0, m->W, count, m->f, 1,
-                    1.0, m->g, 1);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0, m->W, count,
+                    m->V, n, 1.0, m->T, count);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, count, n, -1.0, m->W, count, m->f, 1, 1.0, m->g,
+                    1);
     }
-    const lapack_int fault = count == 0
-                                 ? 0
-                                 : LAPACKE_dgesv_work(LAPACK_COL_MAJOR, count, 1, m->T,
-                                                      count, pivots, m->g, count);
+    const lapack_int fault = count == 0 ? 0
+                                        : LAPACKE_dgesv_work(LAPACK_COL_MAJOR, count, 1, m->T,
+                                                             count, pivots, m->g, count);
     if (n > 0 && count > 0)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0,
-                    m->f, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0, m->f, 1);
     *growth /= fmax(rb_norm_inf((size_t)n, m->f), DBL_MIN);
     free(pivots);
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
-static rb_status solve_bordered(const rb_contact_problem *p, const kept_lu *k,
-                                const plan *pl, rb_contact_reduced *r)
+static rb_status solve_bordered(const rb_contact_problem *p, const kept_lu *k, const plan *pl,
+                                rb_contact_reduced *r)
 {
     const size_t n = (size_t)k->size, count = (size_t)pl->count;
     double *scratch = rb_alloc(n + count, 2 * count + 1);
@@ -332,8 +327,8 @@ static int is_near(const plan *pl, const kept_lu *k)
     return (double)pl->changes * pl->changes <= 2.0 * k->size;
 }
 
-rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone,
-                                    rb_contact_lu lu, rb_contact_reduced *r)
+rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
+                                    rb_contact_reduced *r)
 {
     kept_lu none = {0}; /* all unknowns are borders then */
     rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;

@@ -24,8 +24,8 @@ typedef struct {
     size_t length; /* of a vector */
 } solver;
 
-static rb_status make_solver(const rb_contact_linear *l,
-                             rb_contact_gmres_scratch *scratch, solver *s)
+static rb_status make_solver(const rb_contact_linear *l, rb_contact_gmres_scratch *scratch,
+                             solver *s)
 {
     if (!scratch->work)
         scratch->work = rb_alloc(scratch->size, 1);
@@ -134,8 +134,8 @@ static double rotate(least_squares *q, int j)
 }
 
 /* One cycle from x; *residual: of x before it. */
-static rb_status cycle(const solver *s, const double *b, double tolerance,
-                       least_squares *q, double *x, double *residual)
+static rb_status cycle(const solver *s, const double *b, double tolerance, least_squares *q,
+                       double *x, double *residual)
 {
     double *v = basis_vector(s, 0);
     int count = 0;
@@ -179,8 +179,8 @@ static rb_status cycle(const solver *s, const double *b, double tolerance,
     return RB_OK;
 }
 
-rb_status rb_contact_gmres(const rb_contact_linear *linear,
-                           rb_contact_gmres_scratch *scratch, const double *b, double *x)
+rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scratch *scratch,
+                           const double *b, double *x)
 {
     solver s;
     least_squares *q = malloc(sizeof *q);

@@ -25,52 +25,48 @@ typedef struct {
     double *gap, *lambda;          /* n: with the unknowns at zero */
     double *start;                 /* size: the unknowns of the state at the beginning */
     double *x;                     /* size: right-hand side, then solution */
-    int changes;   /* number of unknowns changed since the LU that was used */
+    int changes;                   /* number of unknowns changed since the LU that was used */
     int slight;    /* number of unknowns whose friction has changed slightly since then */
     double growth; /* ratio of the tractions without borders to those with borders */
 } rb_contact_reduced;
 
-rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem,
-                                   rb_contact_unknowns unknowns,
+rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem, rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r);
 void rb_contact_reduced_free(rb_contact_reduced *r);
 /* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
-void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
-                          double *control_T);
+void rb_contact_force_row(const rb_contact_problem *problem, double *control_N, double *control_T);
 /* Scale of the given force: mu times the resultant of the scale pressure. */
 double rb_contact_force_scale(const rb_contact_problem *problem);
 
 /* Slope in r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown. */
 static inline double rb_contact_slope(int zone)
 {
-    return zone == RB_ZONE_SLIP_NEGATIVE   ? -1.0
-           : zone == RB_ZONE_SLIP_POSITIVE ? 1.0
-                                           : 0.0;
+    return zone == RB_ZONE_SLIP_NEGATIVE ? -1.0 : zone == RB_ZONE_SLIP_POSITIVE ? 1.0 : 0.0;
 }
 /* r_T of an element per unit of its unknown pressure: its bound with the sign of its
  * zone, or 0 if pressures and friction are not solved together. */
 static inline double rb_contact_reduced_friction(const rb_contact_problem *p,
-                                                 const rb_contact_reduced *r,
-                                                 const int *zone, int i)
+                                                 const rb_contact_reduced *r, const int *zone,
+                                                 int i)
 {
     return rb_contact_slope(zone[i]) * (r->unknowns == RB_BOTH ? p->bound[i] : 0.0);
 }
 
 /* Sets the unknowns of the state to zero and the friction of slipping elements to its
  * bound. */
-void rb_contact_reduced_clear(const rb_contact_problem *problem,
-                              const rb_contact_reduced *r, rb_contact_state *state);
+void rb_contact_reduced_clear(const rb_contact_problem *problem, const rb_contact_reduced *r,
+                              rb_contact_state *state);
 /* Sets r->x to the residual of the equations at the unknowns of the state. */
-void rb_contact_reduced_right_side(const rb_contact_problem *problem,
-                                   const rb_contact_state *state, rb_contact_reduced *r);
+void rb_contact_reduced_right_side(const rb_contact_problem *problem, const rb_contact_state *state,
+                                   rb_contact_reduced *r);
 /* Adds r->x to the unknowns of the state.  RB_SINGULAR: it is not finite. */
-rb_status rb_contact_reduced_add(const rb_contact_problem *problem,
-                                 const rb_contact_reduced *r, rb_contact_state *state);
+rb_status rb_contact_reduced_add(const rb_contact_problem *problem, const rb_contact_reduced *r,
+                                 rb_contact_state *state);
 
 /* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q are
  * undefined. */
-rb_status rb_contact_solve_zones(rb_contact_problem *problem,
-                                 rb_contact_unknowns unknowns, rb_contact_state *state);
+rb_status rb_contact_solve_zones(rb_contact_problem *problem, rb_contact_unknowns unknowns,
+                                 rb_contact_state *state);
 
 /* ---- gmres.c ----------------------------------------------------------------------- */
 
@@ -97,17 +93,13 @@ void rb_contact_gmres_free(rb_contact_gmres_scratch *scratch);
 
 /* GMRES with start x.  RB_OK also if the residual no longer decreases: either it is at
  * rounding level, or the residual of the whole problem shows the error.  RB_ENOMEM. */
-rb_status rb_contact_gmres(const rb_contact_linear *linear,
-                           rb_contact_gmres_scratch *scratch, const double *b, double *x);
+rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scratch *scratch,
+                           const double *b, double *x);
 
 /* ---- operator.c: what every kind has ----------------------------------------------- */
 
 /* Which operator to invert approximately: F_NN, A F_TT, or 1 + hardening F_TT. */
-typedef enum {
-    RB_INVERSE_NORMAL,
-    RB_INVERSE_TANGENTIAL,
-    RB_INVERSE_YIELDING
-} rb_contact_inverse;
+typedef enum { RB_INVERSE_NORMAL, RB_INVERSE_TANGENTIAL, RB_INVERSE_YIELDING } rb_contact_inverse;
 
 typedef struct {
     void (*add)(rb_contact_operator *op, const double *p, const double *q, double *gap,
@@ -117,15 +109,14 @@ typedef struct {
                        rb_contact_reduced *r);
     /* Only for products; NULL for matrices.  gmres solves other linear problems than the
      * reduced one; precondition applies an approximate inverse (line: n, overwritten). */
-    rb_status (*gmres)(rb_contact_operator *op, const rb_contact_linear *linear,
-                       const double *b, double *x);
+    rb_status (*gmres)(rb_contact_operator *op, const rb_contact_linear *linear, const double *b,
+                       double *x);
     void (*precondition)(rb_contact_operator *op, rb_contact_inverse of, double hardening,
                          double *line);
     /* Frees data that earlier solves have stored for later ones; NULL: there is none. */
     void (*forget)(rb_contact_operator *op);
     /* Makes the operator for pairs of elements; NULL: solves do not start from pairs. */
-    rb_status (*halve)(const rb_contact_operator *op, int differences,
-                       rb_contact_operator **half);
+    rb_status (*halve)(const rb_contact_operator *op, int differences, rb_contact_operator **half);
     void (*free)(rb_contact_operator *op);
 } rb_contact_kind;
 
@@ -149,8 +140,7 @@ rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
 int rb_contact_dense_has_products(const rb_contact_operator *op);
 /* The operator whose products solve a system of this size faster than an LU: op itself or
  * the products added to it; NULL: none. */
-rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op,
-                                                     int unknowns);
+rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op, int unknowns);
 
 /* ---- pairs.c ----------------------------------------------------------------------- */
 
@@ -165,23 +155,21 @@ void rb_contact_start_from_half(const rb_contact_state *half, rb_contact_state *
 /* Computes p and q for the state's delta and xi with the caller's cone solver.
  * RB_EINVAL: unknown solver. */
 rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
-                                const rb_contact_options *options,
-                                rb_contact_state *state, rb_message *why);
+                                const rb_contact_options *options, rb_contact_state *state,
+                                rb_message *why);
 
 /* ---- residual.c -------------------------------------------------------------------- */
 
 /* The zone of an element in contact that slides by lambda. */
 rb_contact_zone rb_contact_sliding_zone(double lambda);
 /* Zones from p, q and lambda; entries below tol times the scales count as zero. */
-void rb_contact_classify(const rb_contact_problem *problem, double tol,
-                         rb_contact_state *state);
+void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state);
 
 /* ---- newton.c ---------------------------------------------------------------------- */
 
 /* Newton's method from the zones of the state (warm), or from the result of alternating
  * normal and tangential problems.  RB_MAXITER: it cycles; RB_SINGULAR. */
-rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
-                            rb_contact_state *state);
+rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state);
 
 /* ---- path.c ------------------------------------------------------------------------ */
 
@@ -203,7 +191,6 @@ rb_status rb_contact_yield_newton(rb_contact_problem *problem, int follows,
                                   rb_contact_state *state);
 /* Solves the linear problem with the laws that the elements of the state obey, and sets
  * the zones. */
-rb_status rb_contact_yield_polish(const rb_contact_problem *problem,
-                                  rb_contact_state *state);
+rb_status rb_contact_yield_polish(const rb_contact_problem *problem, rb_contact_state *state);
 
 #endif

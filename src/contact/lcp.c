@@ -46,8 +46,7 @@ static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form
     lcp->w_scale = rb_alloc(size, 1);
     lcp->control_N = rb_alloc(n, 1);
     lcp->control_T = rb_alloc(n, 1);
-    if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N &&
-        lcp->control_T) {
+    if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N && lcp->control_T) {
         rb_contact_force_row(p, lcp->control_N, lcp->control_T);
         return RB_OK;
     }
@@ -68,12 +67,10 @@ static void add_block(int n, double factor, operand A, double *M, int ldm)
 }
 
 /* The same with column j times bound_j. */
-static void add_bounded(int n, double factor, const double *bound, operand A, double *M,
-                        int ldm)
+static void add_bounded(int n, double factor, const double *bound, operand A, double *M, int ldm)
 {
     for (int j = 0; j < n; j++)
-        cblas_daxpy(n, factor * bound[j], A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm,
-                    1);
+        cblas_daxpy(n, factor * bound[j], A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm, 1);
 }
 
 static void add_diagonal(int n, double value, double *M, int ldm)
@@ -109,8 +106,7 @@ static void pivoted_border(const rb_contact_problem *p, border_row e, rb_contact
     const double o = orientation(lcp);
 
     for (int j = 0; j < p->n; j++) {
-        lcp->M[e.row + (size_t)j * lcp->size] =
-            e.sign * (e.a_N[j] - o * p->bound[j] * e.a_T[j]);
+        lcp->M[e.row + (size_t)j * lcp->size] = e.sign * (e.a_N[j] - o * p->bound[j] * e.a_T[j]);
         lcp->M[e.row + (size_t)(p->n + j) * lcp->size] = e.sign * o * e.a_T[j];
     }
     lcp->b[e.row] = -e.sign * e.value;
@@ -123,8 +119,8 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     const int n = p->n, ld = lcp->size;
     const double o = orientation(lcp);
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const operand F_NN = {K.F, K.ldf}, F_NT = {K.F + (size_t)n * K.ldf, K.ldf},
-                  S_N = {K.S, n}, S_T = {K.S + (size_t)n * n, n};
+    const operand F_NN = {K.F, K.ldf}, F_NT = {K.F + (size_t)n * K.ldf, K.ldf}, S_N = {K.S, n},
+                  S_T = {K.S + (size_t)n * n, n};
     double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
 
     add_block(n, 1.0, F_NN, r_N, ld);
@@ -142,11 +138,9 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
         lcp->b[n + i] = o * (p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i]);
     }
     if (p->force_given)
-        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1,
-                    lcp->M + (size_t)xi_column(p) * ld + n, 1);
+        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1, lcp->M + (size_t)xi_column(p) * ld + n, 1);
     if (p->load_given)
-        pivoted_border(
-            p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
+        pivoted_border(p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
     if (p->force_given)
         pivoted_border(p,
                        (border_row){xi_column(p), -xi_direction(lcp), lcp->control_N,
@@ -171,8 +165,7 @@ static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
         for (int i = j; i >= 0 && u != 0.0; i--) {
             for (int k = 0; k < 4; k++)
                 lcp->M[yield_index(p, i, k % 2) +
-                       (size_t)yield_index(p, j, k / 2) * (size_t)lcp->size] +=
-                    p->hardening * u;
+                       (size_t)yield_index(p, j, k / 2) * (size_t)lcp->size] += p->hardening * u;
             const double before = p->recall[0] * u + p->recall[1] * next;
             next = u;
             u = before;
@@ -188,9 +181,8 @@ static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
 static int kwak_place(const rb_contact_problem *p, int k)
 {
     const int n = p->n, block = (k - n) / n;
-    return k < n || k >= delta_column(p)
-               ? k
-               : n + 2 * n * (block / 2) + 2 * ((k - n) % n) + block % 2;
+    return k < n || k >= delta_column(p) ? k
+                                         : n + 2 * n * (block / 2) + 2 * ((k - n) % n) + block % 2;
 }
 
 /* The principal pivot of the pivoted form on S_T: lambda+ is given and gamma+ follows
@@ -212,10 +204,10 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
         memcpy(gamma, own, length * ld * sizeof *own);
         for (int j = 0; j <= size; j++)
             for (int i = 0; i < n; i++)
-                solved[(size_t)i + (size_t)j * length] =
-                    j >= n && j < 2 * n ? i == j - n
-                    : j < size          ? -lcp->M[n + i + (size_t)j * ld]
-                                        : -lcp->b[n + i];
+                solved[(size_t)i + (size_t)j * length] = j >= n && j < 2 * n ? i == j - n
+                                                         : j < size
+                                                             ? -lcp->M[n + i + (size_t)j * ld]
+                                                             : -lcp->b[n + i];
         for (size_t j = 0; j < length; j++)
             memcpy(S_T + j * length, gamma + j * ld + n, length * sizeof *S_T);
         memset(own, 0, length * ld * sizeof *own);
@@ -223,10 +215,10 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
             LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, size + 1, S_T, n, pivots, solved, n));
     }
     if (s == RB_OK) {
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma,
-                    size, solved, n, 1.0, lcp->M, size);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size,
-                    solved + length * ld, 1, 1.0, lcp->b, 1);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma, size,
+                    solved, n, 1.0, lcp->M, size);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size, solved + length * ld, 1,
+                    1.0, lcp->b, 1);
         for (int i = 0; i < size; i++) {
             const int row = kwak_place(p, i), is_gamma = i >= n && i < 2 * n;
             const double *from = is_gamma ? solved + i - n : lcp->M + i;
@@ -274,20 +266,17 @@ static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
         lcp->w_scale[delta_column(p)] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
     }
     if (p->force_given) {
-        lcp->z_scale[xi_column(p)] =
-            p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
+        lcp->z_scale[xi_column(p)] = p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
         lcp->w_scale[xi_column(p)] = bound * rb_norm_1((size_t)n, p->force_T, 1);
     }
 }
 
-rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
-                                rb_contact_lcp_form form, int mirrored, double xi0,
-                                rb_contact_lcp *lcp, rb_message *why)
+rb_status rb_contact_lcp_create(const rb_contact_problem *problem, rb_contact_lcp_form form,
+                                int mirrored, double xi0, rb_contact_lcp *lcp, rb_message *why)
 {
     memset(lcp, 0, sizeof *lcp);
     if (!rb_contact_operator_matrix(problem->op).F)
-        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP",
-                       problem->n);
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", problem->n);
     rb_status s = lcp_alloc(problem, form, lcp);
     if (s == RB_OK) {
         lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
@@ -312,8 +301,7 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
     }
     if (s != RB_OK) {
         rb_contact_lcp_free(lcp);
-        return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
-                       rb_status_text(s));
+        return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n, rb_status_text(s));
     }
     /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
      * below the first touch, also for a half-plane whose datum is close to the surface.
@@ -322,8 +310,7 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
 
     for (int i = 1; i < problem->n; i++)
         lowest = fmin(lowest, problem->d_N[i]);
-    lcp->delta0 =
-        problem->load_given ? lowest - 10.0 * problem->gap_length : problem->delta;
+    lcp->delta0 = problem->load_given ? lowest - 10.0 * problem->gap_length : problem->delta;
     for (int i = 0; i < problem->n; i++) {
         lcp->b[i] -= lcp->delta0;
         if (problem->load_given)
@@ -339,18 +326,17 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
 }
 
 /* gamma of element i: an unknown of the pivoted form, a row w = M z + b of Kwak's. */
-static double gamma_of(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                       const double *z, int i)
+static double gamma_of(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
+                       int i)
 {
     if (lcp->form == RB_LCP_PIVOTED)
         return lcp->z_scale[p->n + i] * z[p->n + i];
     const int row = kwak_place(p, p->n + i);
-    return lcp->w_scale[row] *
-           (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
+    return lcp->w_scale[row] * (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
 }
 
-void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                            const double *z, rb_contact_state *state)
+void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
+                            rb_contact_state *state)
 {
     const int n = p->n;
 
@@ -359,8 +345,7 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
         state->delta += lcp->z_scale[delta_column(p)] * z[delta_column(p)];
     state->xi = p->xi;
     if (p->force_given)
-        state->xi =
-            lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
+        state->xi = lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
     for (int i = 0; i < n; i++) {
         int plus = yield_index(p, i, 0), minus = yield_index(p, i, 1);
         if (lcp->form == RB_LCP_KWAK) {
@@ -370,8 +355,7 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
         state->p[i] = lcp->z_scale[i] * z[i];
         state->plastic[i] =
             p->yield ? orientation(lcp) * p->slip_length * (z[plus] - z[minus]) : 0.0;
-        state->q[i] =
-            orientation(lcp) * (gamma_of(p, lcp, z, i) - p->bound[i] * state->p[i]);
+        state->q[i] = orientation(lcp) * (gamma_of(p, lcp, z, i) - p->bound[i] * state->p[i]);
     }
     state->lcp_form = lcp->form;
 }
@@ -381,9 +365,8 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
 /* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
 static const char *pivoted_name(const rb_contact_lcp *lcp, int is_z, int block)
 {
-    static const char *const names[2][2][2] = {
-        {{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
-        {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
+    static const char *const names[2][2][2] = {{{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
+                                               {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
     return names[lcp->mirrored][is_z][block];
 }
 
@@ -412,7 +395,6 @@ const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variab
                      (k - n) % n + 1);
         }
     } else
-        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
-                 k - contact + 1);
+        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force", k - contact + 1);
     return name;
 }

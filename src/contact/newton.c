@@ -17,8 +17,7 @@ enum { HALVED = 100 };
 static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unknowns,
                           const rb_contact_state *state, const double *gap, int i)
 {
-    const double limit = p->bound[i] * state->p[i], q = state->q[i],
-                 slip = state->lambda[i];
+    const double limit = p->bound[i] * state->p[i], q = state->q[i], slip = state->lambda[i];
     const int zone = state->zone[i];
 
     if ((unknowns & RB_NORMAL) && zone != RB_ZONE_SEPARATED && state->p[i] < 0.0)
@@ -31,9 +30,7 @@ static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unkno
     if (!(unknowns & RB_TANGENTIAL))
         return zone;
     if (zone == RB_ZONE_STICK)
-        return q < -limit  ? RB_ZONE_SLIP_NEGATIVE
-               : q > limit ? RB_ZONE_SLIP_POSITIVE
-                           : zone;
+        return q < -limit ? RB_ZONE_SLIP_NEGATIVE : q > limit ? RB_ZONE_SLIP_POSITIVE : zone;
     if (p->bound[i] == 0.0)
         return rb_contact_sliding_zone(slip);
     return rb_contact_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
@@ -48,8 +45,7 @@ static int stick_count(int n, const int *zone)
 }
 
 /* A given force fixes xi only while something sticks. */
-static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
-                     int *zone)
+static void hold_one(const rb_contact_problem *p, const rb_contact_state *state, int *zone)
 {
     if (stick_count(p->n, zone) > 0)
         return;
@@ -100,8 +96,8 @@ typedef struct {
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
  * back, which ends every cycle, or the corrections no longer become fewer, and no path
  * leads on. */
-static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
-                         workspace *ws, rb_contact_state *state)
+static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
+                         rb_contact_state *state)
 {
     const size_t bytes = (size_t)p->n * sizeof(int);
     uint64_t seen[MAX_STEPS];
@@ -186,8 +182,7 @@ static void forget(const rb_contact_problem *p)
 
 /* An LU of all tractions and those of one group each never take memory together: no later
  * solve would use both (memory.c). */
-static rb_status from_nothing(rb_contact_problem *p, workspace *ws,
-                              rb_contact_state *state)
+static rb_status from_nothing(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
     /* Everything in frictionless contact, to begin with. */
     memset(state->p, 0, (size_t)p->n * sizeof(double));
@@ -226,11 +221,9 @@ static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_stat
     return s == RB_OK ? from_zones(p, ws, state) : s;
 }
 
-rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
-                            rb_contact_state *state)
+rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state)
 {
-    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n),
-                    NULL};
+    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n), NULL};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK)

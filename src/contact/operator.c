@@ -6,8 +6,8 @@ void rb_contact_operator_free(rb_contact_operator *op)
         op->kind->free(op);
 }
 
-void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q,
-                             double *gap, double *slip)
+void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
+                             double *slip)
 {
     op->kind->add(op, p, q, gap, slip);
 }

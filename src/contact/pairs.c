@@ -73,9 +73,8 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
     const int n = fine->n;
     const shares slip = of_slips(fine->differences);
     rb_contact_operator *op = NULL;
-    rb_status s = fine->op->kind->halve
-                      ? fine->op->kind->halve(fine->op, fine->differences, &op)
-                      : RB_MAXITER;
+    rb_status s = fine->op->kind->halve ? fine->op->kind->halve(fine->op, fine->differences, &op)
+                                        : RB_MAXITER;
 
     if (s != RB_OK)
         return s;

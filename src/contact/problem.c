@@ -9,9 +9,8 @@ enum { ROWS = 10 };
 /* The arrays of a problem, n numbers each. */
 static void list_rows(rb_contact_problem *p, double **row[ROWS])
 {
-    double **const rows[ROWS] = {&p->bound,    &p->d_N,     &p->d_T,     &p->e_T,
-                                 &p->load_N,   &p->load_T,  &p->force_N, &p->force_T,
-                                 &p->moment_N, &p->moment_T};
+    double **const rows[ROWS] = {&p->bound,  &p->d_N,     &p->d_T,     &p->e_T,      &p->load_N,
+                                 &p->load_T, &p->force_N, &p->force_T, &p->moment_N, &p->moment_T};
     memcpy(row, rows, sizeof rows);
 }
 
@@ -74,11 +73,9 @@ double rb_contact_force_scale(const rb_contact_problem *p)
     return p->mu * p->stress * rb_norm_1((size_t)p->n, p->load_N, 1);
 }
 
-static double weighted(const rb_contact_state *state, const double *a_N,
-                       const double *a_T)
+static double weighted(const rb_contact_state *state, const double *a_N, const double *a_T)
 {
-    return cblas_ddot(state->n, a_N, 1, state->p, 1) +
-           cblas_ddot(state->n, a_T, 1, state->q, 1);
+    return cblas_ddot(state->n, a_N, 1, state->p, 1) + cblas_ddot(state->n, a_T, 1, state->q, 1);
 }
 
 double rb_contact_load(const rb_contact_problem *p, const rb_contact_state *state)
@@ -104,13 +101,11 @@ double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *
     double less = 0.0;
 
     for (int i = 0; i < p->n; i++)
-        less += (p->mu - p->bound[i]) *
-                (p->load_N[i] * state->p[i] + p->load_T[i] * state->q[i]);
+        less += (p->mu - p->bound[i]) * (p->load_N[i] * state->p[i] + p->load_T[i] * state->q[i]);
     return p->mu * P - less;
 }
 
-void rb_contact_force_row(const rb_contact_problem *p, double *control_N,
-                          double *control_T)
+void rb_contact_force_row(const rb_contact_problem *p, double *control_N, double *control_T)
 {
     for (int i = 0; i < p->n; i++) {
         const double share = p->force_ratio * p->bound[i];

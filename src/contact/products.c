@@ -33,8 +33,8 @@ static void products_free(rb_contact_operator *op)
     free(k);
 }
 
-static void products_add(rb_contact_operator *op, const double *p, const double *q,
-                         double *gap, double *slip)
+static void products_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
+                         double *slip)
 {
     const products *k = (const products *)op;
     const int n = op->n;
@@ -80,8 +80,7 @@ static void control_rows(const system_of *s, double *y)
     const double *r_N = of(p)->r, *r_T = r_N + p->n;
 
     if (r->load)
-        *y++ = (cblas_ddot(p->n, p->load_N, 1, r_N, 1) +
-                cblas_ddot(p->n, p->load_T, 1, r_T, 1)) /
+        *y++ = (cblas_ddot(p->n, p->load_N, 1, r_N, 1) + cblas_ddot(p->n, p->load_T, 1, r_T, 1)) /
                p->load;
     if (r->force)
         *y = (cblas_ddot(p->n, r->control_N, 1, r_N, 1) +
@@ -140,8 +139,7 @@ typedef struct {
 } group;
 
 /* What slipping elements owe to the pressure is left out. */
-static void precondition_group(const system_of *s, const group *g, const double *b,
-                               double *x)
+static void precondition_group(const system_of *s, const group *g, const double *b, double *x)
 {
     const products *op = of(s->p);
     double *line = op->line;
@@ -214,8 +212,8 @@ static rb_status products_gmres(rb_contact_operator *op, const rb_contact_linear
     return rb_contact_gmres(linear, &((products *)op)->scratch, b, x);
 }
 
-static void products_precondition(rb_contact_operator *op, rb_contact_inverse of,
-                                  double hardening, double *line)
+static void products_precondition(rb_contact_operator *op, rb_contact_inverse of, double hardening,
+                                  double *line)
 {
     const rb_contact_products *by = &((products *)op)->by;
 

@@ -16,8 +16,7 @@ void rb_contact_reduced_free(rb_contact_reduced *r)
     free(r->x);
 }
 
-rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
-                                   rb_contact_unknowns unknowns,
+rb_status rb_contact_reduced_alloc(const rb_contact_problem *p, rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r)
 {
     const int *zone = state->zone;
@@ -31,8 +30,7 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
     r->control_T = rb_alloc(n, 1);
     r->gap = rb_alloc(n, 1);
     r->lambda = rb_alloc(n, 1);
-    if (!r->contact || !r->stick || !r->control_N || !r->control_T || !r->gap ||
-        !r->lambda)
+    if (!r->contact || !r->stick || !r->control_N || !r->control_T || !r->gap || !r->lambda)
         return RB_ENOMEM;
     for (int i = 0; i < p->n; i++) {
         if ((unknowns & RB_NORMAL) && zone[i] != RB_ZONE_SEPARATED)
@@ -78,8 +76,8 @@ void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_redu
         state->xi = p->force_given ? 0.0 : p->xi;
 }
 
-void rb_contact_reduced_right_side(const rb_contact_problem *p,
-                                   const rb_contact_state *state, rb_contact_reduced *r)
+void rb_contact_reduced_right_side(const rb_contact_problem *p, const rb_contact_state *state,
+                                   rb_contact_reduced *r)
 {
     int row = 0;
 
@@ -122,8 +120,8 @@ rb_status rb_contact_reduced_add(const rb_contact_problem *p, const rb_contact_r
 
 /* ---- Given zones ------------------------------------------------------------------- */
 
-rb_status rb_contact_solve_zones(rb_contact_problem *problem,
-                                 rb_contact_unknowns unknowns, rb_contact_state *state)
+rb_status rb_contact_solve_zones(rb_contact_problem *problem, rb_contact_unknowns unknowns,
+                                 rb_contact_state *state)
 {
     rb_contact_reduced r;
     rb_status s = rb_contact_reduced_alloc(problem, unknowns, state, &r);
@@ -134,8 +132,7 @@ rb_status rb_contact_solve_zones(rb_contact_problem *problem,
     return s;
 }
 
-rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state,
-                               double *gap)
+rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state, double *gap)
 {
     const rb_status s = rb_contact_solve_zones(problem, RB_BOTH, state);
     if (s == RB_OK)

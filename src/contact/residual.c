@@ -33,8 +33,8 @@ void rb_contact_state_free(rb_contact_state *state)
     memset(state, 0, sizeof *state);
 }
 
-void rb_contact_kinematics(const rb_contact_problem *problem,
-                           const rb_contact_state *state, double *gap, double *lambda)
+void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,
+                           double *gap, double *lambda)
 {
     for (int i = 0; i < problem->n; i++) {
         gap[i] = problem->d_N[i] - state->delta;
@@ -58,8 +58,8 @@ typedef struct {
     double *gap, *lambda, *yielded;
 } motion;
 
-rb_status rb_contact_residual(const rb_contact_problem *problem,
-                              const rb_contact_state *state, rb_contact_violation *v)
+rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contact_state *state,
+                              rb_contact_violation *v)
 {
     const int n = problem->n;
     double *gap = rb_alloc((size_t)n, 3);
@@ -84,22 +84,19 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
     v->scaled = worst;
     for (int i = 0; i < n; i++) {
         /* The four values of one element, each kept where it is the largest so far. */
-        const double tangential = rb_contact_friction_scale(problem),
-                     length = problem->slip_length,
+        const double tangential = rb_contact_friction_scale(problem), length = problem->slip_length,
                      limit = problem->bound[i] * state->p[i];
         const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
         const double contact =
             fabs(fmin(m.gap[i] / problem->gap_length, state->p[i] / problem->stress));
-        double coulomb =
-            friction_violation((m.lambda[i] - state->plastic[i]) / length,
-                               gamma_plus / tangential, gamma_minus / tangential);
+        double coulomb = friction_violation((m.lambda[i] - state->plastic[i]) / length,
+                                            gamma_plus / tangential, gamma_minus / tangential);
 
         if (problem->yield) {
             const double yield = rb_contact_yield_stress(problem, i, m.yielded[i]);
-            coulomb =
-                fmax(coulomb, friction_violation(state->plastic[i] / length,
-                                                 (yield + state->q[i]) / tangential,
-                                                 (yield - state->q[i]) / tangential));
+            coulomb = fmax(coulomb, friction_violation(state->plastic[i] / length,
+                                                       (yield + state->q[i]) / tangential,
+                                                       (yield - state->q[i]) / tangential));
             v->friction = fmax(v->friction, fabs(state->q[i]) - yield);
         }
         v->scaled = fmax(v->scaled, fmax(contact, coulomb));
@@ -115,8 +112,8 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
     return RB_OK;
 }
 
-static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
-                               double gamma_minus, int frictionless)
+static rb_contact_zone zone_of(double p, double lambda, double gamma_plus, double gamma_minus,
+                               int frictionless)
 {
     if (!(p > 0.0))
         return RB_ZONE_SEPARATED;
@@ -130,8 +127,8 @@ static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
 }
 
 /* What neither slips nor is separated may yield, by more than its stress lacks. */
-static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double plastic,
-                                     double q, double yield)
+static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double plastic, double q,
+                                     double yield)
 {
     const double lacks = (yield - fabs(q)) / rb_contact_friction_scale(problem);
 
@@ -140,21 +137,18 @@ static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double p
     return plastic > 0.0 ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE;
 }
 
-void rb_contact_classify(const rb_contact_problem *problem, double tol,
-                         rb_contact_state *state)
+void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state)
 {
-    const double tangential = rb_contact_friction_scale(problem),
-                 length = problem->slip_length;
+    const double tangential = rb_contact_friction_scale(problem), length = problem->slip_length;
     double next = 0.0, second = 0.0;
 
     for (int i = problem->n - 1; i >= 0; i--) {
         const double limit = problem->bound[i] * state->p[i], q = state->q[i];
         const double u = problem->recall[0] * next + problem->recall[1] * second +
                          problem->own * fabs(state->plastic[i]);
-        state->zone[i] = zone_of(state->p[i] / problem->stress - tol,
-                                 (state->lambda[i] - state->plastic[i]) / length,
-                                 (limit + q) / tangential, (limit - q) / tangential,
-                                 problem->bound[i] == 0.0);
+        state->zone[i] = zone_of(
+            state->p[i] / problem->stress - tol, (state->lambda[i] - state->plastic[i]) / length,
+            (limit + q) / tangential, (limit - q) / tangential, problem->bound[i] == 0.0);
         if (problem->yield && state->zone[i] == RB_ZONE_STICK)
             state->zone[i] = yielding_zone(problem, state->plastic[i], q,
                                            rb_contact_yield_stress(problem, i, u));

@@ -132,20 +132,18 @@ static rb_status cover_rows(const rb_contact_lcp *lcp, covering kind, double **c
         return RB_OK;
     *cover = rb_alloc((size_t)lcp->size, 1);
     for (int i = 0; i < lcp->size && *cover; i++)
-        (*cover)[i] =
-            (lcp->b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
+        (*cover)[i] = (lcp->b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
     return *cover ? RB_OK : RB_ENOMEM;
 }
 
 rb_contact_options rb_contact_defaults(void)
 {
-    return (rb_contact_options){
-        .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
+    return (rb_contact_options){.solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
 }
 
 /* Kwak's form alone where the case asks for it.  Returns the first one to try. */
-static int plan_forms(const rb_contact_problem *problem,
-                      const rb_contact_options *options, attempt at[FORMS])
+static int plan_forms(const rb_contact_problem *problem, const rb_contact_options *options,
+                      attempt at[FORMS])
 {
     double sum = 0.0;
 
@@ -163,9 +161,8 @@ static int plan_forms(const rb_contact_problem *problem,
 
 /* Attempt by attempt until one has a solution: its LCP, the path, and the state that the
  * unknowns mean.  Kwak's matrix may have no inverse. */
-static rb_status solve_lemke(rb_contact_problem *problem,
-                             const rb_contact_options *options, rb_contact_state *state,
-                             rb_message *why)
+static rb_status solve_lemke(rb_contact_problem *problem, const rb_contact_options *options,
+                             rb_contact_state *state, rb_message *why)
 {
     attempt all[FORMS];
     const int first = plan_forms(problem, options, all);
@@ -189,8 +186,7 @@ static rb_status solve_lemke(rb_contact_problem *problem,
             s = z ? cover_rows(&lcp, order_of_attempts[k].cover, &cover) : RB_ENOMEM;
         if (s == RB_OK) {
             pivoting.cover = cover;
-            pivoting.max_iters =
-                round + 1 < ROUNDS ? (round ? 15 : 5) * lcp.size + 100 : 0;
+            pivoting.max_iters = round + 1 < ROUNDS ? (round ? 15 : 5) * lcp.size + 100 : 0;
             pivoting.trace = options->trace;
             pivoting.trace_context = options->trace_context;
             pivoting.trace_tableau = options->trace_tableau;
@@ -219,19 +215,17 @@ static rb_status solve_lemke(rb_contact_problem *problem,
     return s;
 }
 
-rb_status rb_contact_lcp_first(const rb_contact_problem *problem,
-                               const rb_contact_options *options,
-                               const rb_contact_state *state, rb_contact_lcp *lcp,
-                               rb_message *why)
+rb_status rb_contact_lcp_first(const rb_contact_problem *problem, const rb_contact_options *options,
+                               const rb_contact_state *state, rb_contact_lcp *lcp, rb_message *why)
 {
     attempt at[FORMS];
     const int first = plan_forms(problem, options, at);
 
     if (state && state->solver == RB_SOLVER_LEMKE)
-        return rb_contact_lcp_create(problem, state->lcp_form, state->mirrored,
-                                     state->xi0, lcp, why);
-    return rb_contact_lcp_create(problem, at[first].form, at[first].mirrored,
-                                 at[first].xi0, lcp, why);
+        return rb_contact_lcp_create(problem, state->lcp_form, state->mirrored, state->xi0, lcp,
+                                     why);
+    return rb_contact_lcp_create(problem, at[first].form, at[first].mirrored, at[first].xi0, lcp,
+                                 why);
 }
 
 static int is_solved(rb_status s, const rb_contact_problem *problem,
@@ -248,8 +242,7 @@ static rb_status proven(rb_status s, const rb_contact_problem *problem,
 }
 
 /* What Newton has ended with, as s says, made a state. */
-static rb_status complete_newton(rb_contact_problem *problem, rb_status s,
-                                 rb_contact_state *state)
+static rb_status complete_newton(rb_contact_problem *problem, rb_status s, rb_contact_state *state)
 {
     if (s < 0)
         return s;
@@ -260,9 +253,8 @@ static rb_status complete_newton(rb_contact_problem *problem, rb_status s,
 
 /* What Newton has ended with, as s says.  On large contacts an element whose traction is
  * rounding may come and go: a cycle that ends in a solution is one. */
-static rb_status end_newton(rb_contact_problem *problem,
-                            const rb_contact_options *options, rb_status s,
-                            rb_contact_state *state)
+static rb_status end_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                            rb_status s, rb_contact_state *state)
 {
     s = complete_newton(problem, s, state);
     /* GMRES ends at a tolerance of its own; for a smaller one the matrix solves alone */
@@ -271,15 +263,13 @@ static rb_status end_newton(rb_contact_problem *problem,
         rb_contact_operator_add_products(problem->op, NULL);
         s = complete(problem, 0, state);
     }
-    if (s == RB_MAXITER && problem->rounding > 0.0 &&
-        is_solved(RB_OK, problem, options, state))
+    if (s == RB_MAXITER && problem->rounding > 0.0 && is_solved(RB_OK, problem, options, state))
         s = RB_OK;
     return s;
 }
 
-static rb_status solve_newton(rb_contact_problem *problem,
-                              const rb_contact_options *options, int warm,
-                              rb_contact_state *state)
+static rb_status solve_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                              int warm, rb_contact_state *state)
 {
     rb_phase("contact by Newton's method");
     return end_newton(problem, options, rb_contact_newton(problem, warm, state), state);
@@ -314,9 +304,8 @@ static void copy_start(int n, const rb_contact_state *from, rb_contact_state *to
 /* Newton's steps that go round in circles end from the zones of a problem with nearly the
  * same friction.  From a small share the zones are followed to all of it, in steps that
  * are halved where Newton fails and doubled where three in a row succeed. */
-static rb_status follow_friction(rb_contact_problem *problem,
-                                 const rb_contact_options *options, friction *of,
-                                 rb_contact_state *good, rb_contact_state *state)
+static rb_status follow_friction(rb_contact_problem *problem, const rb_contact_options *options,
+                                 friction *of, rb_contact_state *good, rb_contact_state *state)
 {
     double step = of->share;
     int row = 0;
@@ -341,8 +330,7 @@ static rb_status follow_friction(rb_contact_problem *problem,
     return s == RB_OK && of->share < 1.0 ? RB_MAXITER : s;
 }
 
-static rb_status solve_by_friction(rb_contact_problem *problem,
-                                   const rb_contact_options *options,
+static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact_options *options,
                                    rb_contact_state *state)
 {
     const size_t n = (size_t)problem->n;
@@ -379,14 +367,12 @@ static rb_status solve_by_friction(rb_contact_problem *problem,
 typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
 enum { METHODS = 3 };
 
-static rb_status solve_yielding(rb_contact_problem *problem,
-                                const rb_contact_options *options, int warm,
-                                rb_contact_state *state, rb_message *why);
+static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_options *options,
+                                int warm, rb_contact_state *state, rb_message *why);
 
 /* The method of a problem whose tangential drive friction can follow. */
-static rb_status solve_given(rb_contact_problem *problem,
-                             const rb_contact_options *options, int warm,
-                             rb_contact_state *state, rb_message *why)
+static rb_status solve_given(rb_contact_problem *problem, const rb_contact_options *options,
+                             int warm, rb_contact_state *state, rb_message *why)
 {
     method order[METHODS];
 
@@ -408,9 +394,8 @@ static rb_status solve_given(rb_contact_problem *problem,
     rb_status s = RB_RAY;
 
     for (int k = 0; k < count && s >= 0; k++) {
-        s = order[k] == LEMKE
-                ? solve_lemke(problem, options, state, why)
-                : solve_newton(problem, options, order[k] == NEWTON_WARM, state);
+        s = order[k] == LEMKE ? solve_lemke(problem, options, state, why)
+                              : solve_newton(problem, options, order[k] == NEWTON_WARM, state);
         if (is_solved(s, problem, options, state))
             break;
     }
@@ -422,9 +407,8 @@ static rb_status solve_given(rb_contact_problem *problem,
 
 /* ---- A layer that yields ----------------------------------------------------------- */
 
-static rb_status solve_yield_newton(rb_contact_problem *problem,
-                                    const rb_contact_options *options, int follows,
-                                    rb_contact_state *state)
+static rb_status solve_yield_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                                    int follows, rb_contact_state *state)
 {
     const rb_status s = rb_contact_yield_newton(problem, follows, state);
 
@@ -433,9 +417,8 @@ static rb_status solve_yield_newton(rb_contact_problem *problem,
 
 /* Where the friction of the surfaces without the layer stays below its yield stress, that
  * is the solution; else the start, at once or step by step. */
-static rb_status solve_from_coulomb(rb_contact_problem *problem,
-                                    const rb_contact_options *options, int follows,
-                                    rb_contact_state *state, rb_message *why)
+static rb_status solve_from_coulomb(rb_contact_problem *problem, const rb_contact_options *options,
+                                    int follows, rb_contact_state *state, rb_message *why)
 {
     double *const yield = problem->yield;
 
@@ -448,17 +431,16 @@ static rb_status solve_from_coulomb(rb_contact_problem *problem,
     return s > 0 && follows ? s : solve_yield_newton(problem, options, follows, state);
 }
 
-static rb_status check_capacity(rb_contact_problem *problem,
-                                const rb_contact_options *options, rb_message *why);
+static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
+                                rb_message *why);
 
 /* Newton's method in a few steps nearly always; a force that cannot be carried is found
  * before the long ways. */
-static rb_status solve_yielding(rb_contact_problem *problem,
-                                const rb_contact_options *options, int warm,
-                                rb_contact_state *state, rb_message *why)
+static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_options *options,
+                                int warm, rb_contact_state *state, rb_message *why)
 {
-    const int lemke = options->solver == RB_SOLVER_LEMKE &&
-                      rb_contact_operator_matrix(problem->op).F != NULL;
+    const int lemke =
+        options->solver == RB_SOLVER_LEMKE && rb_contact_operator_matrix(problem->op).F != NULL;
     rb_status s = RB_MAXITER;
 
     if (lemke) {
@@ -474,8 +456,7 @@ static rb_status solve_yielding(rb_contact_problem *problem,
     }
     if (s > 0)
         s = solve_from_coulomb(problem, options, 1, state, why);
-    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO &&
-        rb_contact_operator_matrix(problem->op).F)
+    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO && rb_contact_operator_matrix(problem->op).F)
         s = solve_lemke(problem, options, state, why);
     return proven(s, problem, options, state);
 }
@@ -490,8 +471,7 @@ static int slides_fully(const rb_contact_problem *problem)
 }
 
 /* Creepage by which the slowest element still slides; 0 where something sticks. */
-static double slowest_slip(const rb_contact_problem *problem,
-                           const rb_contact_state *state)
+static double slowest_slip(const rb_contact_problem *problem, const rb_contact_state *state)
 {
     double slowest = INFINITY;
 
@@ -507,9 +487,8 @@ static double slowest_slip(const rb_contact_problem *problem,
 
 /* Every creepage beyond a least one will do: finds one by doubling, then the least, which
  * has the same tractions. */
-static rb_status solve_sliding(rb_contact_problem *problem,
-                               const rb_contact_options *options, int backwards,
-                               rb_contact_state *state, rb_message *why)
+static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_options *options,
+                               int backwards, rb_contact_state *state, rb_message *why)
 {
     const double sign = backwards ? -1.0 : 1.0;
     rb_contact_problem given = *problem; /* arrays stay the problem's */
@@ -534,8 +513,7 @@ static rb_status solve_sliding(rb_contact_problem *problem,
 
 /* Where elements are tilted P has a part of the friction and Q one of the pressure: full
  * sliding is not the force that was given then. */
-static rb_status solve_full_sliding(rb_contact_problem *problem,
-                                    const rb_contact_options *options,
+static rb_status solve_full_sliding(rb_contact_problem *problem, const rb_contact_options *options,
                                     rb_contact_state *state, rb_message *why)
 {
     rb_status s = solve_sliding(problem, options, problem->force_ratio > 0.0, state, why);
@@ -549,9 +527,8 @@ static rb_status solve_full_sliding(rb_contact_problem *problem,
 /* Whether a given force is more than a layer that does not harden carries: RB_EINVAL. The
  * most is that of full sliding, or, where the layer softens, the largest along the creep
  * curve: beyond it more slip carries less. */
-static rb_status check_layer(rb_contact_problem *problem,
-                             const rb_contact_options *options, rb_contact_state *state,
-                             rb_message *why)
+static rb_status check_layer(rb_contact_problem *problem, const rb_contact_options *options,
+                             rb_contact_state *state, rb_message *why)
 {
     enum { POINTS = 40 };
     const char *unit = options->force_unit ? options->force_unit : "";
@@ -570,13 +547,12 @@ static rb_status check_layer(rb_contact_problem *problem,
     else
         s = solve_sliding(problem, options, backwards, state, NULL);
     most = fmax(most, fabs(rb_contact_force(problem, state)));
-    const double Q =
-        problem->force + problem->force_ratio * rb_contact_capacity(problem, state);
+    const double Q = problem->force + problem->force_ratio * rb_contact_capacity(problem, state);
     return s != RB_OK || fabs(Q) <= most
                ? s
                : rb_fail(why, RB_EINVAL,
-                         "force Q = %g%s: the interface yields, and carries at most %g%s",
-                         Q, unit, most, unit);
+                         "force Q = %g%s: the interface yields, and carries at most %g%s", Q, unit,
+                         most, unit);
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
@@ -584,16 +560,15 @@ static rb_status check_layer(rb_contact_problem *problem,
  * that hardens carries with more slip all that the friction of the surfaces does.  Full
  * sliding, which has that load, is solved in a state of its own, because the state that
  * failed is what the caller prints. */
-static rb_status check_capacity(rb_contact_problem *problem,
-                                const rb_contact_options *options, rb_message *why)
+static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
+                                rb_message *why)
 {
     const char *unit = options->force_unit ? options->force_unit : "";
     rb_contact_state sliding;
     double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
 
-    if (s == RB_OK && problem->yield && problem->hardening <= 0.0 &&
-        problem->axle == 0.0) {
+    if (s == RB_OK && problem->yield && problem->hardening <= 0.0 && problem->axle == 0.0) {
         s = check_layer(problem, options, &sliding, why);
         rb_contact_state_free(&sliding);
         return s < 0 ? s : RB_OK;
@@ -611,18 +586,16 @@ static rb_status check_capacity(rb_contact_problem *problem,
                        "friction carries, mu P = %g%s",
                        resistance, unit, most, unit);
     if (s == RB_OK && fabs(problem->force) > most)
-        return rb_fail(
-            why, RB_EINVAL,
-            "force Q = %g%s: friction carries at most mu P = %g%s at this approach",
-            problem->force, unit, most, unit);
+        return rb_fail(why, RB_EINVAL,
+                       "force Q = %g%s: friction carries at most mu P = %g%s at this approach",
+                       problem->force, unit, most, unit);
     return s < 0 ? s : RB_OK;
 }
 
 /* The cone solvers know neither a given load nor a given force: delta and xi of such a
  * case are those that our own solvers find. */
-static rb_status solve_cone(rb_contact_problem *problem,
-                            const rb_contact_options *options, rb_contact_state *state,
-                            rb_message *why)
+static rb_status solve_cone(rb_contact_problem *problem, const rb_contact_options *options,
+                            rb_contact_state *state, rb_message *why)
 {
     rb_status s = RB_OK;
 
@@ -645,14 +618,13 @@ static rb_status solve_cone(rb_contact_problem *problem,
     return checked == RB_OK || s == RB_OK ? checked : s;
 }
 
-rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,
-                           int warm, rb_contact_state *state, rb_message *why)
+rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options, int warm,
+                           rb_contact_state *state, rb_message *why)
 {
     state->iterations = 0;
-    rb_status s =
-        options->solver == RB_SOLVER_CONE ? solve_cone(problem, options, state, why)
-        : slides_fully(problem) ? solve_full_sliding(problem, options, state, why)
-                                : solve_given(problem, options, warm, state, why);
+    rb_status s = options->solver == RB_SOLVER_CONE ? solve_cone(problem, options, state, why)
+                  : slides_fully(problem) ? solve_full_sliding(problem, options, state, why)
+                                          : solve_given(problem, options, warm, state, why);
 
     if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
         const rb_status t = check_capacity(problem, options, why);

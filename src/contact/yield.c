@@ -107,12 +107,11 @@ static void zones_of_laws(const laws *k, rb_contact_state *state)
 {
     for (int i = 0; i < k->p->n; i++) {
         const int backwards = k->sign[i] < 0.0;
-        state->zone[i] =
-            k->law[i] == SEPARATED ? RB_ZONE_SEPARATED
-            : k->law[i] == STICK   ? RB_ZONE_STICK
-            : k->law[i] == SLIP || k->law[i] == SLIP_AND_YIELD
-                ? (backwards ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE)
-                : (backwards ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE);
+        state->zone[i] = k->law[i] == SEPARATED ? RB_ZONE_SEPARATED
+                         : k->law[i] == STICK   ? RB_ZONE_STICK
+                         : k->law[i] == SLIP || k->law[i] == SLIP_AND_YIELD
+                             ? (backwards ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE)
+                             : (backwards ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE);
     }
 }
 
@@ -157,13 +156,12 @@ static void control_rows(const laws *k, const motion *m, int constants, double *
     const double *control_T = k->control + p->n;
 
     if (p->load_given)
-        *y++ = (cblas_ddot(p->n, p->load_N, 1, m->p, 1) +
-                cblas_ddot(p->n, p->load_T, 1, m->q, 1)) /
+        *y++ = (cblas_ddot(p->n, p->load_N, 1, m->p, 1) + cblas_ddot(p->n, p->load_T, 1, m->q, 1)) /
                    p->load -
                constants;
     if (p->force_given)
-        *y = (cblas_ddot(p->n, k->control, 1, m->p, 1) +
-              cblas_ddot(p->n, control_T, 1, m->q, 1) - constants * p->force) /
+        *y = (cblas_ddot(p->n, k->control, 1, m->p, 1) + cblas_ddot(p->n, control_T, 1, m->q, 1) -
+              constants * p->force) /
              rb_contact_force_scale(p);
 }
 
@@ -174,8 +172,7 @@ static void set_tractions(const laws *k, const double *x, motion *m)
 
     for (int i = 0; i < p->n; i++) {
         m->p[i] = k->at_p[i] >= 0 ? p->stress * x[k->at_p[i]] : 0.0;
-        m->q[i] =
-            k->at_q[i] >= 0 ? p->stress * x[k->at_q[i]] : friction_of(k, i) * m->p[i];
+        m->q[i] = k->at_q[i] >= 0 ? p->stress * x[k->at_q[i]] : friction_of(k, i) * m->p[i];
         m->gap[i] = m->lambda[i] = 0.0;
     }
 }
@@ -185,8 +182,7 @@ static void add_borders(const laws *k, const double *border, motion *m)
 {
     const rb_contact_problem *p = k->p;
     const double delta = p->load_given ? border[0] * p->gap_length : 0.0;
-    const double xi =
-        p->force_given ? border[p->load_given] * p->slip_length / p->e_T[0] : 0.0;
+    const double xi = p->force_given ? border[p->load_given] * p->slip_length / p->e_T[0] : 0.0;
 
     for (int i = 0; i < p->n; i++) {
         m->gap[i] -= delta;
@@ -253,11 +249,10 @@ static void precondition(const void *of_laws, const double *b, double *x)
         memset(line, 0, bytes);
         for (int i = 0; i < p->n; i++)
             if (k->law[i] == of && ++count)
-                line[i] = b[k->at_q[i]] / p->stress *
-                          (yields ? k->sign[i] * friction : p->slip_length);
+                line[i] =
+                    b[k->at_q[i]] / p->stress * (yields ? k->sign[i] * friction : p->slip_length);
         if (count > 0 && !(yields && p->hardening <= 0.0))
-            kind->precondition(k->by,
-                               yields ? RB_INVERSE_YIELDING : RB_INVERSE_TANGENTIAL,
+            kind->precondition(k->by, yields ? RB_INVERSE_YIELDING : RB_INVERSE_TANGENTIAL,
                                p->hardening, line);
         for (int i = 0; i < p->n; i++)
             if (k->law[i] == of)
@@ -295,8 +290,7 @@ static rb_status solve_by_matrix(const laws *k, double *x)
                 cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
                 if (share != 0.0) {
                     m.q[i] = share * p->stress;
-                    cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1,
-                                m.gap, 1);
+                    cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1, m.gap, 1);
                     cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
                 }
                 inner_rows(k, &m, 0, A + (size_t)column * size);
@@ -307,8 +301,7 @@ static rb_status solve_by_matrix(const laws *k, double *x)
             memset(A + c * size, 0, size * sizeof *A);
             border_column(k, (int)c - k->inner, A + c * size);
         }
-        if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x,
-                               k->size) != 0)
+        if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x, k->size) != 0)
             s = RB_SINGULAR;
     }
     free(pivots);
@@ -317,8 +310,7 @@ static rb_status solve_by_matrix(const laws *k, double *x)
 }
 
 /* x as above; from the unknowns that the state has. */
-static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
-                                   double *x)
+static rb_status solve_by_products(const laws *k, const rb_contact_state *state, double *x)
 {
     const rb_contact_problem *p = k->p;
     const rb_contact_linear linear = {.inner = k->inner,
@@ -396,9 +388,7 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
             if (k->law[i] == YIELD || k->law[i] == SOFTENED)
                 own = -k->sign[i] * state->lambda[i];
             else if (k->law[i] == SLIP_AND_YIELD)
-                own =
-                    ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) /
-                    p->own;
+                own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
             state->plastic[i] = -k->sign[i] * own;
             k->yielded[i] = before + p->own * own;
             second = next;
@@ -420,8 +410,7 @@ typedef struct {
 
 /* The law of an element that slides by `slip` >= 0 under the limit mu p, u before it: the
  * layer yields as long as it takes less friction than the surfaces.  Moves u on. */
-static law sliding_law(const rb_contact_problem *p, int i, double slip, double limit,
-                       double *u)
+static law sliding_law(const rb_contact_problem *p, int i, double slip, double limit, double *u)
 {
     const double before = *u, after = before + p->own * slip;
     const double at_first = rb_contact_yield_stress(p, i, before),
@@ -527,8 +516,8 @@ static rb_status iterate(laws *k, rb_contact_state *state)
 
     for (int round = 0; round < ROUNDS + SINGLE_ROUNDS; round++) {
         const size_t n = (size_t)k->p->n;
-        const uint64_t now = rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law),
-                                     k->sign, n * sizeof *k->sign);
+        const uint64_t now = rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law), k->sign,
+                                     n * sizeof *k->sign);
         for (int j = 0; j < round && !single; j++)
             single = seen[j] == now;
         single = single || round >= ROUNDS;
@@ -553,8 +542,7 @@ static rb_status iterate(laws *k, rb_contact_state *state)
 
 /* Those of a layer with a higher yield stress come first: half the excess less in each
  * step, or a smaller part of it. */
-static rb_status follow(rb_contact_problem *p, laws *k, double excess,
-                        rb_contact_state *state)
+static rb_status follow(rb_contact_problem *p, laws *k, double excess, rb_contact_state *state)
 {
     const size_t n = (size_t)p->n;
     law *good = malloc(n * sizeof *good);
@@ -600,8 +588,7 @@ int rb_contact_yields(const rb_contact_problem *p, const rb_contact_state *state
     return excess_of(p, state) > 0.0;
 }
 
-rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows,
-                                  rb_contact_state *state)
+rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows, rb_contact_state *state)
 {
     const double excess = excess_of(p, state);
     laws k;

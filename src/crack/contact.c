@@ -59,8 +59,8 @@ rb_status rb_crack_contact_pose(const rb_crack *c, rb_crack_contact *k)
     return s;
 }
 
-void rb_crack_contact_load(const rb_crack *c, const double *T, double pressure,
-                           double size, const rb_crack_state *before, rb_crack_contact *k)
+void rb_crack_contact_load(const rb_crack *c, const double *T, double pressure, double size,
+                           const rb_crack_state *before, rb_crack_contact *k)
 {
     rb_contact_problem *p = &k->problem;
     memset(k->room, 0, 2 * (size_t)k->n * sizeof *k->room);
@@ -87,8 +87,7 @@ rb_status rb_crack_contact_solve(rb_crack_contact *k, rb_message *why)
     return s;
 }
 
-void rb_crack_contact_read(const rb_crack *c, const rb_crack_contact *k,
-                           rb_crack_state *state)
+void rb_crack_contact_read(const rb_crack *c, const rb_crack_contact *k, rb_crack_state *state)
 {
     const int n = c->n;
 
@@ -117,8 +116,8 @@ void rb_crack_contact_read(const rb_crack *c, const rb_crack_contact *k,
  * y_f = e'D_N - V_0 >= 0, complementary to p_f >= 0.  Its first n rows are the gaps; what
  * p_f adds to them and to the slips is the right-hand side of unit pressure alone.
  * *pressure: p_f; the problem is that of the load without fluid. */
-static rb_status trapped_pressure(rb_crack *c, double volume, int mirrored,
-                                  double *pressure, rb_message *why)
+static rb_status trapped_pressure(rb_crack *c, double volume, int mirrored, double *pressure,
+                                  rb_message *why)
 {
     rb_crack_contact *k = &c->faces;
     rb_contact_problem fluid = k->problem;
@@ -149,8 +148,7 @@ static rb_status trapped_pressure(rb_crack *c, double volume, int mirrored,
     if (s == RB_OK) {
         const double unit_of_p = k->problem.stress / rb_norm_inf((size_t)n, e);
         for (int j = 0; j < last; j++) {
-            memcpy(M + (size_t)j * size, dry.M + (size_t)j * last,
-                   (size_t)last * sizeof *M);
+            memcpy(M + (size_t)j * size, dry.M + (size_t)j * last, (size_t)last * sizeof *M);
             M[j + (size_t)last * size] = unit_of_p * unit.b[j];
             q[j] = dry.b[j];
         }
@@ -158,8 +156,7 @@ static rb_status trapped_pressure(rb_crack *c, double volume, int mirrored,
             e[i] *= dry.w_scale[i];
         const double unit_of_y = cblas_ddot(n, e, 1, M + (size_t)last * size, 1);
         for (int j = 0; j < size; j++)
-            M[last + (size_t)j * size] =
-                cblas_ddot(n, e, 1, M + (size_t)j * size, 1) / unit_of_y;
+            M[last + (size_t)j * size] = cblas_ddot(n, e, 1, M + (size_t)j * size, 1) / unit_of_y;
         q[last] = (cblas_ddot(n, e, 1, q, 1) - volume) / unit_of_y;
         s = rb_lcp_lemke(&(rb_lcp_problem){size, M, size, q}, NULL, z, &info);
         *pressure = unit_of_p * z[last];
@@ -197,9 +194,8 @@ void rb_crack_state_free(rb_crack_state *state)
     memset(state, 0, sizeof *state);
 }
 
-rb_status rb_crack_step(rb_crack *c, const double *T, rb_crack_fluid fluid,
-                        double pressure, double scale, rb_crack_state *state,
-                        rb_message *why)
+rb_status rb_crack_step(rb_crack *c, const double *T, rb_crack_fluid fluid, double pressure,
+                        double scale, rb_crack_state *state, rb_message *why)
 {
     const size_t n = (size_t)c->n;
     rb_crack_contact *k = &c->faces;

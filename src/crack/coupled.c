@@ -37,8 +37,8 @@ static rb_status assemble(const rb_crack *c, const rb_crack_wheel *w, double x,
     }
     if (s == RB_OK) {
         memset(F, 0, ld * ld * sizeof *F);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n2, m, n2, 1.0, c->F, n2,
-                    C, n2, 0.0, FC, n2);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n2, m, n2, 1.0, c->F, n2, C, n2, 0.0,
+                    FC, n2);
         for (int j = 0; j < m; j++) {
             const double h = w->ends[j + 1] - w->ends[j];
             for (int i = 0; i < m; i++)
@@ -47,15 +47,14 @@ static rb_status assemble(const rb_crack *c, const rb_crack_wheel *w, double x,
                 F[place_of(both, n, k) + (size_t)j * ld] =
                     F[(size_t)j + place_of(both, n, k) * ld] = FC[k + (size_t)j * n2];
         }
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, m, m, n2, 1.0, C, n2, FC, n2,
-                    1.0, F, (int)ld);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, m, m, n2, 1.0, C, n2, FC, n2, 1.0, F,
+                    (int)ld);
         for (int j = 0; j < m; j++) /* the friction that is zero */
             memcpy(F + (size_t)both->n + ((size_t)both->n + j) * ld, F + (size_t)j * ld,
                    (size_t)m * sizeof *F);
         for (int l = 0; l < n2; l++)
             for (int k = 0; k < n2; k++)
-                F[place_of(both, n, k) + place_of(both, n, l) * ld] =
-                    c->F[k + (size_t)l * n2];
+                F[place_of(both, n, k) + place_of(both, n, l) * ld] = c->F[k + (size_t)l * n2];
         s = rb_crack_contact_pose(c, both);
     }
     free(C);
@@ -64,8 +63,7 @@ static rb_status assemble(const rb_crack *c, const rb_crack_wheel *w, double x,
 }
 
 /* The approach under which the contact carries the load: by secants. */
-static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both,
-                               rb_message *why)
+static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both, rb_message *why)
 {
     double before = 0.0, load_before = 0.0, at = 0.0; /* d_N are those of approach 0 */
     double next = both->warm ? both->approach : w->approach;
@@ -88,9 +86,9 @@ static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both,
     return s == RB_OK ? rb_fail(why, RB_MAXITER, "the load was not found") : s;
 }
 
-rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x,
-                                const double *T, double stress, rb_crack_state *state,
-                                double *pressure, rb_message *why)
+rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x, const double *T,
+                                double stress, rb_crack_state *state, double *pressure,
+                                rb_message *why)
 {
     const int m = w->n;
     rb_crack_contact *both = &c->coupled;
@@ -112,8 +110,7 @@ rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x,
         s = find_approach(w, both, why);
     }
     if (s == RB_OK && (both->state.p[0] > 0.0 || both->state.p[m - 1] > 0.0))
-        s = rb_fail(why, RB_ZONE,
-                    "the contact fills its elements: expected a wider zone");
+        s = rb_fail(why, RB_ZONE, "the contact fills its elements: expected a wider zone");
     if (s == RB_OK)
         rb_crack_contact_read(c, both, state);
     for (int i = 0; i < m && s == RB_OK; i++)

@@ -11,13 +11,7 @@
 
 /* Points per element; per half of it, graded towards an end where the stress is singular.
  */
-enum {
-    POINTS = 10,
-    GRADED = 24,
-    PIECE_ELEMENTS = 3,
-    LEAST_ELEMENTS = 4,
-    MOST_ELEMENTS = 2000
-};
+enum { POINTS = 10, GRADED = 24, PIECE_ELEMENTS = 3, LEAST_ELEMENTS = 4, MOST_ELEMENTS = 2000 };
 /* Below this angle [degrees] the faces of so few elements would be wrong. */
 enum { SHALLOW_ANGLE = 15, SHALLOW_ELEMENTS = 40 };
 /* K_I of a crack of 90 degrees with its mouth in the surface, unit tension, a = 1. */
@@ -44,8 +38,8 @@ static rb_status check_shape(const rb_crack_shape *shape, rb_message *why)
     const int least = GSL_MAX(LEAST_ELEMENTS, 2 * path->pieces);
 
     if (path->pieces < 1 || path->pieces > RB_CRACK_PIECES)
-        return rb_fail(why, RB_EINVAL, "crack: %d pieces, expected 1 ... %d",
-                       path->pieces, RB_CRACK_PIECES);
+        return rb_fail(why, RB_EINVAL, "crack: %d pieces, expected 1 ... %d", path->pieces,
+                       RB_CRACK_PIECES);
     if (shape->elements < least || shape->elements > MOST_ELEMENTS)
         return rb_fail(why, RB_EINVAL,
                        "crack: %d elements on %d straight pieces, expected two a piece, "
@@ -61,13 +55,12 @@ static rb_status check_shape(const rb_crack_shape *shape, rb_message *why)
         if (!(length > 0.0) || !isfinite(length))
             return rb_fail(why, RB_EINVAL, "crack: piece %d has no length", k);
         if (!shape->full_plane && !(path->y[k] < 0.0 || (k == 0 && path->y[0] == 0.0)))
-            return rb_fail(why, RB_EINVAL,
-                           "crack: the place (%g, %g) lies outside the body y < 0",
+            return rb_fail(why, RB_EINVAL, "crack: the place (%g, %g) lies outside the body y < 0",
                            path->x[k], path->y[k]);
     }
     if (!shape->full_plane && path->y[0] == 0.0 && shape->elements < SHALLOW_ELEMENTS &&
-        -path->y[1] < cabs(place(path, 1) - place(path, 0)) *
-                          sin(SHALLOW_ANGLE * M_PI / 180.0) * (1.0 - 1e-12))
+        -path->y[1] < cabs(place(path, 1) - place(path, 0)) * sin(SHALLOW_ANGLE * M_PI / 180.0) *
+                          (1.0 - 1e-12))
         return rb_fail(why, RB_EINVAL,
                        "crack: below %d degrees to the surface expected at least %d "
                        "elements, got %d",
@@ -93,8 +86,8 @@ static void grade(const rb_crack_path *path, int n, double *s)
                   wanted = GSL_MAX((int)lround(n * phi / M_PI_2), from + least),
                   to = k + 1 < pieces ? GSL_MIN(wanted, most) : n;
         for (int j = from; j <= to; j++)
-            s[j] = length * gsl_pow_2(sin(phi_before +
-                                          (phi - phi_before) * (j - from) / (to - from)));
+            s[j] =
+                length * gsl_pow_2(sin(phi_before + (phi - phi_before) * (j - from) / (to - from)));
         s[from] = before;
         s[to] = end;
         before = end;
@@ -135,9 +128,8 @@ static inline double complex inverse(double complex c)
 }
 
 /* Traction sigma n at z on a plane of direction t. */
-static inline double complex traction_of(double complex z, double complex t,
-                                         double complex Phi, double complex slope,
-                                         double complex Psi)
+static inline double complex traction_of(double complex z, double complex t, double complex Phi,
+                                         double complex slope, double complex Psi)
 {
     return I * t * conj(2.0 * creal(Phi) + t * t * (conj(z) * slope + Psi));
 }
@@ -173,8 +165,7 @@ static void add_image(const rb_crack_element *e, double complex z, double comple
     for (int k = 0; k < 2; k++) {
         const double complex g = k == 0 ? -I : 1.0, h = conj(g);
         const double complex Phi = -((h + g - h * turn) * I1 + h * lever * I2);
-        const double complex slope =
-            (2.0 * h + g - 2.0 * h * turn) * I2 + 2.0 * h * lever * I3;
+        const double complex slope = (2.0 * h + g - 2.0 * h * turn) * I2 + 2.0 * h * lever * I3;
         traction[k] += traction_of(z, t_z, Phi, slope, -h * I1 - Phi - z * slope);
     }
 }
@@ -194,12 +185,10 @@ static double log_mean(const rb_crack_element *e, const rb_crack_element *f)
     double sum = 0.0;
 
     if (fabs(a + 0.5 * k - c - 0.5 * l) < 30.0 * fmax(k, l))
-        return -(twice(a + k - c - l) - twice(a + k - c) - twice(a - c - l) +
-                 twice(a - c));
+        return -(twice(a + k - c - l) - twice(a + k - c) - twice(a - c - l) + twice(a - c));
     for (int i = 0; i < 3; i++) /* the four terms would cancel */
         for (int j = 0; j < 3; j++)
-            sum += w[i] * w[j] *
-                   log(fabs(a + 0.5 * k * (1 + x[i]) - c - 0.5 * l * (1 + x[j])));
+            sum += w[i] * w[j] * log(fabs(a + 0.5 * k * (1 + x[i]) - c - 0.5 * l * (1 + x[j])));
     return k * l * sum;
 }
 
@@ -207,8 +196,7 @@ static double log_mean(const rb_crack_element *e, const rb_crack_element *f)
 static double log_integral(double s, const rb_crack_element *e)
 {
     const double x = s - e->s, y = x - e->length;
-    return (x == 0.0 ? 0.0 : x * log(fabs(x))) - (y == 0.0 ? 0.0 : y * log(fabs(y))) -
-           e->length;
+    return (x == 0.0 ? 0.0 : x * log(fabs(x))) - (y == 0.0 ? 0.0 : y * log(fabs(y))) - e->length;
 }
 
 /* ---- Matrix (C4) ------------------------------------------------------------------- */
@@ -285,9 +273,8 @@ static rb_status add_quadrature(rb_crack *c, double g)
 {
     const rb_crack_element *e = c->element;
     const int n = c->shape.elements;
-    gsl_integration_glfixed_table *const rule[2] = {
-        gsl_integration_glfixed_table_alloc(POINTS),
-        gsl_integration_glfixed_table_alloc(GRADED)};
+    gsl_integration_glfixed_table *const rule[2] = {gsl_integration_glfixed_table_alloc(POINTS),
+                                                    gsl_integration_glfixed_table_alloc(GRADED)};
 
     for (int i = 0; i < n && rule[0] && rule[1]; i++) {
         rb_crack_point point[2 * GRADED];
@@ -322,8 +309,7 @@ static void turn_into_frames(rb_crack *c)
     for (int rows = 0; rows < 2; rows++)
         for (int j = 0; j < n; j++) {
             const int step = rows ? m : 1;
-            double *x = c->F + (size_t)j * (rows ? 1 : m),
-                   *y = x + (size_t)n * (rows ? 1 : m);
+            double *x = c->F + (size_t)j * (rows ? 1 : m), *y = x + (size_t)n * (rows ? 1 : m);
             cblas_drot(m, x, step, y, step, creal(c->t[j]), cimag(c->t[j])); /* (t, n) */
             cblas_dswap(m, x, step, y, step);
         }
@@ -341,8 +327,7 @@ static rb_status invert(rb_crack *c, rb_message *why)
             F[i + j * m] = F[j + i * m] = -0.5 * (F[i + j * m] + F[j + i * m]);
         }
     c->asymmetry = difference / rb_norm_inf(m * m, F);
-    lapack_int fault =
-        LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
+    lapack_int fault = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
     if (fault == 0)
         fault = LAPACKE_dpotri(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
     for (size_t j = 0; j < m; j++)
@@ -410,8 +395,7 @@ static rb_status calibrate(rb_crack *c, const double *s, rb_message *why)
     straight.path = rb_crack_straight(0.0, 0.0, length, 90.0);
     const rb_status status = assemble(&straight, s, &known, why);
     if (status == RB_OK) {
-        const double D =
-            cblas_ddot(known->n, known->F + known->n - 1, 2 * known->n, known->hat, 1);
+        const double D = cblas_ddot(known->n, known->F + known->n - 1, 2 * known->n, known->hat, 1);
         c->per_D = (c->first ? sqrt(0.5) : EDGE_CRACK) * sqrt(M_PI * length) / D;
     }
     rb_crack_free(known);
@@ -445,8 +429,7 @@ rb_status rb_crack_create(const rb_crack_shape *shape, rb_crack **crack, rb_mess
         *crack = NULL;
     }
     return status == RB_ENOMEM
-               ? rb_fail(why, status, "crack: out of memory for %d elements",
-                         shape->elements)
+               ? rb_fail(why, status, "crack: out of memory for %d elements", shape->elements)
                : status;
 }
 
@@ -455,14 +438,12 @@ int rb_crack_nodes(const rb_crack *c)
     return c->n;
 }
 
-void rb_crack_places(const rb_crack *c, double *x, double *y, double *hat, double *t_x,
-                     double *t_y)
+void rb_crack_places(const rb_crack *c, double *x, double *y, double *hat, double *t_x, double *t_y)
 {
     double *const to[] = {x, y, hat, t_x, t_y};
     for (int j = 0; j < c->n; j++) {
         const double complex z = c->element[c->first + j].from;
-        const double place[] = {creal(z), cimag(z), c->hat[j], creal(c->t[j]),
-                                cimag(c->t[j])};
+        const double place[] = {creal(z), cimag(z), c->hat[j], creal(c->t[j]), cimag(c->t[j])};
         for (int k = 0; k < 5; k++)
             if (to[k])
                 to[k][j] = place[k];

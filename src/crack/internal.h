@@ -61,9 +61,8 @@ void rb_crack_contact_free(rb_crack_contact *contact);
 rb_status rb_crack_contact_pose(const rb_crack *crack, rb_crack_contact *contact);
 /* d = F (T + p_f e), scaled; slips count from those of the state.  size: of the scaled
  * forces. */
-void rb_crack_contact_load(const rb_crack *crack, const double *T, double pressure,
-                           double size, const rb_crack_state *before,
-                           rb_crack_contact *contact);
+void rb_crack_contact_load(const rb_crack *crack, const double *T, double pressure, double size,
+                           const rb_crack_state *before, rb_crack_contact *contact);
 rb_status rb_crack_contact_solve(rb_crack_contact *contact, rb_message *why);
 /* The solution in the units of the crack. */
 void rb_crack_contact_read(const rb_crack *crack, const rb_crack_contact *contact,

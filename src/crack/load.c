@@ -7,8 +7,8 @@
 enum { POINTS = 6 };
 
 /* Adds the forces of the stress at a point of element k. */
-static void add_forces(const rb_crack *c, int k, const rb_crack_point *at,
-                       const double stress[3], double *T)
+static void add_forces(const rb_crack *c, int k, const rb_crack_point *at, const double stress[3],
+                       double *T)
 {
     const double complex n = I * c->element[k].t;
     const double complex traction = stress[0] * creal(n) + stress[2] * cimag(n) +
@@ -22,13 +22,13 @@ static void add_forces(const rb_crack *c, int k, const rb_crack_point *at,
     }
 }
 
-rb_status rb_crack_load(const rb_crack *c, const rb_bem_edge_load *load, double x,
-                        double tension, double *T)
+rb_status rb_crack_load(const rb_crack *c, const rb_bem_edge_load *load, double x, double tension,
+                        double *T)
 {
     const size_t points = (size_t)c->shape.elements * POINTS;
     const int strips = load ? load->n : 0;
-    gsl_integration_glfixed_table *const rule[2] = {
-        gsl_integration_glfixed_table_alloc(POINTS), NULL};
+    gsl_integration_glfixed_table *const rule[2] = {gsl_integration_glfixed_table_alloc(POINTS),
+                                                    NULL};
     rb_crack_point *point = calloc(points, sizeof *point);
     double *xy = rb_alloc(points, 5), *stress = xy + 2 * points;
     double *q = rb_alloc((size_t)strips + 1, 1);

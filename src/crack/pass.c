@@ -21,8 +21,7 @@ void rb_crack_history_free(rb_crack_history *h)
     memset(h, 0, sizeof *h);
 }
 
-rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int elements,
-                                 rb_crack_history *h)
+rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int elements, rb_crack_history *h)
 {
     const size_t n = (size_t)steps;
     memset(h, 0, sizeof *h);
@@ -51,8 +50,7 @@ rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int elements,
 }
 
 /* In the order of rb_crack_history_alloc. */
-static void record(const rb_crack_state *state, double x, size_t steps,
-                   rb_crack_history *h)
+static void record(const rb_crack_state *state, double x, size_t steps, rb_crack_history *h)
 {
     const size_t n = (size_t)state->n, k = (size_t)h->n++, m = (size_t)h->elements;
     const double value[COLUMNS] = {x,
@@ -101,8 +99,8 @@ static double largest_stress(const rb_crack_passage *p)
 }
 
 /* Nodal forces on the way from step k - 1 to step k; room: as many. */
-static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int k,
-                              double part, double *T, double *room)
+static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int k, double part,
+                              double *T, double *room)
 {
     const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
     rb_status s = rb_crack_load(c, load_of(p, k), x, p->tension, T);
@@ -116,16 +114,14 @@ static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int 
 /* What is trapped is the volume at the place where the mouth closes, and near it the
  * crack closes fast: the state becomes that just before this place, by bisection.  If the
  * mouth does not close, it stays as it is.  T: room for 4n. */
-static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
-                                  double scale, double *T, rb_crack_state *state,
-                                  rb_message *why)
+static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k, double scale,
+                                  double *T, rb_crack_state *state, rb_message *why)
 {
     rb_crack_state trial;
     double open = 0.0, closed = 1.0;
     rb_status s = rb_crack_state_alloc(c, &trial);
 
-    for (double part = 1.0; closed - open > CLOSING && s == RB_OK;
-         part = 0.5 * (open + closed)) {
+    for (double part = 1.0; closed - open > CLOSING && s == RB_OK; part = 0.5 * (open + closed)) {
         memcpy(trial.D, state->D, 2 * (size_t)c->n * sizeof *trial.D);
         trial.volume = 0.0; /* so that nothing is trapped */
         s = load_between(c, p, k, part, T, T + 2 * c->n);
@@ -153,14 +149,12 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
                         rb_message *why)
 {
     memset(h, 0, sizeof *h);
-    if (p->steps < 1 || p->passes < 1 ||
-        (p->loads != 0 && p->loads != 1 && p->loads != p->steps))
-        return rb_fail(why, RB_EINVAL, "crack: %d steps, %d passes, %d loads", p->steps,
-                       p->passes, p->loads);
+    if (p->steps < 1 || p->passes < 1 || (p->loads != 0 && p->loads != 1 && p->loads != p->steps))
+        return rb_fail(why, RB_EINVAL, "crack: %d steps, %d passes, %d loads", p->steps, p->passes,
+                       p->loads);
     if (p->fluid != RB_CRACK_DRY && c->first)
-        return rb_fail(
-            why, RB_EINVAL,
-            "crack: fluid enters at the mouth; a crack below the surface has none");
+        return rb_fail(why, RB_EINVAL,
+                       "crack: fluid enters at the mouth; a crack below the surface has none");
     if (p->fluid != RB_CRACK_DRY && p->wheel)
         return rb_fail(why, RB_EINVAL, "crack: a coupled crack cannot contain fluid");
     rb_phase("passes over the crack");
@@ -168,8 +162,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
     const double scale = largest_stress(p);
     double *T = rb_alloc(4, (size_t)c->n);
     rb_crack_state state = {0};
-    rb_status s =
-        T ? rb_crack_history_alloc(c, n, p->wheel ? p->wheel->n : 0, h) : RB_ENOMEM;
+    rb_status s = T ? rb_crack_history_alloc(c, n, p->wheel ? p->wheel->n : 0, h) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_state_alloc(c, &state);
     c->faces.warm = c->coupled.warm = 0;
@@ -185,11 +178,10 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         if (s == RB_OK)
             s = p->wheel
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,
-                                            h->wheel + (size_t)k * (size_t)h->elements,
-                                            &reason)
+                                            h->wheel + (size_t)k * (size_t)h->elements, &reason)
                     : rb_crack_step(c, T, p->fluid,
-                                    pressure_at(load_of(p, step), c->shape.path.x[0] - x),
-                                    scale, &state, &reason);
+                                    pressure_at(load_of(p, step), c->shape.path.x[0] - x), scale,
+                                    &state, &reason);
         if (s == RB_OK)
             record(&state, x, (size_t)n, h);
         else if (s > 0)
@@ -207,9 +199,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
  * - 3/2 K_II sin theta)/sqrt(2 pi r); largest where its slope is zero. */
 double rb_crack_largest_tension(double K_I, double K_II, double *theta)
 {
-    *theta = K_II == 0.0
-                 ? 0.0
-                 : 2.0 * atan2(K_I - sqrt(K_I * K_I + 8.0 * K_II * K_II), 4.0 * K_II);
+    *theta = K_II == 0.0 ? 0.0 : 2.0 * atan2(K_I - sqrt(K_I * K_I + 8.0 * K_II * K_II), 4.0 * K_II);
     if (K_II < 0.0) /* the other half of the plane: tan is the same */
         *theta = 2.0 * atan2(sqrt(K_I * K_I + 8.0 * K_II * K_II) - K_I, -4.0 * K_II);
     const double c = cos(0.5 * *theta);

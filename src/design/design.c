@@ -32,8 +32,7 @@ void rb_design_free(rb_design *d)
 
 static const char ripple_[] = "pressure_ripple";
 
-static rb_status find_result(const char *name, const rb_rolling_result **result,
-                             rb_message *why)
+static rb_status find_result(const char *name, const rb_rolling_result **result, rb_message *why)
 {
     int is_column = 0;
 
@@ -48,8 +47,8 @@ static rb_status find_result(const char *name, const rb_rolling_result **result,
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
         if (rb_sensitivity_has(&rb_rolling_solution_scalars.row[k]))
             rb_guess_try(&guess, rb_rolling_solution_scalars.row[k].name);
-    return rb_fail(why, RB_EINVAL, "design: '%.40s' is no result with derivatives%s",
-                   name, rb_guess_text(&guess, ""));
+    return rb_fail(why, RB_EINVAL, "design: '%.40s' is no result with derivatives%s", name,
+                   rb_guess_text(&guess, ""));
 }
 
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
@@ -57,8 +56,7 @@ rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
     return find_result(name, &d->result, why);
 }
 
-rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d,
-                                rb_message *why)
+rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why)
 {
     for (size_t n; text && *text; text += n + (text[n] == ',')) {
         char word[120];
@@ -66,10 +64,9 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
         char *sign = strpbrk(word, "<>");
         if (!sign || d->constraints == RB_DESIGN_CONSTRAINTS)
-            return rb_fail(
-                why, RB_EINVAL,
-                "design: expected RESULT<=X or RESULT>=X, at most %d, got '%s'",
-                RB_DESIGN_CONSTRAINTS, word);
+            return rb_fail(why, RB_EINVAL,
+                           "design: expected RESULT<=X or RESULT>=X, at most %d, got '%s'",
+                           RB_DESIGN_CONSTRAINTS, word);
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
         const char *number = sign + 1 + (sign[1] == '=');
@@ -80,16 +77,15 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
         if (rb_unit_read(number, unit, &x, &plain, why) != RB_OK)
-            return rb_fail(why, RB_EINVAL, "design: %s: expected a number, got '%.40s'",
-                           word, number);
-        k->bound =
-            plain ? rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, x) : x;
+            return rb_fail(why, RB_EINVAL, "design: %s: expected a number, got '%.40s'", word,
+                           number);
+        k->bound = plain ? rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, x) : x;
     }
     return RB_OK;
 }
 
-static rb_status read_bounds(const rb_case *c, const char *name, const char *unit,
-                             char *text, double bound[2], rb_message *why)
+static rb_status read_bounds(const rb_case *c, const char *name, const char *unit, char *text,
+                             double bound[2], rb_message *why)
 {
     char *colon = text ? strchr(text, ':') : NULL;
     int plain;
@@ -97,30 +93,24 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
     if (colon)
         *colon = '\0';
     for (int k = 0; k < 2; k++) {
-        if (!colon ||
-            rb_unit_read(k ? colon + 1 : text, unit, &bound[k], &plain, why) != RB_OK)
+        if (!colon || rb_unit_read(k ? colon + 1 : text, unit, &bound[k], &plain, why) != RB_OK)
             return rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
         if (plain)
-            bound[k] =
-                rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, bound[k]);
+            bound[k] = rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, bound[k]);
     }
-    return bound[0] < bound[1]
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
+    return bound[0] < bound[1] ? RB_OK
+                               : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
 }
 
-static rb_status add_gap(const rb_case *c, const double bound[2], rb_design *d,
-                         rb_message *why)
+static rb_status add_gap(const rb_case *c, const double bound[2], rb_design *d, rb_message *why)
 {
     const double *gap;
 
     d->gap_from = d->n;
     d->gap_n = rb_case_gap_rows(c, &d->gap_x, &gap);
     if (d->gap_n == 0)
-        return rb_fail(why, RB_EINVAL,
-                       "--over gap: needs a gap from a table (--gap FILE)");
-    rb_design_variable *all =
-        realloc(d->variable, (size_t)(d->n + d->gap_n + 1) * sizeof *all);
+        return rb_fail(why, RB_EINVAL, "--over gap: needs a gap from a table (--gap FILE)");
+    rb_design_variable *all = realloc(d->variable, (size_t)(d->n + d->gap_n + 1) * sizeof *all);
     if (!all)
         return rb_fail(why, RB_ENOMEM, "out of memory for a design");
     d->variable = all;
@@ -147,17 +137,16 @@ static rb_status add_number(const rb_case *c, const char *name, char *range, rb_
     for (; k < n && strcmp(number[k].name, name) != 0; k++)
         rb_guess_try(&guess, number[k].name);
     if (s == RB_OK && (k == n || number[k].entry > 0))
-        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s",
-                       name, rb_guess_text(&guess, ""));
+        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s", name,
+                       rb_guess_text(&guess, ""));
     if (s == RB_OK)
         s = read_bounds(c, name, number[k].option->unit, range, bound, why);
     if (s != RB_OK)
         return s;
     const double value = number[k].input.value;
     if (!(bound[0] <= value && value <= bound[1]))
-        return rb_fail(why, RB_EINVAL,
-                       "--over: %s begins at %g, which is not within its bounds", name,
-                       value);
+        return rb_fail(why, RB_EINVAL, "--over: %s begins at %g, which is not within its bounds",
+                       name, value);
     rb_design_variable *all = realloc(d->variable, (size_t)(d->n + 1) * sizeof *all);
     if (!all)
         return rb_fail(why, RB_ENOMEM, "out of memory for a design");
@@ -172,8 +161,7 @@ static rb_status add_number(const rb_case *c, const char *name, char *range, rb_
     return RB_OK;
 }
 
-rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
-                              rb_message *why)
+rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, rb_message *why)
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
     rb_status s = number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a design");
@@ -198,9 +186,7 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d,
         }
     }
     free(number);
-    return s == RB_OK && d->n == 0
-               ? rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B")
-               : s;
+    return s == RB_OK && d->n == 0 ? rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B") : s;
 }
 
 /* ---- The case as a function -------------------------------------------------------- */
@@ -244,8 +230,7 @@ static rb_status set_profile(problem *p, const double *x, int varied, double val
     for (int k = 0; k < d->gap_n && s == RB_OK; k++)
         gap[k] = k == varied ? value : x[d->gap_from + k];
     if (s == RB_OK)
-        s = rb_rolling_profile_create(d->gap_n, d->gap_x, gap, 0.0,
-                                      &p->profile[p->profiles], why);
+        s = rb_rolling_profile_create(d->gap_n, d->gap_x, gap, 0.0, &p->profile[p->profiles], why);
     if (s == RB_OK)
         rc->profile = p->profile[p->profiles++];
     free(gap);
@@ -318,8 +303,7 @@ static void read_functions(const rb_design *d, const rb_rolling_solution *s,
 }
 
 static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_case *rc,
-                               const rb_rolling_model *model,
-                               const rb_rolling_solution *solution)
+                               const rb_rolling_model *model, const rb_rolling_solution *solution)
 {
     const rb_design *d = p->d;
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
@@ -345,8 +329,7 @@ static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_c
             }
         status = rb_sensitivity_differentiate(s, &input, &by, p->why);
         if (status == RB_OK)
-            read_functions(d, solution, &by.value[by.has[0] ? 0 : 1], &p->gradient[j],
-                           d->n);
+            read_functions(d, solution, &by.value[by.has[0] ? 0 : 1], &p->gradient[j], d->n);
         rb_sensitivity_derivative_free(&by);
         forget_profiles(p, d->gap_n > 0 ? 1 : 0); /* the first one is that of x */
     }
@@ -407,8 +390,8 @@ static rb_status evaluate(problem *p, const double *x)
         keep_best(p);
         if (p->observer && p->observer->step &&
             p->observer->step(d->evaluations, p->value[0], x, p->observer->context))
-            s = rb_fail(p->why, RB_INTERRUPTED,
-                        "design: interrupted after %d evaluations", d->evaluations);
+            s = rb_fail(p->why, RB_INTERRUPTED, "design: interrupted after %d evaluations",
+                        d->evaluations);
     }
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
@@ -460,8 +443,7 @@ static double call(unsigned n, const double *u, double *gradient, void *context)
         return HUGE_VAL;
     }
     for (unsigned j = 0; j < n && gradient; j++)
-        gradient[j] =
-            f->scale * p->gradient[(size_t)f->k * n + j] * (v[j].high - v[j].low);
+        gradient[j] = f->scale * p->gradient[(size_t)f->k * n + j] * (v[j].high - v[j].low);
     return f->scale * (p->value[f->k] - f->bound);
 }
 
@@ -496,8 +478,7 @@ static rb_status search(problem *p)
     p->status = evaluate(p, p->best); /* the start, for its size */
     if (p->status == RB_OK) {
         p->known = 1;
-        f[0].scale /=
-            fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
+        f[0].scale /= fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
         /* A step without progress may end a search early: again from the best. */
         nlopt_result r = NLOPT_FTOL_REACHED;
         double before = INFINITY;
@@ -506,16 +487,15 @@ static rb_status search(problem *p)
                         (k == 0 || p->best_value < before - 1e-7 * fabs(before));
              k++) {
             for (int j = 0; j < d->n; j++)
-                u[j] = (p->best[j] - d->variable[j].low) /
-                       (d->variable[j].high - d->variable[j].low);
+                u[j] =
+                    (p->best[j] - d->variable[j].low) / (d->variable[j].high - d->variable[j].low);
             before = p->best_value;
             r = nlopt_optimize(opt, u, &least);
         }
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
-            p->status = rb_fail(
-                p->why, RB_MAXITER, "design: not converged after %d evaluations%s%s",
-                d->evaluations, *p->reason.text ? "; some have no solution: " : "",
-                p->reason.text);
+            p->status = rb_fail(p->why, RB_MAXITER,
+                                "design: not converged after %d evaluations%s%s", d->evaluations,
+                                *p->reason.text ? "; some have no solution: " : "", p->reason.text);
         else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
             p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",
                                 nlopt_result_to_string(r));
@@ -535,8 +515,8 @@ static rb_status search(problem *p)
 
 #endif
 
-rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
-                          rb_design *d, rb_message *why)
+rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, rb_design *d,
+                          rb_message *why)
 {
     const size_t n = (size_t)d->n, functions = 1 + (size_t)d->constraints;
     problem p = {.c = c,
@@ -551,8 +531,7 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer,
     rb_status s = RB_OK;
 
     if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
-        s = rb_fail(why, RB_EINVAL,
-                    "design: only for cases of one step without error bars");
+        s = rb_fail(why, RB_EINVAL, "design: only for cases of one step without error bars");
     else if (!p.x || !p.value || !p.gradient || !p.best)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a design");
     d->evaluations = 0;

@@ -13,8 +13,8 @@ struct rb_fem_condensation {
 };
 
 /* Rows and columns of a: kept where wanted C (1) or F (0); 2 keeps all columns. */
-static rb_status block(const rb_fem_condensation *c, const rb_sparse *a, int row_c,
-                       int col_c, rb_sparse *b)
+static rb_status block(const rb_fem_condensation *c, const rb_sparse *a, int row_c, int col_c,
+                       rb_sparse *b)
 {
     const int nc = c->condensed.dofs;
     rb_triplets t = {.rows = row_c ? nc : c->nf,
@@ -26,8 +26,7 @@ static rb_status block(const rb_fem_condensation *c, const rb_sparse *a, int row
         for (int k = a->p[j]; k < a->p[j + 1]; k++) {
             const int pi = c->place[a->i[k]];
             if ((pi >= 0) == row_c)
-                rb_triplets_add(&t, pi >= 0 ? pi : -1 - pi, pj >= 0 ? pj : -1 - pj,
-                                a->x[k]);
+                rb_triplets_add(&t, pi >= 0 ? pi : -1 - pi, pj >= 0 ? pj : -1 - pj, a->x[k]);
         }
     }
     const rb_status s = rb_sparse_from_triplets(&t, b);
@@ -47,8 +46,7 @@ static rb_status subtract(const rb_sparse *a, const rb_sparse *b, rb_sparse *dif
 }
 
 /* K_c = K_CC - K_FC' K_FF^-1 K_FC */
-static rb_status reduce(const rb_fem_structure *full, rb_fem_condensation *c,
-                        rb_message *why)
+static rb_status reduce(const rb_fem_structure *full, rb_fem_condensation *c, rb_message *why)
 {
     rb_sparse KFF = {0}, KCC = {0}, W = {0};
     rb_status s = block(c, &full->K, 1, 1, &KCC);
@@ -65,8 +63,7 @@ static rb_status reduce(const rb_fem_structure *full, rb_fem_condensation *c,
     if (s == RB_OK && c->nf > 0)
         s = rb_sparse_cholesky_congruence(c->factor, &c->KFC, &W);
     if (s == RB_OK)
-        s = c->nf > 0 ? subtract(&KCC, &W, &c->condensed.K)
-                      : rb_sparse_copy(&KCC, &c->condensed.K);
+        s = c->nf > 0 ? subtract(&KCC, &W, &c->condensed.K) : rb_sparse_copy(&KCC, &c->condensed.K);
     rb_sparse_free(&W);
     rb_sparse_free(&KFF);
     rb_sparse_free(&KCC);
@@ -94,8 +91,7 @@ rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **re
         c->condensed.dofs = nc;
         s = c->condensed.dofs > 0
                 ? reduce(full, c, why)
-                : rb_fail(why, RB_EINVAL,
-                          "condensation: no contact touches the structure");
+                : rb_fail(why, RB_EINVAL, "condensation: no contact touches the structure");
     }
     if (s == RB_OK)
         s = block(c, &full->H, 1, 2, &c->condensed.H);
@@ -130,8 +126,8 @@ const rb_fem_structure *rb_fem_condensed(const rb_fem_condensation *c)
 }
 
 /* x = K_FF^-1 (load_F - K_FC u_C); u_C NULL: zero.  x: nf. */
-static rb_status interior(const rb_fem_condensation *c, const double *load,
-                          const double *u_c, double *x)
+static rb_status interior(const rb_fem_condensation *c, const double *load, const double *u_c,
+                          double *x)
 {
     for (int i = 0; i < c->dofs; i++)
         if (c->place[i] < 0)
@@ -141,8 +137,7 @@ static rb_status interior(const rb_fem_condensation *c, const double *load,
     return c->nf > 0 ? rb_sparse_cholesky_solve(c->factor, x, x) : RB_OK;
 }
 
-rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load,
-                               double *load_c)
+rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load, double *load_c)
 {
     double *x = rb_alloc((size_t)c->nf, 1);
     rb_status s = x ? interior(c, load, NULL, x) : RB_ENOMEM;
@@ -156,8 +151,8 @@ rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load,
     return s;
 }
 
-rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load,
-                        const double *u_c, double *u)
+rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load, const double *u_c,
+                        double *u)
 {
     double *x = rb_alloc((size_t)c->nf, 1);
     rb_status s = x ? interior(c, load, u_c, x) : RB_ENOMEM;

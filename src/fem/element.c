@@ -73,8 +73,8 @@ static rb_status at_gauss_point(int d, const double *x, int point, gauss_point *
 }
 
 /* K_ai,bj += w [lambda N_a,i N_b,j + shear (N_a,j N_b,i + d_ij N_a,k N_b,k)] */
-static void add_stiffness(int d, const gauss_point *g, double w, double lambda,
-                          double shear, double *K)
+static void add_stiffness(int d, const gauss_point *g, double w, double lambda, double shear,
+                          double *K)
 {
     const int corners = 1 << d, n = d * corners;
     for (int b = 0; b < corners; b++)
@@ -90,8 +90,8 @@ static void add_stiffness(int d, const gauss_point *g, double w, double lambda,
         }
 }
 
-static rb_status solid_stiffness(int d, const double *x, const rb_fem_material *m,
-                                 double thickness, double *K)
+static rb_status solid_stiffness(int d, const double *x, const rb_fem_material *m, double thickness,
+                                 double *K)
 {
     const double shear = 0.5 * m->young / (1.0 + m->poisson);
     const double lambda = 2.0 * shear * m->poisson / (1.0 - 2.0 * m->poisson);
@@ -111,8 +111,7 @@ rb_status rb_fem_quad_stiffness(const double x[8], const rb_fem_material *m, dou
     return solid_stiffness(2, x, m, m->section, K);
 }
 
-rb_status rb_fem_brick_stiffness(const double x[24], const rb_fem_material *m,
-                                 double K[576])
+rb_status rb_fem_brick_stiffness(const double x[24], const rb_fem_material *m, double K[576])
 {
     return solid_stiffness(3, x, m, 1.0, K);
 }
@@ -127,8 +126,7 @@ rb_status rb_fem_brick_mass(const double x[24], const rb_fem_material *m, double
         for (int b = 0; b < 8; b++)
             for (int a = 0; a < 8; a++)
                 for (int i = 0; i < 3; i++)
-                    M[3 * a + i + 24 * (3 * b + i)] +=
-                        m->density * g.jacobian * g.N[a] * g.N[b];
+                    M[3 * a + i + 24 * (3 * b + i)] += m->density * g.jacobian * g.N[a] * g.N[b];
     }
     return RB_OK;
 }

@@ -70,15 +70,14 @@ static rb_status open_runner(const rb_fem_model *model, runner *run, rb_message 
 }
 
 /* The increment's friction problem: v and the new reactions in physical units. */
-static rb_status solve_increment(runner *run, const char *solver, double tol,
-                                 rb_fem_step *step, double *length, rb_message *why)
+static rb_status solve_increment(runner *run, const char *solver, double tol, rb_fem_step *step,
+                                 double *length, rb_message *why)
 {
     rb_friction_problem problem;
     rb_friction_options options = rb_friction_defaults();
     rb_friction_info info = {0};
     rb_fem_units units;
-    rb_status s =
-        rb_fem_problem(run->condensed, run->load_c, &run->state, &problem, &units);
+    rb_status s = rb_fem_problem(run->condensed, run->load_c, &run->state, &problem, &units);
     if (s != RB_OK)
         return s;
     options.tol = tol;
@@ -94,8 +93,8 @@ static rb_status solve_increment(runner *run, const char *solver, double tol,
     *length = units.length;
     const char *reason = rb_status_reason(s, &info.msg);
     if (s != RB_OK && isfinite(info.residual))
-        rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver, reason,
-                info.iters, info.residual);
+        rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver, reason, info.iters,
+                info.residual);
     else if (s != RB_OK) /* it has not begun */
         rb_fail(why, s, "%s", reason);
     rb_friction_problem_free(&problem);
@@ -150,8 +149,7 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
 {
     const double start = rb_seconds();
     runner run;
-    *history =
-        (rb_fem_history){0, calloc((size_t)model->steps, sizeof *history->step), 0.0};
+    *history = (rb_fem_history){0, calloc((size_t)model->steps, sizeof *history->step), 0.0};
     rb_status s = history->step ? open_runner(model, &run, why) : RB_ENOMEM;
     for (int k = 0; s == RB_OK && k < model->steps; k++) {
         s = alloc_step(model, &history->step[k]);

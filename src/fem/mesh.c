@@ -78,8 +78,8 @@ static rb_status check_mesh(const rb_fem_mesh *mesh, rb_message *why)
     const int n = mesh->element_nodes * mesh->elements;
     for (int k = 0; k < n; k++)
         if (mesh->node[k] < 0 || mesh->node[k] >= mesh->nodes)
-            return rb_fail(why, RB_EINVAL, "element %d: node %d of %d",
-                           k / mesh->element_nodes, mesh->node[k], mesh->nodes);
+            return rb_fail(why, RB_EINVAL, "element %d: node %d of %d", k / mesh->element_nodes,
+                           mesh->node[k], mesh->nodes);
     if (mesh->dofs < 1)
         return rb_fail(why, RB_EINVAL, "mesh: every node is held");
     return RB_OK;
@@ -98,8 +98,7 @@ static rb_status assemble(const rb_fem_mesh *mesh, const rb_fem_material *materi
     return s;
 }
 
-static rb_status check_material(const rb_fem_material *m, rb_fem_kind kind,
-                                rb_message *why)
+static rb_status check_material(const rb_fem_material *m, rb_fem_kind kind, rb_message *why)
 {
     if (!(m->young > 0.0) || !isfinite(m->young))
         return rb_fail(why, RB_EINVAL, "young = %g: expected > 0", m->young);
@@ -110,8 +109,8 @@ static rb_status check_material(const rb_fem_material *m, rb_fem_kind kind,
     return RB_OK;
 }
 
-rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                           rb_sparse *K, rb_message *why)
+rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *K,
+                           rb_message *why)
 {
     static element_matrix *const matrix[] = {rb_fem_bar_stiffness, rb_fem_quad_stiffness,
                                              rb_fem_brick_stiffness};
@@ -119,8 +118,8 @@ rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *mater
     return s == RB_OK ? assemble(mesh, material, matrix[mesh->kind], K, why) : s;
 }
 
-rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                      rb_sparse *M, rb_message *why)
+rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *M,
+                      rb_message *why)
 {
     if (mesh->kind != RB_FEM_BRICK)
         return rb_fail(why, RB_EINVAL, "mass: bricks only");

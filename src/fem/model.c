@@ -26,8 +26,8 @@ rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int cont
     return s->mu && s->gap && model->contact_node ? status : RB_ENOMEM;
 }
 
-rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material,
-                             double mu, int steps, rb_message *why)
+rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material, double mu,
+                             int steps, rb_message *why)
 {
     rb_fem_structure *s = &model->structure;
     rb_fem_mesh_number(&model->mesh);
@@ -45,8 +45,8 @@ rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *materia
     rb_triplets t = {.rows = model->mesh.dofs, .cols = m};
     for (int k = 0; k < m; k++) {
         /* Axis of component k of the contact frame (N, T1, T2). */
-        const int dof = model->mesh.dof[d * model->contact_node[k / d] +
-                                        ((k % d) == 0 ? d - 1 : (k % d) - 1)];
+        const int dof =
+            model->mesh.dof[d * model->contact_node[k / d] + ((k % d) == 0 ? d - 1 : (k % d) - 1)];
         if (dof >= 0)
             rb_triplets_add(&t, dof, k, 1.0);
     }
@@ -66,8 +66,7 @@ void rb_fem_model_free(rb_fem_model *model)
     memset(model, 0, sizeof *model);
 }
 
-void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction,
-                       double force)
+void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction, double force)
 {
     const int dof = model->mesh.dof[model->mesh.dimension * node + direction];
     if (dof >= 0)

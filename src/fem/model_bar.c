@@ -2,7 +2,7 @@
 #include "rollbem/fem.h"
 
 static const double length = 400.0, height = 40.0, thickness = 10.0; /* mm */
-static const double pressure = 0.01; /* MPa per increment */
+static const double pressure = 0.01;                                 /* MPa per increment */
 
 enum { INCREMENTS = 5 };
 
@@ -19,13 +19,11 @@ static double share(int i, int n)
 
 rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
 {
-    const rb_fem_material material = {
-        .young = 5.0, .poisson = 0.48, .section = thickness};
+    const rb_fem_material material = {.young = 5.0, .poisson = 0.48, .section = thickness};
     *model = (rb_fem_model){0};
     if (nx < 1 || ny < 1 || nx > 2000 || ny > 2000)
         return rb_fail(why, RB_EINVAL, "bar: %d x %d elements", nx, ny);
-    rb_status s =
-        rb_fem_model_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, nx + 1, model);
+    rb_status s = rb_fem_model_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, nx + 1, model);
     if (s == RB_OK) {
         for (int j = 0; j <= ny; j++)
             for (int i = 0; i <= nx; i++) {
@@ -53,8 +51,7 @@ rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
             for (int i = 0; i <= nx; i++)
                 rb_fem_model_load(model, k, node_at(nx, i, ny), 1, -top * share(i, nx));
             for (int j = 0; j <= ny; j++)
-                rb_fem_model_load(model, k, node_at(nx, nx, j), 0,
-                                  -(k + 1) * right * share(j, ny));
+                rb_fem_model_load(model, k, node_at(nx, nx, j), 0, -(k + 1) * right * share(j, ny));
         }
     } else
         rb_fem_model_free(model);

@@ -45,8 +45,7 @@ static double share(int i, int n)
     return i == 0 || i == n - 1 ? 0.5 : 1.0;
 }
 
-rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
-                             rb_message *why)
+rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model, rb_message *why)
 {
     const rb_fem_material material = {.young = 205800.0, .section = 10000.0};
     const grid g = {n, layout == RB_FEM_UPPER_INSIDE ? n - 1 : n + 1};
@@ -54,16 +53,15 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
     if (n < 2 || n > 200)
         return rb_fail(why, RB_EINVAL, "truss: %d contact nodes per side", n);
     const int inclined = g.m < g.n ? g.m * g.m : g.n * g.n;
-    rb_status s = rb_fem_model_alloc(
-        RB_FEM_BAR, n * n + g.m * g.m,
-        (2 * g.n * (g.n - 1) + 2 * g.m * (g.m - 1) + 4 * inclined), n * n, model);
+    rb_status s = rb_fem_model_alloc(RB_FEM_BAR, n * n + g.m * g.m,
+                                     (2 * g.n * (g.n - 1) + 2 * g.m * (g.m - 1) + 4 * inclined),
+                                     n * n, model);
     if (s == RB_OK) {
         place_layer(n, 0, 0.0, &model->mesh);
         place_layer(g.m, n * n, spacing[2], &model->mesh);
         /* Every upper node to the lower ones half a cell away. */
         int *bar = join_layer(g.m, n * n, join_layer(n, 0, model->mesh.node));
-        const int shift =
-            g.m < g.n ? 0 : -1; /* lower neighbours of upper i: i + shift, + 1 */
+        const int shift = g.m < g.n ? 0 : -1; /* lower neighbours of upper i: i + shift, + 1 */
         for (int k = 0; k < 4 * g.m * g.m; k++) {
             const int upper = k / 4, i = upper % g.m + shift + k % 2;
             const int j = upper / g.m + shift + k / 2 % 2;
@@ -79,8 +77,7 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
             for (int j = 0; j < g.m; j++)
                 for (int i = 0; i < g.m; i++)
                     rb_fem_model_load(model, step, g.n * g.n + i + g.m * j, 2,
-                                      -gamma_of[step] * inner_load * share(i, g.m) *
-                                          share(j, g.m));
+                                      -gamma_of[step] * inner_load * share(i, g.m) * share(j, g.m));
     } else
         rb_fem_model_free(model);
     return s;

@@ -9,9 +9,8 @@ static void scale(size_t n, double factor, double *x)
         x[i] *= factor;
 }
 
-rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
-                         const rb_fem_state *state, rb_friction_problem *problem,
-                         rb_fem_units *units)
+rb_status rb_fem_problem(const rb_fem_structure *s, const double *load, const rb_fem_state *state,
+                         rb_friction_problem *problem, rb_fem_units *units)
 {
     const size_t m = (size_t)s->dimension * (size_t)s->contacts;
     memset(problem, 0, sizeof *problem);

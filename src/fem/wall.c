@@ -37,14 +37,12 @@ static rb_status check_options(const rb_fem_wall_options *o, rb_message *why)
 {
     for (int k = 0; k < 3; k++) {
         const int least = k == 1 ? 2 : 3;
-        if (o->fine[k] < least || o->coarse[k] < least || o->fine[k] > 200 ||
-            o->coarse[k] > 200)
-            return rb_fail(why, RB_EINVAL, "wall: %d and %d nodes in direction %d",
-                           o->fine[k], o->coarse[k], k);
+        if (o->fine[k] < least || o->coarse[k] < least || o->fine[k] > 200 || o->coarse[k] > 200)
+            return rb_fail(why, RB_EINVAL, "wall: %d and %d nodes in direction %d", o->fine[k],
+                           o->coarse[k], k);
     }
     if (!(o->dt > 0.0) || o->press < 1 || o->shear < 0)
-        return rb_fail(why, RB_EINVAL, "wall: dt = %g, %d + %d steps", o->dt, o->press,
-                       o->shear);
+        return rb_fail(why, RB_EINVAL, "wall: dt = %g, %d + %d steps", o->dt, o->press, o->shear);
     return RB_OK;
 }
 
@@ -57,8 +55,7 @@ static rb_status build_wall(rb_fem_wall *w, rb_message *why)
     if (s != RB_OK)
         return s;
     wall_find_contacts(&w->layout, w->contact);
-    s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system,
-                            why);
+    s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system, why);
     if (s == RB_OK && w->options.rigid) {
         wall_system elastic = w->system;
         s = wall_rigid_system(&w->layout, &w->mesh, &elastic, &w->R, &w->system);
@@ -77,8 +74,7 @@ static rb_status build_wall(rb_fem_wall *w, rb_message *why)
     }
     for (int i = 0; s == RB_OK && i < w->contacts; i++) {
         const int other = w->contact[i].other;
-        w->mu[i] =
-            other == LOWER_SUPPORT || other == UPPER_SUPPORT ? mu_supports : mu_blocks;
+        w->mu[i] = other == LOWER_SUPPORT || other == UPPER_SUPPORT ? mu_supports : mu_blocks;
     }
     /* M + dt^2 K: the two have the same pattern when elastic; K is empty when rigid. */
     if (s == RB_OK)
@@ -188,8 +184,7 @@ static void step_vectors(const rb_fem_wall *wall, double *f, double *w)
         f[i] += dt * (s->weight[i] + force * s->press[i]);
     rb_sparse_apply_transposed(1.0 / dt, &s->H, c->u, 0.0, w);
     for (int i = 0; i < c->contacts; i++) {
-        const int driven =
-            c->contact[i].other == UPPER_SUPPORT && c->solved > c->options.press;
+        const int driven = c->contact[i].other == UPPER_SUPPORT && c->solved > c->options.press;
         w[3 * i + 1] = driven ? -drive : 0.0;
         w[3 * i + 2] = 0.0;
     }
@@ -292,8 +287,7 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
 
 /* ---- Problems for others ----------------------------------------------------------- */
 
-rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
-                              rb_friction_problem *problem)
+rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step, rb_friction_problem *problem)
 {
     memset(problem, 0, sizeof *problem);
     if (step < 0 || step >= wall->solved)
@@ -325,15 +319,12 @@ rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step)
         return RB_ENOMEM;
     for (int k = 1; k <= n; k++) { /* stable insertion: equals stay in time */
         int at = k - 1;
-        for (; at > 0 &&
-               wall->record[order[at - 1]].iterations > wall->record[k].iterations;
-             at--)
+        for (; at > 0 && wall->record[order[at - 1]].iterations > wall->record[k].iterations; at--)
             order[at] = order[at - 1];
         order[at] = k;
     }
     for (int k = 0; k < count; k++)
-        step[k] =
-            order[count > 1 ? (k * (n - 1) + (count - 1) / 2) / (count - 1) : n - 1];
+        step[k] = order[count > 1 ? (k * (n - 1) + (count - 1) / 2) / (count - 1) : n - 1];
     free(order);
     return RB_OK;
 }

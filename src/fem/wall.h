@@ -31,8 +31,8 @@ typedef struct {
 /* joints: NULL only counts. */
 int wall_find_contacts(const wall_layout *layout, wall_contact *contacts);
 /* dofs of the mesh and, last, the upper support's vertical one. */
-rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh,
-                           int contacts, const wall_contact *contact, rb_sparse *H);
+rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh, int contacts,
+                           const wall_contact *contact, rb_sparse *H);
 /* Axis of component k of a contact's frame (N, T1, T2). */
 int wall_axis(const wall_contact *c, int k);
 
@@ -45,9 +45,8 @@ typedef struct {
 } wall_system;
 
 void wall_system_free(wall_system *s);
-rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh,
-                              int contacts, const wall_contact *contact, wall_system *s,
-                              rb_message *why);
+rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh, int contacts,
+                              const wall_contact *contact, wall_system *s, rb_message *why);
 /* Six freedoms a block and the support's: R' M R, 0, R' H, R' weight.  R: kept by the
  * caller for displacements. */
 rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,

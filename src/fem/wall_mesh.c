@@ -8,11 +8,9 @@ static const double block_size[3] = {0.2, 0.1, 0.1}; /* m */
 
 /* Beginnings and lengths along the wall, in whole blocks: odd courses two whole ones,
  * even courses half, whole, half. */
-static const double run[2][3][2] = {{{0.0, 1.0}, {1.0, 1.0}},
-                                    {{0.0, 0.5}, {0.5, 1.0}, {1.5, 0.5}}};
+static const double run[2][3][2] = {{{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 0.5}, {0.5, 1.0}, {1.5, 0.5}}};
 
-static wall_block make_block(const rb_fem_wall_options *o, int course,
-                             const double *piece)
+static wall_block make_block(const rb_fem_wall_options *o, int course, const double *piece)
 {
     const int *n = course % 2 ? o->coarse : o->fine;
     wall_block b = {.course = course};
@@ -61,8 +59,7 @@ static void place_nodes(const wall_block *b, double *x)
 
 rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh)
 {
-    const rb_status s =
-        rb_fem_mesh_alloc(RB_FEM_BRICK, layout->nodes, layout->elements, mesh);
+    const rb_status s = rb_fem_mesh_alloc(RB_FEM_BRICK, layout->nodes, layout->elements, mesh);
     if (s != RB_OK)
         return s;
     int *node = mesh->node;
@@ -74,8 +71,8 @@ rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh)
             for (int j = 0; j + 1 < layout->block[b].n[1]; j++)
                 for (int i = 0; i + 1 < layout->block[b].n[0]; i++)
                     for (int a = 0; a < 8; a++)
-                        *node++ = wall_node(&layout->block[b], i + corner[a][0],
-                                            j + corner[a][1], k + corner[a][2]);
+                        *node++ = wall_node(&layout->block[b], i + corner[a][0], j + corner[a][1],
+                                            k + corner[a][2]);
     }
     return RB_OK;
 }
@@ -96,8 +93,7 @@ static void add(contact_list *list, int node, int other, int axis, double sign)
 
 /* All nodes of a finely meshed block's lower or upper face meet the neighbouring course
  * or support. */
-static void bed_joint(const wall_layout *layout, const wall_block *b, int upper,
-                      contact_list *list)
+static void bed_joint(const wall_layout *layout, const wall_block *b, int upper, contact_list *list)
 {
     const int k = upper ? b->n[2] - 1 : 0, course = b->course + (upper ? 1 : -1);
     for (int j = 0; j < b->n[1]; j++)
@@ -108,8 +104,7 @@ static void bed_joint(const wall_layout *layout, const wall_block *b, int upper,
                 /* The block of a course that holds the abscissa x. */
                 other = 0;
                 while (layout->block[other].course != course ||
-                       x > layout->block[other].low[0] + layout->block[other].size[0] +
-                               1e-9)
+                       x > layout->block[other].low[0] + layout->block[other].size[0] + 1e-9)
                     other++;
             }
             add(list, wall_node(b, i, j, k), other, 2, upper ? -1.0 : 1.0);
@@ -144,8 +139,7 @@ int wall_axis(const wall_contact *c, int k)
 }
 
 /* The up to eight nodes of b around p and their trilinear weights; how many. */
-static int interpolate(const wall_block *b, const double *p, int node[8],
-                       double weight[8])
+static int interpolate(const wall_block *b, const double *p, int node[8], double weight[8])
 {
     int cell[3], n = 0;
     double part[3];
@@ -160,15 +154,14 @@ static int interpolate(const wall_block *b, const double *p, int node[8],
             w *= a >> c & 1 ? part[c] : 1.0 - part[c];
         if (fabs(w) < 1e-9)
             continue;
-        node[n] = wall_node(b, cell[0] + (a & 1), cell[1] + (a >> 1 & 1),
-                            cell[2] + (a >> 2 & 1));
+        node[n] = wall_node(b, cell[0] + (a & 1), cell[1] + (a >> 1 & 1), cell[2] + (a >> 2 & 1));
         weight[n++] = w;
     }
     return n;
 }
 
-rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh,
-                           int contacts, const wall_contact *contact, rb_sparse *H)
+rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh, int contacts,
+                           const wall_contact *contact, rb_sparse *H)
 {
     rb_triplets t = {.rows = mesh->dofs + 1, .cols = 3 * contacts};
     for (int i = 0; i < contacts; i++) {
@@ -178,8 +171,7 @@ rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh,
         int node[9] = {c->node}, n = 1;
         double weight[9] = {-1.0};
         if (c->other >= 0 && c->other < BLOCKS)
-            n += interpolate(&layout->block[c->other], mesh->x + 3 * c->node, node + 1,
-                             weight + 1);
+            n += interpolate(&layout->block[c->other], mesh->x + 3 * c->node, node + 1, weight + 1);
         for (int k = 0; k < 3; k++) {
             const double sign = k == 0 ? c->sign : 1.0;
             for (int a = 0; a < n; a++)

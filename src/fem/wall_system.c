@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const rb_fem_material masonry = {
-    .young = 2.2e9, .poisson = 0.2, .density = 2000.0};
+static const rb_fem_material masonry = {.young = 2.2e9, .poisson = 0.2, .density = 2000.0};
 static const double gravity = 9.81, support_mass = 300.0; /* m/s2, kg */
 
 void wall_system_free(wall_system *s)
@@ -36,9 +35,8 @@ static rb_status append(rb_sparse *a, double diagonal)
     return RB_OK;
 }
 
-rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh,
-                              int contacts, const wall_contact *contact, wall_system *s,
-                              rb_message *why)
+rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh, int contacts,
+                              const wall_contact *contact, wall_system *s, rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->dofs = mesh->dofs + 1;
@@ -72,8 +70,7 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
 
 /* ---- Rigid blocks ------------------------------------------------------------------ */
 
-static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh,
-                               rb_sparse *R)
+static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh, rb_sparse *R)
 {
     rb_triplets t = {.rows = mesh->dofs + 1, .cols = 6 * BLOCKS + 1};
     for (int b = 0; b < BLOCKS; b++) {
@@ -89,10 +86,8 @@ static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mes
                 const int row = mesh->dof[3 * node + c], d = (c + 1) % 3, e = (c + 2) % 3;
                 rb_triplets_add(&t, row, 6 * b + c, 1.0);
                 /* (omega x arm)_c = omega_d arm_e - omega_e arm_d */
-                rb_triplets_add(&t, row, 6 * b + 3 + d,
-                                mesh->x[3 * node + e] - centre[e]);
-                rb_triplets_add(&t, row, 6 * b + 3 + e,
-                                centre[d] - mesh->x[3 * node + d]);
+                rb_triplets_add(&t, row, 6 * b + 3 + d, mesh->x[3 * node + e] - centre[e]);
+                rb_triplets_add(&t, row, 6 * b + 3 + e, centre[d] - mesh->x[3 * node + d]);
             }
         }
     }

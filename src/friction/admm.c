@@ -110,8 +110,7 @@ static rb_status iterate(admm *a)
     const int d = t->d;
     memcpy(a->before, a->x, (size_t)t->m * sizeof(double));
     for (int i = 0; i < t->m; i++)
-        a->r[i] = a->penalty / t->measure->rho[2 * (i / d)] * (a->z[i] - a->y[i]) - q[i] -
-                  a->s[i];
+        a->r[i] = a->penalty / t->measure->rho[2 * (i / d)] * (a->z[i] - a->y[i]) - q[i] - a->s[i];
     const rb_status st = rb_friction_local_solve(&a->system, a->r);
     if (st != RB_OK)
         return st;
@@ -185,7 +184,5 @@ static rb_status go_on_alternating(void *state)
     return st;
 }
 
-const rb_friction_method rb_friction_admm = {.size = sizeof(admm),
-                                             .start = start_admm,
-                                             .go_on = go_on_alternating,
-                                             .finish = finish_admm};
+const rb_friction_method rb_friction_admm = {
+    .size = sizeof(admm), .start = start_admm, .go_on = go_on_alternating, .finish = finish_admm};

@@ -33,10 +33,9 @@ typedef struct {
 #define FB RB_FRICTION_FISCHER_BURMEISTER
 #define SEARCH RB_FRICTION_LINE_SEARCH
 
-static const stage sweeps[] = {
-    {&rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, 0, FROM_START},
-    {&rb_friction_projections, RB_FRICTION_EXTRAGRADIENT, 0, FROM_BEST},
-    {NULL, 0, 0, FROM_START}};
+static const stage sweeps[] = {{&rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, 0, FROM_START},
+                               {&rb_friction_projections, RB_FRICTION_EXTRAGRADIENT, 0, FROM_BEST},
+                               {NULL, 0, 0, FROM_START}};
 static const stage alternating[] = {{&rb_friction_admm, 0, 0, FROM_START},
                                     {NULL, 0, 0, FROM_START}};
 static const stage plain_sweeps[] = {
@@ -44,22 +43,21 @@ static const stage plain_sweeps[] = {
     {&rb_friction_sweeps, RB_FRICTION_SWEEP_PROJECTION, 5000, FROM_START},
     {NULL, 0, 0, FROM_START}};
 /* From sweeps Jean-Moreau's function is the one that cycles least. */
-static const stage newton_after_sweeps[] = {
-    {&rb_friction_newton, JM, 16, FROM_BEST},
-    {&rb_friction_newton, AC, 12, FROM_BEST},
-    {&rb_friction_newton, FB | SEARCH, 15, FROM_START},
-    {&rb_friction_newton, AC | SEARCH, 25, FROM_START},
-    {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
-    {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
-    {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
-    {&rb_friction_smoothing_method, 0, 150, FROM_START},
-    {&rb_friction_lemke_method, 0, 0, FROM_START},
-    {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
-    {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
-    {&rb_friction_newton, JM | SEARCH, 60, FROM_BEST},
-    {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
-    {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
-    {NULL, 0, 0, FROM_START}};
+static const stage newton_after_sweeps[] = {{&rb_friction_newton, JM, 16, FROM_BEST},
+                                            {&rb_friction_newton, AC, 12, FROM_BEST},
+                                            {&rb_friction_newton, FB | SEARCH, 15, FROM_START},
+                                            {&rb_friction_newton, AC | SEARCH, 25, FROM_START},
+                                            {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
+                                            {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
+                                            {&rb_friction_smoothing_method, 0, 150, FROM_START},
+                                            {&rb_friction_lemke_method, 0, 0, FROM_START},
+                                            {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, JM | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
+                                            {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
+                                            {NULL, 0, 0, FROM_START}};
 /* Where Newton from zero converges at all, it takes some ten steps; smoothing takes about
  * twenty, also where Newton cycles. */
 static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 15, FROM_START},
@@ -135,8 +133,8 @@ static rb_status choose_plan(const rb_friction_task *task, const plan **plans)
         return RB_OK;
     const double factor = rb_sparse_cholesky_flops(task->measure->factor);
     const rb_status s = rb_friction_condense_estimate(g, task->measure->factor, &flops);
-    if (s == RB_OK && flops <= CHEAP_FACTORS * factor +
-                                   CHEAP_ENTRY * (g->K.p[g->dofs] + g->H.p[task->m]))
+    if (s == RB_OK &&
+        flops <= CHEAP_FACTORS * factor + CHEAP_ENTRY * (g->K.p[g->dofs] + g->H.p[task->m]))
         *plans = local_plan;
     return s;
 }
@@ -188,8 +186,7 @@ static void end_stage(member *a)
 /* W is condensed when the first stage asks for it. */
 static int fits(rb_friction_task *task, const rb_friction_solver *solver)
 {
-    if ((solver->needs & RB_FRICTION_ONLY_2D) &&
-        (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
+    if ((solver->needs & RB_FRICTION_ONLY_2D) && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
         return 0;
     if (!(solver->needs & RB_FRICTION_NEEDS_W) || task->shared->local)
         return 1;
@@ -231,8 +228,7 @@ static rb_status begin_stage(member *a)
     a->task.opt.max_iters = a->stage_end;
     if (s->from == FROM_BEST && isfinite(a->task.best->error)) {
         memcpy(a->task.r, a->task.best->r, (size_t)a->task.m * sizeof(double));
-        memcpy(a->task.v, a->task.best->r + a->task.m,
-               (size_t)a->task.n * sizeof(double));
+        memcpy(a->task.v, a->task.best->r + a->task.m, (size_t)a->task.n * sizeof(double));
     } else
         rb_friction_task_start(&a->task);
     const rb_friction_method *method = a->solver->run;
@@ -258,8 +254,7 @@ static int iterations_left(const portfolio *p)
 
 /* The stage goes on until it ends (*paused 0), or the allowance or the iterations of the
  * turn are used. */
-static rb_status go_on(const portfolio *p, member *a, double allowance, int turn,
-                       int *paused)
+static rb_status go_on(const portfolio *p, member *a, double allowance, int turn, int *paused)
 {
     const rb_friction_method *method = a->solver->run;
     rb_friction_task *t = &a->task;
@@ -272,17 +267,15 @@ static rb_status go_on(const portfolio *p, member *a, double allowance, int turn
         return *paused ? RB_MAXITER : method->run(t, a->solver->variant);
     }
     const rb_status s = method->go_on(a->state);
-    *paused = s == RB_MAXITER &&
-              (a->info.flops >= t->budget ||
-               (end && a->info.iters >= end && a->info.iters != a->stage_end));
+    *paused = s == RB_MAXITER && (a->info.flops >= t->budget ||
+                                  (end && a->info.iters >= end && a->info.iters != a->stage_end));
     return s;
 }
 
 /* first: of the first turn, else NULL.  RB_MAXITER: the member has used its allowance, or
  * has no stage left.  What a stage stumbles on is not the reason why the problem is not
  * solved. */
-static rb_status take_turn(const portfolio *p, member *a, double allowance,
-                           const first_turn *first)
+static rb_status take_turn(const portfolio *p, member *a, double allowance, const first_turn *first)
 {
     int paused = 0;
     for (int stages = 0; !paused && iterations_left(p); stages++) {

@@ -187,8 +187,8 @@ static rb_status reduce(rb_friction_problem *p, const motions *m)
     return RB_OK;
 }
 
-rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
-                                const double *b, rb_message *why)
+rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G, const double *b,
+                                rb_message *why)
 {
     const int n = global->dofs;
     equations e = {0};
@@ -230,8 +230,7 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         }
         solve_equations(&e);
         if (contradicts(&e, e.unknowns, e.width))
-            s = rb_fail(why, RB_EINVAL,
-                        "the constraints G'v + b = 0 contradict each other");
+            s = rb_fail(why, RB_EINVAL, "the constraints G'v + b = 0 contradict each other");
         else if (e.rank == n)
             s = rb_fail(why, RB_EINVAL, "the constraints G'v + b = 0 leave no motion");
     }
@@ -300,8 +299,7 @@ static rb_status subtract_constraints(rb_friction_problem *p, const rb_sparse *V
 }
 
 rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_sparse *V,
-                                      const rb_sparse *R, const double *s,
-                                      rb_message *why)
+                                      const rb_sparse *R, const double *s, rb_message *why)
 {
     const int m = local->dimension * local->contacts, c = R->cols;
     equations e = {0};

@@ -121,8 +121,7 @@ rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_
     return RB_OK;
 }
 
-void rb_friction_blocks_add(const rb_friction_blocks *b, int contact, const double *x,
-                            double *y)
+void rb_friction_blocks_add(const rb_friction_blocks *b, int contact, const double *x, double *y)
 {
     const int first = b->p[contact], end = b->p[contact + 1];
     const double x0 = x[0], x1 = x[1];

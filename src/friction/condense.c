@@ -75,14 +75,12 @@ static rb_status condense_large(condenser *c, int body, double *q)
 
 /* ---- A small body ------------------------------------------------------------------ */
 
-#define MOST_DOFS 12 /* of a body that is inverted densely */
-#define LEAST_PIVOT                                                                      \
-    3e-6 /* sqrt(1e-11): of a factor of unit diagonal, as in CHOLMOD's case */
+#define MOST_DOFS 12     /* of a body that is inverted densely */
+#define LEAST_PIVOT 3e-6 /* sqrt(1e-11): of a factor of unit diagonal, as in CHOLMOD's case */
 
 /* K_b = S L L' S with S = diag(K_b)^1/2, so that the pivots tell the rank.  L: the lower
  * triangle of k, column-major. */
-static rb_status factor_small(const condenser *c, int body, int n, double *k,
-                              double *scale)
+static rb_status factor_small(const condenser *c, int body, int n, double *k, double *scale)
 {
     const int *dof = c->dof + c->dofs_of[body];
     const rb_sparse *a = &c->p->K;
@@ -220,10 +218,9 @@ static rb_status join_bodies(condenser *c)
     int count = 0, size = 0; /* of the joined one that grows */
     for (int b = 0; b < c->bodies; b++) {
         const int *from = c->columns_of + b, n = from[1] - from[0];
-        const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
-                         size + dofs[b] <= MOST_DOFS &&
-                         !memcmp(c->column + from[0], c->column + from[-1],
-                                 (size_t)n * sizeof *c->column);
+        const int same =
+            b > 0 && n > 0 && n == from[0] - from[-1] && size + dofs[b] <= MOST_DOFS &&
+            !memcmp(c->column + from[0], c->column + from[-1], (size_t)n * sizeof *c->column);
         size = same ? size + dofs[b] : dofs[b];
         count += !same;
         joined[b] = count - 1;
@@ -271,8 +268,7 @@ static int rows_of(const condenser *c, int body, int place, const int **row)
 {
     const rb_sparse *w = &c->W[body];
     *row = w->p ? w->i + w->p[place] : c->column + c->columns_of[body];
-    return w->p ? w->p[place + 1] - w->p[place]
-                : c->columns_of[body + 1] - c->columns_of[body];
+    return w->p ? w->p[place + 1] - w->p[place] : c->columns_of[body + 1] - c->columns_of[body];
 }
 
 /* x += W_b's column, x as long as W's columns; sum: scratch, as long.  Y_b' Y_b is
@@ -333,14 +329,13 @@ static rb_status room_for_W(const condenser *c, const touches *t, int m, rb_spar
 
 /* The rows of column j, increasing, into row; other: scratch.  The columns of one contact
  * touch the same bodies. */
-static int list_rows(const condenser *c, const touches *t, int j, const rb_sparse *W,
-                     int *other, int *row)
+static int list_rows(const condenser *c, const touches *t, int j, const rb_sparse *W, int *other,
+                     int *row)
 {
     const int first = t->start[j], bodies = t->start[j + 1] - first;
     int count = 0;
     if (j > 0 && first - t->start[j - 1] == bodies && !c->W[t->body[first]].p &&
-        !memcmp(t->body + first, t->body + t->start[j - 1],
-                (size_t)bodies * sizeof(int))) {
+        !memcmp(t->body + first, t->body + t->start[j - 1], (size_t)bodies * sizeof(int))) {
         count = W->p[j] - W->p[j - 1];
         memcpy(row, row - count, (size_t)count * sizeof *row);
         return count;
@@ -430,8 +425,7 @@ static rb_status condense(condenser *c, rb_friction_problem *local)
 }
 
 rb_status rb_friction_condense_counted(const rb_friction_problem *global,
-                                       rb_friction_problem *local, double *flops,
-                                       rb_message *why)
+                                       rb_friction_problem *local, double *flops, rb_message *why)
 {
     const size_t m = (size_t)(global->dimension * global->contacts);
     condenser c = {.p = global};
@@ -456,8 +450,8 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
                    global->K.rows - rank);
 }
 
-rb_status rb_friction_condense(const rb_friction_problem *global,
-                               rb_friction_problem *local, rb_message *why)
+rb_status rb_friction_condense(const rb_friction_problem *global, rb_friction_problem *local,
+                               rb_message *why)
 {
     double flops = 0.0;
     return rb_friction_condense_counted(global, local, &flops, why);
@@ -472,8 +466,8 @@ rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
     const size_t n = (size_t)global->dofs;
     const double each = rb_sparse_cholesky_entries(factor) / global->dofs;
     int *body = rb_alloc_int(n), *size = rb_alloc_int(n), *last = rb_alloc_int(n), bodies;
-    rb_status s = body && size && last ? rb_sparse_components(&global->K, &bodies, body)
-                                       : RB_ENOMEM;
+    rb_status s =
+        body && size && last ? rb_sparse_components(&global->K, &bodies, body) : RB_ENOMEM;
     *flops = rb_sparse_cholesky_flops(factor);
     for (size_t i = 0; s == RB_OK && i < n; i++)
         size[body[i]]++;

@@ -89,8 +89,7 @@ void rb_friction_project_derivative(int d, double mu, const double *z, double *D
 }
 
 /* ||F||^2 of one contact */
-static inline double natural_square(int d, double mu, double rho, const double *r,
-                                    const double *u)
+static inline double natural_square(int d, double mu, double rho, const double *r, const double *u)
 {
     double z[3], p[3], square = 0.0;
     for (int a = 0; a < d; a++)
@@ -102,9 +101,8 @@ static inline double natural_square(int d, double mu, double rho, const double *
     return square / (rho * rho);
 }
 
-static inline double natural_norm(int d, const rb_friction_problem *problem,
-                                  const double *rho, const double *r, const double *u,
-                                  double *with_rho_1)
+static inline double natural_norm(int d, const rb_friction_problem *problem, const double *rho,
+                                  const double *r, const double *u, double *with_rho_1)
 {
     double sum = 0.0, sum_1 = 0.0;
     for (int c = 0; c < problem->contacts; c++, r += d, u += d) {
@@ -126,8 +124,8 @@ double rb_friction_natural_norm(const rb_friction_problem *problem, const double
                                    : natural_norm(3, problem, rho, r, u, with_rho_1);
 }
 
-double rb_friction_size(const rb_friction_problem *problem, const double *rho,
-                        const double *r, double *work)
+double rb_friction_size(const rb_friction_problem *problem, const double *rho, const double *r,
+                        double *work)
 {
     const int d = problem->dimension, nc = problem->contacts;
     double sum = 0.0;

@@ -19,8 +19,8 @@ static int knows(const char *name)
     return rb_friction_solver_named(name) != NULL;
 }
 
-static rb_status solve(const char *name, const rb_contact_cone *cone, double tol,
-                       double *r, int *iterations, rb_message *why)
+static rb_status solve(const char *name, const rb_contact_cone *cone, double tol, double *r,
+                       int *iterations, rb_message *why)
 {
     const rb_friction_problem problem = rb_friction_of_cone(cone);
     rb_friction_options options = rb_friction_defaults();

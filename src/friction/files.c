@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static rb_status read_fclib(const char *path, rb_friction_problem *problem,
-                            rb_message *why)
+static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_io_fclib file;
     rb_message detail = {""};
@@ -17,8 +16,7 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem,
         return s;
     /* Moves what a problem without constraints has of the file. */
     rb_friction_problem *p = problem;
-    *p = (rb_friction_problem){.form = file.global ? RB_FRICTION_GLOBAL
-                                                   : RB_FRICTION_LOCAL_SPARSE,
+    *p = (rb_friction_problem){.form = file.global ? RB_FRICTION_GLOBAL : RB_FRICTION_LOCAL_SPARSE,
                                .dimension = file.spacedim,
                                .contacts = file.contacts,
                                .mu = file.mu,
@@ -36,9 +34,8 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem,
     if (s == RB_OK && file.rolling)
         file.G.rows = problem->dofs; /* constraints do not hold the motions added */
     if (s == RB_OK && file.constraints)
-        s = file.global
-                ? rb_friction_eliminate(problem, &file.G, file.b, &detail)
-                : rb_friction_eliminate_local(problem, &file.V, &file.R, file.s, &detail);
+        s = file.global ? rb_friction_eliminate(problem, &file.G, file.b, &detail)
+                        : rb_friction_eliminate_local(problem, &file.V, &file.R, file.s, &detail);
     rb_io_fclib_free(&file);
     if (s == RB_EINVAL)
         return rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text);
@@ -55,9 +52,8 @@ static rb_status adopt_siconos(rb_io_friction *file, rb_friction_problem *p)
     rb_status s = rb_io_matrix_to_sparse(&file->W, &w);
     if (s != RB_OK)
         return s;
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                               .dimension = file->dimension,
-                               .contacts = file->contacts};
+    *p = (rb_friction_problem){
+        .form = RB_FRICTION_LOCAL_SPARSE, .dimension = file->dimension, .contacts = file->contacts};
     if ((double)w.p[w.cols] <= SPARSE_FILL * (double)m * (double)m) {
         p->Ws = w;
     } else {
@@ -88,8 +84,7 @@ static rb_status adopt_global(rb_io_friction_global *file, rb_friction_problem *
     return s == RB_OK ? rb_io_matrix_to_sparse(&file->H, &p->H) : s;
 }
 
-static rb_status read_global(const char *path, rb_friction_problem *problem,
-                             rb_message *why)
+static rb_status read_global(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_io_friction_global file = {0};
     rb_status s = rb_io_siconos_read_friction_global(path, &file, why);
@@ -101,8 +96,7 @@ static rb_status read_global(const char *path, rb_friction_problem *problem,
 
 /* With as many degrees of freedom as rows of contacts the head fits both forms: the local
  * one is tried first, and its message counts where neither fits. */
-static rb_status read_text(const char *path, rb_friction_problem *problem,
-                           rb_message *why)
+static rb_status read_text(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_message other = {""};
     rb_io_friction file = {0};
@@ -127,16 +121,16 @@ rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_mes
     }
     const rb_status s = rb_io_siconos_guess(path, &text, why);
     if (s == RB_OK && text == RB_IO_SICONOS_LCP)
-        return rb_fail(why, RB_EFORMAT,
-                       "%s: a linear complementarity problem: see 'rollbem lcp'", path);
+        return rb_fail(why, RB_EFORMAT, "%s: a linear complementarity problem: see 'rollbem lcp'",
+                       path);
     *kind = text == RB_IO_SICONOS_SOCLCP            ? RB_FRICTION_FILE_SICONOS_SOCLCP
             : text == RB_IO_SICONOS_FRICTION_GLOBAL ? RB_FRICTION_FILE_SICONOS_GLOBAL
                                                     : RB_FRICTION_FILE_SICONOS;
     return s;
 }
 
-rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
-                              rb_friction_problem *problem, rb_message *why)
+rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_friction_problem *problem,
+                              rb_message *why)
 {
     *problem = (rb_friction_problem){0};
     rb_message detail = {""};
@@ -158,8 +152,7 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
     return s;
 }
 
-rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
-                           rb_message *why)
+rb_status rb_friction_read(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     return rb_friction_read_as(path, RB_FRICTION_FILE_ANY, problem, why);
 }
@@ -177,13 +170,13 @@ void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data)
     *data = (rb_friction_soclcp_data){0};
 }
 
-static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file,
-                              rb_friction_soclcp_data *d, rb_message *why)
+static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file, rb_friction_soclcp_data *d,
+                              rb_message *why)
 {
     for (int c = 0; c < file->cones; c++)
         if (!(file->tau[c] > 0.0))
-            return rb_fail(why, RB_EFORMAT, "%s: slope of cone %d is %g, expected > 0",
-                           path, c + 1, file->tau[c]);
+            return rb_fail(why, RB_EFORMAT, "%s: slope of cone %d is %g, expected > 0", path, c + 1,
+                           file->tau[c]);
     rb_status s = rb_io_matrix_to_dense(&file->M);
     d->size = rb_alloc_int((size_t)file->cones);
     if (s != RB_OK || !d->size)
@@ -209,8 +202,7 @@ static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file,
     return RB_OK;
 }
 
-rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data,
-                                  rb_message *why)
+rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data, rb_message *why)
 {
     rb_io_soclcp file = {0};
     *data = (rb_friction_soclcp_data){0};
@@ -226,13 +218,12 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
 /* ---- Writing ----------------------------------------------------------------------- */
 
 /* solution: may be NULL, as its parts. */
-static rb_status describe(const rb_friction_problem *p,
-                          const rb_friction_solution *solution, rb_io_fclib *file)
+static rb_status describe(const rb_friction_problem *p, const rb_friction_solution *solution,
+                          rb_io_fclib *file)
 {
     const int m = p->dimension * p->contacts, global = p->form == RB_FRICTION_GLOBAL;
     const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
-    *file = (rb_io_fclib){
-        .global = global, .spacedim = p->dimension, .contacts = p->contacts};
+    *file = (rb_io_fclib){.global = global, .spacedim = p->dimension, .contacts = p->contacts};
     const struct {
         const double *from;
         int n;
@@ -245,8 +236,7 @@ static rb_status describe(const rb_friction_problem *p,
                    {x.u, m, &file->u},
                    {global ? x.v : NULL, p->dofs, &file->v}};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
-        if (vectors[k].from &&
-            !(*vectors[k].to = rb_copy((size_t)vectors[k].n, vectors[k].from)))
+        if (vectors[k].from && !(*vectors[k].to = rb_copy((size_t)vectors[k].n, vectors[k].from)))
             return RB_ENOMEM;
     if (p->form == RB_FRICTION_LOCAL_DENSE)
         return rb_sparse_from_dense(m, m, p->W, m, &file->W);
@@ -265,8 +255,7 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *p,
         return rb_fail(why, RB_EINVAL, "%s: rolling friction cannot be written", path);
     rb_status s = describe(p, solution, &file);
     if (s == RB_OK)
-        s = rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, title, "written by rollbem",
-                              why);
+        s = rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, title, "written by rollbem", why);
     rb_io_fclib_free(&file);
     return s;
 }

@@ -59,8 +59,8 @@ static int tangential_part(const rb_friction_cone *cone, double radius, const do
     return 1;
 }
 
-void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r,
-                               const double *u, const rb_friction_linearised *at)
+void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r, const double *u,
+                               const rb_friction_linearised *at)
 {
     const double mu = cone->mu, z = normal_part(cone, r, u, at);
     double n[3];
@@ -72,8 +72,8 @@ void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r,
     }
 }
 
-void rb_friction_jean_moreau(const rb_friction_cone *cone, const double *r,
-                             const double *u, const rb_friction_linearised *at)
+void rb_friction_jean_moreau(const rb_friction_cone *cone, const double *r, const double *u,
+                             const rb_friction_linearised *at)
 {
     const double mu = cone->mu;
     double n[3];
@@ -114,8 +114,8 @@ static double common_rho(const rb_friction_cone *cone)
     return cone->d / (1.0 / cone->rho_n + (cone->d - 1) / cone->rho_t);
 }
 
-void rb_friction_natural_map(const rb_friction_cone *cone, const double *r,
-                             const double *u, const rb_friction_linearised *at)
+void rb_friction_natural_map(const rb_friction_cone *cone, const double *r, const double *u,
+                             const rb_friction_linearised *at)
 {
     const int d = cone->d;
     const double mu = cone->mu, rho = common_rho(cone);
@@ -148,8 +148,8 @@ static void arrow(int d, const double *x, double *L)
 }
 
 /* w = (x^2 + y^2)^(1/2), and L_w^-1 with its eigenvalues kept above `least` */
-static void root_of_squares(int d, const double *x, const double *y, double least,
-                            double *w, double *inverse)
+static void root_of_squares(int d, const double *x, const double *y, double least, double *w,
+                            double *inverse)
 {
     double s0 = 0.0, s[3] = {0.0, 0.0, 0.0}, t = 0.0;
     for (int a = 0; a < d; a++)
@@ -178,8 +178,8 @@ static void root_of_squares(int d, const double *x, const double *y, double leas
 
 /* x + y - (x^2 + y^2)^(1/2), x = (mu r_N, r_T), y = rho (uhat_N, mu u_T), both in the
  * Lorentz cone */
-void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *r,
-                                    const double *u, const rb_friction_linearised *at)
+void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *r, const double *u,
+                                    const rb_friction_linearised *at)
 {
     const int d = cone->d;
     const double mu = cone->mu, rho = common_rho(cone);

@@ -31,8 +31,8 @@ typedef struct {
     acceleration *faster;         /* NULL: not begun */
     int k, limit;                 /* sweeps done, and at most */
     double tau;                   /* change (14) at which the measure is worth a look */
-    double before; /* the measure when it was last asked whether the sweeps stall */
-    double touched, steps; /* blocks, steps at single contacts: not yet counted */
+    double before;                /* the measure when it was last asked whether the sweeps stall */
+    double touched, steps;        /* blocks, steps at single contacts: not yet counted */
     rb_status failed;
 } sweeper;
 
@@ -97,8 +97,8 @@ static inline double relax(int d, sweeper *s, int c)
         return 0.0; /* it stays open */
     if (!s->contact[c].W)
         rb_friction_contact_init(s->task->d, s->task->shared->local->mu[c],
-                                 s->blocks->x + (size_t)s->blocks->diag[c] *
-                                                    (size_t)(s->task->d * s->task->d),
+                                 s->blocks->x +
+                                     (size_t)s->blocks->diag[c] * (size_t)(s->task->d * s->task->d),
                                  &s->contact[c]);
     const rb_friction_contact *contact = &s->contact[c];
     const double *W = contact->W;
@@ -118,9 +118,8 @@ static inline double relax(int d, sweeper *s, int c)
             s->steps += steps;
         else {
             s->failed = wanted_rho(s);
-            s->steps += s->failed == RB_OK
-                            ? rb_friction_contact_newton(contact, s->rho + 2 * c, q, r)
-                            : 1;
+            s->steps +=
+                s->failed == RB_OK ? rb_friction_contact_newton(contact, s->rho + 2 * c, q, r) : 1;
         }
     }
     for (int a = 0; a < d; a++) {

@@ -28,8 +28,8 @@ static rb_status plain_newton(rb_friction_task *task)
 static rb_status few_sweeps(rb_friction_task *task, const double *start)
 {
     const double before = rb_friction_task_error(task);
-    const rb_status st = rb_friction_run(task, &rb_friction_sweeps,
-                                         RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
+    const rb_status st =
+        rb_friction_run(task, &rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
     if (!goes_on(st))
         return st;
     if (rb_friction_task_error(task) > WORTH * before)

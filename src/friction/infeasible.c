@@ -108,8 +108,7 @@ static void minimise(search *s, double *y)
     }
 }
 
-rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
-                                 double *least)
+rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least)
 {
     const size_t m = (size_t)(local->dimension * local->contacts);
     search s = {.local = local};
@@ -151,8 +150,7 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
     return st;
 }
 
-int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least,
-                                double *given)
+int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given)
 {
     static const double beyond_all = 1e8; /* of the velocities that are given */
     rb_friction_problem condensed = {0};

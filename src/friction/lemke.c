@@ -169,11 +169,11 @@ static rb_status form(lemke *s, const attempt *a)
         s->M[k] = -s->M[k];
     int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->n, s->n, s->basis, s->n, s->pivots);
     if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n,
-                              s->pivots, s->M, s->n);
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n, s->pivots, s->M,
+                              s->n);
     if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots,
-                              s->b, s->n);
+        info =
+            LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots, s->b, s->n);
     s->task->info->flops += 8.0 / 3.0 * (double)n * (double)n * (double)n;
     return rb_lapack_status(info);
 }
@@ -267,8 +267,7 @@ static rb_status try(lemke *s, const attempt *a)
                      .w = rb_alloc(n, 1),
                      .cover = rb_alloc(n, 1),
                      .pivots = rb_alloc_int(n)};
-        st = s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover &&
-                     s->pivots
+        st = s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover && s->pivots
                  ? RB_OK
                  : RB_ENOMEM;
         if (st == RB_OK) {

@@ -13,8 +13,7 @@
 #define NEWTON_STEPS 20
 #define PROJECTIONS 100
 
-static void contact_velocity(int d, const double *W, const double *q, const double *r,
-                             double *u)
+static void contact_velocity(int d, const double *W, const double *q, const double *r, double *u)
 {
     for (int a = 0; a < d; a++) {
         u[a] = q[a];
@@ -89,8 +88,7 @@ static double normal_force(const rb_friction_contact *c, double qn, const double
 
 /* lambda, the root of mu r_N / ||r_T|| - 1, which is nearly linear in lambda: Newton
  * within brackets, from the root of the last time.  root, and t there: written. */
-static int slide(const rb_friction_contact *c, double qn, const double *b, double *root,
-                 double *t)
+static int slide(const rb_friction_contact *c, double qn, const double *b, double *root, double *t)
 {
     double low = 0.0, high = INFINITY, lambda = *root;
     int k = 1;
@@ -120,8 +118,8 @@ static int slide(const rb_friction_contact *c, double qn, const double *b, doubl
     return k;
 }
 
-int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
-                              const double *q, double *r)
+int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda, const double *q,
+                              double *r)
 {
     const int d = c->d;
     double t[2] = {0.0, 0.0};
@@ -134,8 +132,7 @@ int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
         return 0;
     int steps = 1;
     if (c->mu > 0.0) {
-        const double b[2] = {q[1] - c->column[0] * q[0],
-                             d == 3 ? q[2] - c->column[1] * q[0] : 0.0};
+        const double b[2] = {q[1] - c->column[0] * q[0], d == 3 ? q[2] - c->column[1] * q[0] : 0.0};
         tangential_force(c, 0.0, b, t);
         const double most = c->mu * normal_force(c, q[0], t);
         if (!(most >= 0.0 && t[0] * t[0] + t[1] * t[1] <= most * most)) {
@@ -160,8 +157,8 @@ int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
 /* ---- Without elimination: any W ---------------------------------------------------- */
 
 /* F at r; M = A + B W where wanted.  Returns ||F||. */
-static double contact_function(const rb_friction_contact *c, const double *rho,
-                               const double *q, const double *r, double *F, double *M)
+static double contact_function(const rb_friction_contact *c, const double *rho, const double *q,
+                               const double *r, double *F, double *M)
 {
     const int d = c->d;
     double u[3], A[9], B[9];
@@ -193,8 +190,8 @@ static void contact_uhat(const rb_friction_contact *c, const double *q, const do
     uhat[0] += c->mu * rb_friction_tangential(c->d, uhat);
 }
 
-int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho,
-                                    const double *q, double *r)
+int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho, const double *q,
+                                    double *r)
 {
     const int d = c->d;
     double uhat[3], p[3], up[3];
@@ -264,8 +261,8 @@ static int closed_form(const rb_friction_contact *c, const double *q, double *r)
 
 /* Newton can cycle on one contact already (large mu, strong coupling of N and T): the
  * fixed point then takes over from the best point. */
-int rb_friction_contact_newton(const rb_friction_contact *c, const double *rho,
-                               const double *q, double *r)
+int rb_friction_contact_newton(const rb_friction_contact *c, const double *rho, const double *q,
+                               double *r)
 {
     const int d = c->d;
     double F[3], M[9], dr[3], best[3] = {0.0, 0.0, 0.0};

@@ -15,8 +15,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spring,
-                             rb_sparse *sum)
+static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spring, rb_sparse *sum)
 {
     rb_triplets t = {.rows = k->rows, .cols = k->cols};
     rb_triplets_add_matrix(&t, 1.0, k);
@@ -103,8 +102,7 @@ rb_status rb_friction_measure_reload(rb_friction_measure *measure)
     return RB_OK;
 }
 
-rb_status rb_friction_measure_init(const rb_friction_problem *p,
-                                   rb_friction_measure *measure)
+rb_status rb_friction_measure_init(const rb_friction_problem *p, rb_friction_measure *measure)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
@@ -146,8 +144,8 @@ static double relative(const rb_friction_measure *measure, double size)
     return isnan(error) ? INFINITY : error;
 }
 
-rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
-                                    double *v, double *u, double *scaled, double *paper)
+rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r, double *v,
+                                    double *u, double *scaled, double *paper)
 {
     const rb_friction_problem *p = measure->problem;
     double correction = 0.0, with_rho_1;
@@ -183,8 +181,7 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
         }
     } else {
         /* Contacts that are open have no force, and cost nothing. */
-        const int m = p->dimension * p->contacts,
-                  dense = p->form == RB_FRICTION_LOCAL_DENSE;
+        const int m = p->dimension * p->contacts, dense = p->form == RB_FRICTION_LOCAL_DENSE;
         const rb_sparse *w = &p->Ws;
         for (int k = 0; k < m; k++)
             u[k] = p->q[k];
@@ -199,8 +196,8 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
     }
     if (s != RB_OK)
         return s;
-    const double norm = rb_friction_natural_norm(
-        p, paper ? measure->rho : measure->deciding, r, u, paper ? &with_rho_1 : NULL);
+    const double norm = rb_friction_natural_norm(p, paper ? measure->rho : measure->deciding, r, u,
+                                                 paper ? &with_rho_1 : NULL);
     *scaled = relative(measure, correction + norm);
     if (paper)
         *paper = relative(measure, correction + with_rho_1);
@@ -209,8 +206,7 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
 
 double rb_friction_measure_resolution(const rb_friction_measure *measure, const double *r)
 {
-    return DBL_EPSILON *
-           rb_friction_size(measure->problem, measure->deciding, r, measure->y) /
+    return DBL_EPSILON * rb_friction_size(measure->problem, measure->deciding, r, measure->y) /
            measure->scale;
 }
 
@@ -242,8 +238,8 @@ double rb_friction_deciding(const rb_friction_info *info)
     return info->measure == RB_FRICTION_BY_ACARY ? info->residual : info->scaled;
 }
 
-rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
-                            const double *v, double *u, rb_friction_errors *error)
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r, const double *v,
+                            double *u, rb_friction_errors *error)
 {
     const size_t m = (size_t)(problem->dimension * problem->contacts);
     const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;

@@ -20,8 +20,7 @@ void rb_friction_problem_free(rb_friction_problem *problem)
     *problem = (rb_friction_problem){0};
 }
 
-rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
-                                   rb_message *why)
+rb_status rb_friction_check_vector(const char *name, size_t n, const double *x, rb_message *why)
 {
     if (!x)
         return rb_fail(why, RB_EINVAL, "%s is missing", name);
@@ -36,14 +35,14 @@ rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
     return rb_fail(why, RB_EINVAL, "%s: entry %zu is %g", name, k + 1, x[k]);
 }
 
-rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows,
-                                   int cols, rb_message *why)
+rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows, int cols,
+                                   rb_message *why)
 {
     if (!a->p || !a->i || !a->x)
         return rb_fail(why, RB_EINVAL, "%s is missing", name);
     if (a->rows != rows || a->cols != cols)
-        return rb_fail(why, RB_EINVAL, "%s is %d x %d, expected %d x %d", name, a->rows,
-                       a->cols, rows, cols);
+        return rb_fail(why, RB_EINVAL, "%s is %d x %d, expected %d x %d", name, a->rows, a->cols,
+                       rows, cols);
     return rb_friction_check_vector(name, (size_t)a->p[cols], a->x, why);
 }
 
@@ -79,8 +78,7 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
     rb_status s = rb_friction_check_vector("mu", (size_t)p->contacts, p->mu, why);
     for (int c = 0; s == RB_OK && c < p->contacts; c++)
         if (p->mu[c] < 0.0)
-            s = rb_fail(why, RB_EINVAL, "mu of contact %d is %g: expected >= 0", c + 1,
-                        p->mu[c]);
+            s = rb_fail(why, RB_EINVAL, "mu of contact %d is %g: expected >= 0", c + 1, p->mu[c]);
     if (s != RB_OK)
         return s;
     if (p->form == RB_FRICTION_GLOBAL) {
@@ -109,8 +107,7 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
 
 /* ---- Facts ------------------------------------------------------------------------- */
 
-static rb_status examine_local(const rb_sparse *w, int with_rank,
-                               rb_friction_facts *facts)
+static rb_status examine_local(const rb_sparse *w, int with_rank, rb_friction_facts *facts)
 {
     double difference, largest;
     rb_status s = with_rank ? rb_sparse_rank(w, &facts->rank) : RB_OK;

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-void rb_friction_profile(int problems, int solvers, const double *cost, int taus,
-                         const double *tau, double *rho)
+void rb_friction_profile(int problems, int solvers, const double *cost, int taus, const double *tau,
+                         double *rho)
 {
     for (int k = 0; k < taus * solvers; k++)
         rho[k] = 0.0;

@@ -96,10 +96,8 @@ static rb_status go_on_projecting(void *state)
             project_all(s, s->uhat, s->p);
             uhat_at(s, s->p, s->up);
             step = rb_friction_distance((size_t)t->m, s->p, t->r);
-            ratio =
-                step > 0.0
-                    ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
-                    : 0.0;
+            ratio = step > 0.0 ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
+                               : 0.0;
             if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
                 break;
             s->rho *= RB_FRICTION_UPK_SHRINK;

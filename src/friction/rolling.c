@@ -39,8 +39,7 @@ static void put_column(splitter *s, int from, int to, double factor)
 }
 
 /* Columns, velocities and coefficients of contact c as those of A and B. */
-static void split_contact(splitter *s, int c, const double *mu_r,
-                          rb_friction_problem *out)
+static void split_contact(splitter *s, int c, const double *mu_r, rb_friction_problem *out)
 {
     const rb_friction_problem *p = s->p;
     const double of_slip = compliance(s, 5 * c + 1, 2);
@@ -64,8 +63,7 @@ static void split_contact(splitter *s, int c, const double *mu_r,
     out->lengths[c] = length;
 }
 
-static rb_status split(const rb_friction_problem *p, const double *mu_r,
-                       rb_friction_problem *out)
+static rb_status split(const rb_friction_problem *p, const double *mu_r, rb_friction_problem *out)
 {
     const size_t nc = (size_t)p->contacts, n = (size_t)p->dofs;
     double *diagonal = rb_alloc(n, 1);
@@ -81,8 +79,7 @@ static rb_status split(const rb_friction_problem *p, const double *mu_r,
                   .diagonal = diagonal,
                   .H = {.rows = out->dofs, .cols = 3 * out->contacts},
                   .K = {.rows = out->dofs, .cols = out->dofs}};
-    rb_status st =
-        diagonal && out->mu && out->w && out->f && out->lengths ? RB_OK : RB_ENOMEM;
+    rb_status st = diagonal && out->mu && out->w && out->f && out->lengths ? RB_OK : RB_ENOMEM;
     if (st == RB_OK) {
         rb_triplets_add_matrix(&s.K, 1.0, &p->K);
         for (int j = 0; j < p->dofs; j++)
@@ -109,14 +106,13 @@ rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *
     rb_friction_problem *p = problem, out;
     if (p->form != RB_FRICTION_GLOBAL || p->dimension != 5 || p->contacts < 1 ||
         p->H.cols != 5 * p->contacts || p->H.rows != p->dofs || p->K.cols != p->dofs)
-        return rb_fail(
-            why, RB_EINVAL,
-            "rolling friction: expected the global form with five columns of H "
-            "per contact");
+        return rb_fail(why, RB_EINVAL,
+                       "rolling friction: expected the global form with five columns of H "
+                       "per contact");
     for (int c = 0; c < p->contacts; c++)
         if (!(mu_r[c] >= 0.0 && isfinite(mu_r[c])))
-            return rb_fail(why, RB_EINVAL, "mu_r of contact %d is %g: expected >= 0",
-                           c + 1, mu_r[c]);
+            return rb_fail(why, RB_EINVAL, "mu_r of contact %d is %g: expected >= 0", c + 1,
+                           mu_r[c]);
     rb_status s = split(p, mu_r, &out);
     if (s == RB_OK)
         s = rb_friction_problem_check(&out, why);
@@ -129,14 +125,13 @@ rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *
     return RB_OK;
 }
 
-void rb_friction_unite_rolling(const rb_friction_problem *problem, const double *r,
-                               const double *u, double *force, double *velocity)
+void rb_friction_unite_rolling(const rb_friction_problem *problem, const double *r, const double *u,
+                               double *force, double *velocity)
 {
     for (int c = 0; c < problem->contacts / 2; c++, force += 5, velocity += 5) {
         const double length = problem->lengths[c];
         const double *a = r + 6 * c, *b = a + 3, *ua = u + 6 * c, *ub = ua + 3;
-        const double f[5] = {0.5 * (a[0] + b[0]), a[1], a[2], length * b[1],
-                             length * b[2]};
+        const double f[5] = {0.5 * (a[0] + b[0]), a[1], a[2], length * b[1], length * b[2]};
         const double v[5] = {ua[0] + ub[0], ua[1], ua[2], ub[1] / length, ub[2] / length};
         memcpy(force, f, sizeof f);
         memcpy(velocity, v, sizeof v);

@@ -30,8 +30,7 @@ double rb_friction_smoothed(int n, double mu, const double *x, double *P, double
     for (int a = 1; a < n; a++)
         P[a] = t > 0.0 ? 0.5 * (phi - plo) * x[a] / t : 0.0;
     if (D) {
-        const double mean = 0.5 * (slope[0] + slope[1]),
-                     half = 0.5 * (slope[1] - slope[0]);
+        const double mean = 0.5 * (slope[0] + slope[1]), half = 0.5 * (slope[1] - slope[0]);
         const double across = hi > lo ? (phi - plo) / (hi - lo) : mean;
         D[0] = mean;
         for (int a = 1; a < n; a++) {
@@ -53,7 +52,7 @@ double rb_friction_smoothed(int n, double mu, const double *x, double *P, double
 
 /* ---- The method -------------------------------------------------------------------- */
 
-#define ETA 0.05 /* mu, eps and the inner accuracy shrink by it per outer step */
+#define ETA 0.05             /* mu, eps and the inner accuracy shrink by it per outer step */
 #define LEAST_SMOOTHING 1e-2 /* of eps */
 #define ARMIJO 1e-4
 #define SMALLEST_STEP 1e-10
@@ -66,8 +65,7 @@ typedef struct {
     int *iters;
 } smoother;
 
-static double residual_norm(const smoother *s, double mu, double eps, const double *z,
-                            double *gap)
+static double residual_norm(const smoother *s, double mu, double eps, const double *z, double *gap)
 {
     s->p->residual(s->p->context, mu * s->unit, eps, z, s->H, gap);
     return rb_friction_norm((size_t)s->p->n, s->H) / s->unit;
@@ -83,8 +81,7 @@ static rb_status inner(smoother *s, double mu, double eps, double beta)
             return RB_MAXITER;
         if (s->p->late(s->p->context))
             return RB_INTERRUPTED;
-        const rb_status st =
-            s->p->step(s->p->context, mu * s->unit, eps, s->z, s->H, s->dz);
+        const rb_status st = s->p->step(s->p->context, mu * s->unit, eps, s->z, s->H, s->dz);
         if (st != RB_OK)
             return st;
         ++*s->iters;
@@ -125,8 +122,8 @@ static rb_status outer(smoother *s)
     return RB_OK;
 }
 
-rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limit,
-                             double *z, int *iters)
+rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limit, double *z,
+                             int *iters)
 {
     const size_t n = (size_t)problem->n;
     smoother s = {.p = problem, .z = z, .unit = 1.0, .left = limit, .iters = iters};

@@ -15,11 +15,10 @@ typedef struct {
     void *context;
     /* H_{mu,eps}(z), n entries; gap (NULL: not wanted): smallest non-zero |spectral
      * value| of x - y. */
-    void (*residual)(void *context, double mu, double eps, const double *z, double *H,
-                     double *gap);
+    void (*residual)(void *context, double mu, double eps, const double *z, double *H, double *gap);
     /* dz with H + H'(z) dz = 0 */
-    rb_status (*step)(void *context, double mu, double eps, const double *z,
-                      const double *H, double *dz);
+    rb_status (*step)(void *context, double mu, double eps, const double *z, const double *H,
+                      double *dz);
     /* 1: z solves the problem */
     int (*accepts)(void *context, const double *z);
     int (*late)(void *context);
@@ -27,7 +26,7 @@ typedef struct {
 
 /* z: start on entry.  iters: grows by the Newton steps.  RB_MAXITER, RB_SINGULAR,
  * RB_INTERRUPTED: z is the last iterate. */
-rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limit,
-                             double *z, int *iters);
+rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limit, double *z,
+                             int *iters);
 
 #endif

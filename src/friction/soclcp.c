@@ -36,8 +36,8 @@ static void image(canonical *c, double eps, const double *x, double *y)
 }
 
 /* x - P_mu(x - y) */
-static void canonical_residual(void *context, double mu, double eps, const double *x,
-                               double *H, double *gap)
+static void canonical_residual(void *context, double mu, double eps, const double *x, double *H,
+                               double *gap)
 {
     canonical *c = context;
     image(c, eps, x, c->y);
@@ -45,8 +45,7 @@ static void canonical_residual(void *context, double mu, double eps, const doubl
     for (int k = 0, at = 0; k < c->p->cones; at += c->p->size[k++]) {
         for (int a = at; a < at + c->p->size[k]; a++)
             c->s[a] = x[a] - c->y[a];
-        least = fmin(least,
-                     rb_friction_smoothed(c->p->size[k], mu, c->s + at, c->P + at, NULL));
+        least = fmin(least, rb_friction_smoothed(c->p->size[k], mu, c->s + at, c->P + at, NULL));
     }
     for (int i = 0; i < c->p->n; i++)
         H[i] = x[i] - c->P[i];
@@ -111,8 +110,7 @@ static double cone_error(int size, double unit, const double *x, const double *y
 }
 
 /* ||x - P(x - unit y)|| / ||unit q|| */
-static double error_in(const rb_friction_soclcp_problem *p, double unit, const double *x,
-                       double *y)
+static double error_in(const rb_friction_soclcp_problem *p, double unit, const double *x, double *y)
 {
     const int n = p->n;
     double sum = 0.0, norm = 0.0;
@@ -128,8 +126,7 @@ static double error_in(const rb_friction_soclcp_problem *p, double unit, const d
     return norm > 0.0 ? sum / (unit * norm) : sum;
 }
 
-double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const double *x,
-                                double *y)
+double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const double *x, double *y)
 {
     return error_in(p, 1.0, x, y);
 }
@@ -140,16 +137,15 @@ static int canonical_accepts(void *context, const double *x)
     return error_in(c->p, c->unit, x, c->y) <= c->tol;
 }
 
-static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *largest,
-                                 rb_message *why)
+static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *largest, rb_message *why)
 {
     int sum = 0;
     *largest = 0;
     for (int k = 0; k < p->cones; k++) {
         if (p->size[k] < 1 || p->size[k] > p->n - sum)
             return rb_fail(why, RB_EINVAL,
-                           "cone %d has dimension %d: expected 1 ... %d, what is left",
-                           k + 1, p->size[k], p->n - sum);
+                           "cone %d has dimension %d: expected 1 ... %d, what is left", k + 1,
+                           p->size[k], p->n - sum);
         sum += p->size[k];
         if (p->size[k] > *largest)
             *largest = p->size[k];
@@ -165,8 +161,7 @@ static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *large
     return RB_OK;
 }
 
-static rb_status run_canonical(canonical *c, int largest, int limit, double *x,
-                               int *iters)
+static rb_status run_canonical(canonical *c, int largest, int limit, double *x, int *iters)
 {
     const size_t n = (size_t)c->p->n;
     const rb_friction_smooth_problem smooth = {
@@ -195,9 +190,8 @@ static rb_status run_canonical(canonical *c, int largest, int limit, double *x,
     return st;
 }
 
-rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
-                             const rb_friction_options *opt, double *x, double *y,
-                             rb_friction_info *info)
+rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_friction_options *opt,
+                             double *x, double *y, rb_friction_info *info)
 {
     const double start = rb_seconds();
     const rb_friction_options used = opt ? *opt : rb_friction_defaults();
@@ -205,8 +199,8 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     rb_friction_info unwanted;
     if (!info)
         info = &unwanted;
-    *info = (rb_friction_info){
-        .solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
+    *info =
+        (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
     rb_status s = check_canonical(p, &largest, &info->msg);
     if (s != RB_OK)
         return s;
@@ -222,17 +216,14 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
                    .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0};
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
-    s = run_canonical(&c, largest, used.max_iters ? used.max_iters : LIMIT, x,
-                      &info->iters);
+    s = run_canonical(&c, largest, used.max_iters ? used.max_iters : LIMIT, x, &info->iters);
     info->measure = used.measure;
     info->scaled = error_in(p, unit, x, y);
     info->residual = rb_friction_soclcp_error(p, x, y);
     info->flops = c.flops;
     info->seconds = rb_seconds() - start;
     if (s >= 0)
-        s = rb_friction_deciding(info) <= used.tol ? RB_OK
-            : s == RB_OK                           ? RB_INACCURATE
-                                                   : s;
+        s = rb_friction_deciding(info) <= used.tol ? RB_OK : s == RB_OK ? RB_INACCURATE : s;
     return s;
 }
 
@@ -268,8 +259,7 @@ static void regular_velocity(friction *f, double constant, double eps, const dou
 }
 
 /* x1, y1 (d each) of a contact */
-static void first_cone(const friction *f, int c, double eps, const double *z, double *x,
-                       double *y)
+static void first_cone(const friction *f, int c, double eps, const double *z, double *x, double *y)
 {
     const rb_friction_task *t = f->task;
     const int d = t->d;
@@ -282,8 +272,8 @@ static void first_cone(const friction *f, int c, double eps, const double *z, do
     }
 }
 
-static void friction_residual(void *context, double mu, double eps, const double *z,
-                              double *H, double *gap)
+static void friction_residual(void *context, double mu, double eps, const double *z, double *H,
+                              double *gap)
 {
     friction *f = context;
     const rb_friction_task *t = f->task;
@@ -312,8 +302,7 @@ static void friction_residual(void *context, double mu, double eps, const double
 
 /* The contact's d + 1 equations in (dr, rho du, dlambda) -> d equations in (dr, du):
  * dlambda from the first one; its coefficients are kept for recover(). */
-static void eliminate(friction *f, int c, double mu, double eps, const double *z,
-                      const double *h)
+static void eliminate(friction *f, int c, double mu, double eps, const double *z, const double *h)
 {
     const rb_friction_task *t = f->task;
     const int d = t->d;
@@ -366,8 +355,7 @@ static rb_status friction_step(void *context, double mu, double eps, const doubl
         for (int k = c * d * d; k < (c + 1) * d * d; k++)
             f->at.A[k] += shift / rho_of(f, c) * f->at.B[k];
     }
-    const rb_status st =
-        rb_friction_system_step(&f->system, &f->at, H + t->m + nc, dz, dv);
+    const rb_status st = rb_friction_system_step(&f->system, &f->at, H + t->m + nc, dz, dv);
     if (st != RB_OK)
         return st;
     regular_velocity(f, 0.0, shift, dz, dv, f->du);

@@ -13,12 +13,12 @@
 static const rb_friction_solver solvers[] = {
     {"auto", "portfolio", "several methods in turn until one meets the tolerance", 0,
      &rb_friction_auto_method, 0},
-    {"nsn-ac", "Newton", "on Alart-Curnier's function, with line search", 0,
-     &rb_friction_newton, RB_FRICTION_ALART_CURNIER | SEARCH},
+    {"nsn-ac", "Newton", "on Alart-Curnier's function, with line search", 0, &rb_friction_newton,
+     RB_FRICTION_ALART_CURNIER | SEARCH},
     {"nsn-ac-nls", "Newton", "the same without line search", 0, &rb_friction_newton,
      RB_FRICTION_ALART_CURNIER},
-    {"nsn-jm", "Newton", "on Jean-Moreau's function, with line search", 0,
-     &rb_friction_newton, RB_FRICTION_JEAN_MOREAU | SEARCH},
+    {"nsn-jm", "Newton", "on Jean-Moreau's function, with line search", 0, &rb_friction_newton,
+     RB_FRICTION_JEAN_MOREAU | SEARCH},
     {"nsn-jm-nls", "Newton", "the same without line search", 0, &rb_friction_newton,
      RB_FRICTION_JEAN_MOREAU},
     {"nsn-nm", "Newton", "on the natural map, with line search", 0, &rb_friction_newton,
@@ -29,24 +29,21 @@ static const rb_friction_solver solvers[] = {
      &rb_friction_newton, RB_FRICTION_FISCHER_BURMEISTER | SEARCH},
     {"nsn-fb-nls", "Newton", "the same without line search", 0, &rb_friction_newton,
      RB_FRICTION_FISCHER_BURMEISTER},
-    {"nsn-ac-hybrid", "sweeps, Newton",
-     "7 sweeps, then nsn-ac-nls; if need be 100, then nsn-ac", WANTS_W,
-     &rb_friction_hybrid, 0},
-    {"nsn-ac-hybrid-100", "sweeps, Newton",
-     "100 sweeps, then nsn-ac-nls, as in the paper", WANTS_W, &rb_friction_hybrid,
-     RB_FRICTION_HUNDRED_SWEEPS},
-    {"nsgs-ac", "sweeps", "Gauss-Seidel, each contact solved exactly", WANTS_W,
-     &rb_friction_sweeps, 0},
-    {"nsgs-aa", "sweeps", "the same with Anderson's acceleration", WANTS_W,
-     &rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON},
-    {"nsgs-fp", "sweeps", "Gauss-Seidel, fixed point at each contact", WANTS_W,
-     &rb_friction_sweeps, RB_FRICTION_SWEEP_PROJECTION},
+    {"nsn-ac-hybrid", "sweeps, Newton", "7 sweeps, then nsn-ac-nls; if need be 100, then nsn-ac",
+     WANTS_W, &rb_friction_hybrid, 0},
+    {"nsn-ac-hybrid-100", "sweeps, Newton", "100 sweeps, then nsn-ac-nls, as in the paper", WANTS_W,
+     &rb_friction_hybrid, RB_FRICTION_HUNDRED_SWEEPS},
+    {"nsgs-ac", "sweeps", "Gauss-Seidel, each contact solved exactly", WANTS_W, &rb_friction_sweeps,
+     0},
+    {"nsgs-aa", "sweeps", "the same with Anderson's acceleration", WANTS_W, &rb_friction_sweeps,
+     RB_FRICTION_SWEEP_ANDERSON},
+    {"nsgs-fp", "sweeps", "Gauss-Seidel, fixed point at each contact", WANTS_W, &rb_friction_sweeps,
+     RB_FRICTION_SWEEP_PROJECTION},
     {"fixed-point", "projection", "of all contacts at once, with adaptive step", WANTS_W,
      &rb_friction_projections, RB_FRICTION_FIXED_POINT},
     {"extragradient", "projection", "of all contacts at once, twice per step", WANTS_W,
      &rb_friction_projections, RB_FRICTION_EXTRAGRADIENT},
-    {"admm", "splitting", "linear system and cones in turn", WANTS_W, &rb_friction_admm,
-     0},
+    {"admm", "splitting", "linear system and cones in turn", WANTS_W, &rb_friction_admm, 0},
     {"soclcp-smoothing", "smoothing", "and regularisation on Kanno's cones", 0,
      &rb_friction_smoothing_method, 0},
     {"lemke", "pivots", "Lemke's method on an LCP", FLAT, &rb_friction_lemke_method, 0},
@@ -68,8 +65,7 @@ const rb_friction_solver *rb_friction_solver_named(const char *name)
     return NULL;
 }
 
-const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method,
-                                                int variant)
+const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method, int variant)
 {
     const rb_friction_solver *row = solvers;
     while (row->run != method || row->variant != variant)
@@ -89,11 +85,10 @@ int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note)
     const double allowed = fmax(tol, info->floor);
     if (!(info->scaled <= allowed) || !(info->residual > allowed))
         return 0;
-    rb_fail(
-        note, RB_OK,
-        "the residual (13) of Acary, which depends on units, is %.2g, above --tol %g; "
-        "the scaled residual %.2g decides, unless --measure acary asks for (13)",
-        info->residual, tol, info->scaled);
+    rb_fail(note, RB_OK,
+            "the residual (13) of Acary, which depends on units, is %.2g, above --tol %g; "
+            "the scaled residual %.2g decides, unless --measure acary asks for (13)",
+            info->residual, tol, info->scaled);
     return 1;
 }
 
@@ -105,8 +100,8 @@ typedef struct {
     rb_friction_options opt;
     rb_friction_solution at;
     rb_friction_info *info, unwanted;
-    int timed; /* there is a limit, or somebody wants to know: else the clock would take
-                  a sixth of a call that has six contacts */
+    int timed;    /* there is a limit, or somebody wants to know: else the clock would take
+                     a sixth of a call that has six contacts */
     double start; /* on rb_seconds() */
 } call;
 
@@ -202,17 +197,15 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
                              .contacts = problem->contacts,
                              .m = m,
                              .n = n,
-                             .deadline =
-                                 c->opt.seconds > 0.0 ? c->start + c->opt.seconds : 0.0,
+                             .deadline = c->opt.seconds > 0.0 ? c->start + c->opt.seconds : 0.0,
                              .budget = INFINITY,
                              .r = c->at.r,
                              .u = c->at.u,
                              .v = c->at.v ? c->at.v : shared->memory + m + n};
     c->info->solver = c->solver->name;
     shared->stop = 0;
-    shared->measure.deciding = c->opt.measure == RB_FRICTION_BY_ACARY
-                                   ? shared->measure.ones
-                                   : shared->measure.rho;
+    shared->measure.deciding =
+        c->opt.measure == RB_FRICTION_BY_ACARY ? shared->measure.ones : shared->measure.rho;
     const rb_status s = run_and_prove(&task, c->solver);
     if (c->timed)
         c->info->seconds = rb_seconds() - c->start;
@@ -220,8 +213,8 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
 }
 
 rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem,
-                            const rb_friction_options *opt,
-                            const rb_friction_solution *solution, rb_friction_info *info)
+                            const rb_friction_options *opt, const rb_friction_solution *solution,
+                            rb_friction_info *info)
 {
     rb_friction_handle handle;
     call c;
@@ -238,8 +231,8 @@ rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem
 
 /* ---- One structure, many loads ----------------------------------------------------- */
 
-rb_status rb_friction_setup(const rb_friction_problem *problem,
-                            rb_friction_handle **handle, rb_message *why)
+rb_status rb_friction_setup(const rb_friction_problem *problem, rb_friction_handle **handle,
+                            rb_message *why)
 {
     *handle = malloc(sizeof **handle);
     if (!*handle)
@@ -260,8 +253,7 @@ rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
 
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
                                    const rb_friction_options *opt,
-                                   const rb_friction_solution *solution,
-                                   rb_friction_info *info)
+                                   const rb_friction_solution *solution, rb_friction_info *info)
 {
     const rb_friction_problem *p = handle->shared.problem;
     const size_t m = (size_t)(p->dimension * p->contacts);

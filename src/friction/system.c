@@ -76,8 +76,8 @@ rb_status rb_friction_system_init_local(rb_friction_task *task, rb_friction_syst
 
 /* ---- Products ---------------------------------------------------------------------- */
 
-void rb_friction_system_velocity(const rb_friction_system *s, double constant,
-                                 const double *r, const double *v, double *u)
+void rb_friction_system_velocity(const rb_friction_system *s, double constant, const double *r,
+                                 const double *v, double *u)
 {
     const rb_friction_problem *p = s->problem;
     if (s->n)
@@ -88,8 +88,8 @@ void rb_friction_system_velocity(const rb_friction_system *s, double constant,
         u[k] += constant * (s->n ? p->w[k] : p->q[k]);
 }
 
-void rb_friction_system_imbalance(const rb_friction_system *s, const double *r,
-                                  const double *v, double *e)
+void rb_friction_system_imbalance(const rb_friction_system *s, const double *r, const double *v,
+                                  double *e)
 {
     if (!s->n)
         return;
@@ -124,13 +124,12 @@ rb_status rb_friction_system_dense(rb_friction_system *s, size_t order)
     return s->order || !order ? RB_OK : RB_ENOMEM;
 }
 
-rb_status rb_friction_system_solve_dense(rb_friction_system *s, int order,
-                                         char transposed)
+rb_status rb_friction_system_solve_dense(rb_friction_system *s, int order, char transposed)
 {
     int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, order, order, s->dense, order, s->pivots);
     if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, transposed, order, 1, s->dense, order,
-                              s->pivots, s->x, order);
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, transposed, order, 1, s->dense, order, s->pivots,
+                              s->x, order);
     s->flops += (double)order * order * (2.0 / 3.0 * order + 2.0);
     return rb_lapack_status(info);
 }
@@ -191,8 +190,8 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
 rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
 {
     const double order = s->n + s->m, nc = s->contacts;
-    const double fill = s->n ? s->j.p[s->n + s->m] / (order * order)
-                             : s->blocks->p[s->contacts] / (nc * nc);
+    const double fill =
+        s->n ? s->j.p[s->n + s->m] / (order * order) : s->blocks->p[s->contacts] / (nc * nc);
     rb_status st = RB_OK;
     *flops = 2.0 / 3.0 * order * order * order;
     if (rb_friction_system_is_dense((int)order, fill))

@@ -30,8 +30,8 @@ static void times(int d, const double *B, const double *x, double *y)
 /* ---- Dense ------------------------------------------------------------------------- */
 
 /* The columns of contact c in the matrix of the closed contacts. */
-static void fill_dense_columns(rb_friction_system *s, int c, size_t order,
-                               const double *A, const double *B)
+static void fill_dense_columns(rb_friction_system *s, int c, size_t order, const double *A,
+                               const double *B)
 {
     const rb_friction_blocks *w = s->blocks;
     const int d = s->d, dd = d * d;
@@ -44,12 +44,10 @@ static void fill_dense_columns(rb_friction_system *s, int c, size_t order,
     }
     for (int b = 0; b < d; b++)
         for (int a = 0; a < d; a++)
-            column[(size_t)b * order + (size_t)(s->place[c] * d + a)] +=
-                A[c * dd + a + b * d];
+            column[(size_t)b * order + (size_t)(s->place[c] * d + a)] += A[c * dd + a + b * d];
 }
 
-static rb_status solve_dense(rb_friction_system *s, int order,
-                             const rb_friction_linearised *at)
+static rb_status solve_dense(rb_friction_system *s, int order, const rb_friction_linearised *at)
 {
     const int d = s->d, dd = d * d;
     double *moved = s->rhs;
@@ -148,8 +146,7 @@ rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linear
         const int d = s->d;
         for (int c = s->contacts - 1; c >= 0; c--)
             for (int a = 0; a < d; a++)
-                s->x[c * d + a] =
-                    s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
+                s->x[c * d + a] = s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
     }
     return st;
 }
@@ -162,8 +159,7 @@ static int wants_dense(const rb_friction_system *s)
     return rb_friction_system_is_dense(s->m, s->blocks->p[s->contacts] / (nc * nc));
 }
 
-rb_status rb_friction_local_factor(rb_friction_system *s, const double *A,
-                                   const double *B)
+rb_status rb_friction_local_factor(rb_friction_system *s, const double *A, const double *B)
 {
     const double m = s->m;
     s->flops += 2.0 * s->d * s->d * s->d * (double)s->blocks->p[s->contacts];
@@ -190,8 +186,8 @@ rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
 {
     if (wants_dense(s)) {
         s->flops += 2.0 * s->m * (double)s->m;
-        return rb_lapack_status(LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense,
-                                               s->m, s->pivots, x, s->m));
+        return rb_lapack_status(
+            LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense, s->m, s->pivots, x, s->m));
     }
     for (int k = 0; k < s->m; k++)
         s->rhs[k] = x[k];

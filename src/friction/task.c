@@ -8,8 +8,8 @@
 
 /* ---- What methods on one problem share --------------------------------------------- */
 
-rb_status rb_friction_shared_init(const rb_friction_problem *problem,
-                                  rb_friction_shared *shared, rb_message *why)
+rb_status rb_friction_shared_init(const rb_friction_problem *problem, rb_friction_shared *shared,
+                                  rb_message *why)
 {
     *shared = (rb_friction_shared){.problem = problem};
     if (problem->form != RB_FRICTION_GLOBAL)
@@ -55,24 +55,21 @@ rb_status rb_friction_task_condense(rb_friction_task *task)
     rb_friction_shared *shared = task->shared;
     if (shared->local)
         return RB_OK;
-    const rb_status s = rb_friction_condense_counted(
-        shared->problem, &shared->condensed, &task->info->flops, &task->info->msg);
+    const rb_status s = rb_friction_condense_counted(shared->problem, &shared->condensed,
+                                                     &task->info->flops, &task->info->msg);
     if (s == RB_OK)
         shared->local = &shared->condensed;
     return s;
 }
 
-rb_status rb_friction_task_blocks(rb_friction_task *task,
-                                  const rb_friction_blocks **blocks)
+rb_status rb_friction_task_blocks(rb_friction_task *task, const rb_friction_blocks **blocks)
 {
     rb_friction_shared *shared = task->shared;
     *blocks = &shared->blocks;
-    return shared->blocks.x ? RB_OK
-                            : rb_friction_blocks_init(shared->local, &shared->blocks);
+    return shared->blocks.x ? RB_OK : rb_friction_blocks_init(shared->local, &shared->blocks);
 }
 
-rb_status rb_friction_task_contacts(rb_friction_task *task,
-                                    rb_friction_contact **contacts)
+rb_status rb_friction_task_contacts(rb_friction_task *task, rb_friction_contact **contacts)
 {
     rb_friction_shared *shared = task->shared;
     if (!shared->contact)
@@ -121,8 +118,8 @@ void rb_friction_task_seen(rb_friction_task *task, double error)
 {
     rb_friction_record *best = task->best;
     if (task->opt.progress) {
-        const rb_friction_progress at = {task->info->solver, task->info->iters,
-                                         task->info->flops, error, task->r};
+        const rb_friction_progress at = {task->info->solver, task->info->iters, task->info->flops,
+                                         error, task->r};
         task->shared->stop |= task->opt.progress(&at, task->opt.context) != 0;
     }
     if (!(error < best->error) || error <= task->opt.tol)
@@ -154,9 +151,8 @@ int rb_friction_task_accepts(const rb_friction_task *task, double error)
     const double least = rb_friction_measure_resolution(task->measure, task->r);
     /* the floor costs as much as the error: ask only when it can matter */
     if (error > allowed || least > allowed)
-        allowed = fmax(allowed,
-                       fmin(LARGEST_FLOOR,
-                            rb_friction_measure_floor(task->measure, task->r, task->v)));
+        allowed = fmax(allowed, fmin(LARGEST_FLOOR,
+                                     rb_friction_measure_floor(task->measure, task->r, task->v)));
     return error <= allowed && least <= allowed;
 }
 
@@ -205,8 +201,8 @@ rb_status rb_friction_task_assess(rb_friction_task *task)
 
 /* ---- Runs -------------------------------------------------------------------------- */
 
-rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
-                          int variant, int limit)
+rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method, int variant,
+                          int limit)
 {
     if (method->run)
         return method->run(task, variant);

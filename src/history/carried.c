@@ -47,8 +47,7 @@ static rb_status create_past(rb_rolling_particles *r, rb_message *why)
 
         plan.elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
         const double half = 0.5 * plan.elements * step;
-        s = rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh,
-                                    why);
+        s = rb_rolling_mesh_uniform(r->rc, &plan, middle - half, middle + half, &mesh, why);
         if (s == RB_OK) {
             rb_rolling_mesh_free(&model->mesh);
             model->mesh = mesh;
@@ -61,9 +60,9 @@ static rb_status create_past(rb_rolling_particles *r, rb_message *why)
             slowest = fmax(slowest, memory[b]->time[k]);
     const double tail =
         r->step > 0.0 ? fmin(r->steps, FORGOTTEN * slowest * rc->speed / r->step) : 0.0;
-    return s == RB_OK ? rb_rolling_memory_track_create(rc, &r->model->mesh,
-                                                       (int)ceil(tail), &r->past, why)
-                      : s;
+    return s == RB_OK
+               ? rb_rolling_memory_track_create(rc, &r->model->mesh, (int)ceil(tail), &r->past, why)
+               : s;
 }
 
 /* In every step they are others: elastic ones of that interval, displaced by what came
@@ -87,8 +86,7 @@ static rb_status bring_past(rb_rolling_particles *r, const rb_rolling_stride *st
     }
     if (s != RB_OK)
         return s;
-    rb_rolling_memory_track_begin(&r->past, interval, stride->c > 0.0,
-                                  model->bodies.f.w0);
+    rb_rolling_memory_track_begin(&r->past, interval, stride->c > 0.0, model->bodies.f.w0);
     rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
     return RB_OK;
 }
@@ -115,8 +113,8 @@ static rb_status create_displacement(rb_rolling_particles *r, rb_message *why)
 
 /* w_T of the present tractions at the same places (c = 0), or where the particles are
  * that a step of length c brings to them. */
-static rb_status bring_displacement(rb_rolling_particles *r,
-                                    const rb_rolling_stride *stride, rb_message *why)
+static rb_status bring_displacement(rb_rolling_particles *r, const rb_rolling_stride *stride,
+                                    rb_message *why)
 {
     const rb_contact_state *state = &r->model->state;
     const rb_rolling_bodies *bodies = &r->model->bodies;
@@ -232,8 +230,8 @@ static rb_status create_heat(rb_rolling_particles *r, rb_message *why)
     for (int i = 0; i < n; i++)
         r->model->carried.temperature[i] = r->rc->heat_a.temperature;
     r->model->carried.heat = &r->heat;
-    r->heat = (rb_rolling_heat_track){
-        .n = n, .h = rb_rolling_middle_length(r->model), .step = r->step};
+    r->heat =
+        (rb_rolling_heat_track){.n = n, .h = rb_rolling_middle_length(r->model), .step = r->step};
     return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
 }
 
@@ -251,8 +249,8 @@ static void leave_heat(rb_rolling_particles *r, const rb_rolling_stride *stride)
     rb_rolling_model *model = r->model;
 
     if (stride->c > 0.0)
-        rb_rolling_heat_track_step(model->rc, model->state.q, model->state.lambda,
-                                   &r->heat, model->carried.temperature);
+        rb_rolling_heat_track_step(model->rc, model->state.q, model->state.lambda, &r->heat,
+                                   model->carried.temperature);
 }
 
 static void free_heat(rb_rolling_particles *r)
@@ -267,8 +265,7 @@ typedef struct {
     int (*is_carried)(const rb_rolling_case *rc); /* NULL: in every case */
     rb_status (*create)(rb_rolling_particles *r, rb_message *why);
     /* From where the last step left the particles to where this one has them. */
-    rb_status (*bring)(rb_rolling_particles *r, const rb_rolling_stride *stride,
-                       rb_message *why);
+    rb_status (*bring)(rb_rolling_particles *r, const rb_rolling_stride *stride, rb_message *why);
     /* What the step, solved, leaves with them; NULL: the model has it. */
     void (*leave)(rb_rolling_particles *r, const rb_rolling_stride *stride);
     void (*free)(rb_rolling_particles *r);
@@ -278,8 +275,7 @@ typedef struct {
 /* What looks at the bodies of the step before stands before those that change. */
 static const memory memories[] = {
     {NULL, create_displacement, bring_displacement, NULL, free_displacement, 0},
-    {rb_rolling_law_depends_on_state, create_friction, bring_friction, NULL,
-     free_friction, 0},
+    {rb_rolling_law_depends_on_state, create_friction, bring_friction, NULL, free_friction, 0},
     {yields, create_yielded, bring_yielded, NULL, free_yielded, 0},
     {rb_rolling_has_heat, create_heat, bring_heat, leave_heat, free_heat, 0},
     {rb_rolling_relaxes, create_past, bring_past, leave_past, free_past, 1}};
@@ -301,14 +297,13 @@ rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why)
     return s;
 }
 
-rb_status rb_rolling_particles_bring(rb_rolling_particles *r,
-                                     const rb_rolling_stride *stride, rb_message *why)
+rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
+                                     rb_message *why)
 {
     rb_status s = RB_OK;
 
     for (int k = 0; k < MEMORIES && s == RB_OK; k++)
-        if (is_carried(&memories[k], r) &&
-            (memories[k].without_past || !stride->is_first))
+        if (is_carried(&memories[k], r) && (memories[k].without_past || !stride->is_first))
             s = memories[k].bring(r, stride, why);
     return s;
 }

@@ -51,9 +51,8 @@ static double time_of(const history_state *r)
     if (r->part == 0) /* the row may be that behind the last one */
         return t[r->row - 1];
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
-    return r->part == parts
-               ? t[r->row]
-               : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
+    return r->part == parts ? t[r->row]
+                            : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
 }
 
 /* mu of a step that differs from that of the step before.  Coefficients that depend on
@@ -91,19 +90,17 @@ static void record(history_state *r, double distance)
     rb_rolling_contact_edges(model->rc, &model->mesh, state, &h->contact_from[k],
                              &h->contact_to[k]);
     if (rolls)
-        h->dissipation[k] = rb_rolling_dissipated_power(
-            model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+        h->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
+                                                        model->bodies.f.h, p->e_T);
     h->moment[k] = rb_contact_moment(p, state);
     double torque_b;
-    rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k],
-                       &torque_b);
+    rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k], &torque_b);
     if (h->torque_b)
         h->torque_b[k] = torque_b;
     if (h->max_temperature) {
         double at;
         rb_rolling_peak_temperature(p->n, model->bodies.f.x, state->zone,
-                                    model->carried.temperature, &h->max_temperature[k],
-                                    &at);
+                                    model->carried.temperature, &h->max_temperature[k], &at);
     }
     if (h->time) {
         const rb_rolling_program *program = r->program;
@@ -136,19 +133,16 @@ static rb_status follow(history_state *r)
 }
 
 /* What must hold after every step. */
-static rb_status assess(const history_state *r, rb_status s, rb_message *reason,
-                        rb_message *why)
+static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
 {
     if (s != RB_OK)
-        rb_fail(why, s, "step %d: %.260s", r->history->n + 1,
-                rb_status_reason(s, reason));
+        rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
     return s;
 }
 
 /* The rows are checked beforehand; between two of them mu and the load both vary, and
  * their product may be less than a force that is linear. */
-static rb_status check_force(const history_state *r, const rb_rolling_case *step,
-                             rb_message *why)
+static rb_status check_force(const history_state *r, const rb_rolling_case *step, rb_message *why)
 {
     rb_message reason = {""};
     const rb_status s = r->program->mu ? rb_rolling_case_check(step, &reason) : RB_OK;
@@ -176,8 +170,7 @@ static rb_status begin_at_rest(history_state *r, rb_message *why)
     r->part++;
     r->to = 0.0;
     r->stride = (rb_rolling_stride){0.0, time_of(r) - before, first};
-    rb_rolling_case rest =
-        rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
+    rb_rolling_case rest = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
     rb_status s = check_force(r, &rest, why);
     if (rest.formulation == RB_TRANSIENT && isnan(rest.force) && isnan(rest.force_ratio))
         rest.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
@@ -216,14 +209,12 @@ static rb_status begin_rolled(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const int k = r->history->n, rolled = k - r->at_rest;
-    const double c = r->history->step, mu_before = model->rc->mu,
-                 part = c / r->history->half_width, from = rolled * part;
+    const double c = r->history->step, mu_before = model->rc->mu, part = c / r->history->half_width,
+                 from = rolled * part;
     const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
 
-    r->to =
-        k + 1 == r->steps ? r->program->distance[r->program->n - 1] : (rolled + 1) * part;
-    r->stride =
-        (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
+    r->to = k + 1 == r->steps ? r->program->distance[r->program->n - 1] : (rolled + 1) * part;
+    r->stride = (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
     const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, r->to);
     rb_status s = check_force(r, &step, why);
 
@@ -258,8 +249,8 @@ static void end_step(history_state *r, rb_status s)
         /* Follows how long the friction has not changed. */
         const rb_contact_state *state = &r->model->state;
         const rb_contact_problem *p = &r->model->problem;
-        const double bound = rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c /
-                             r->history->half_width;
+        const double bound =
+            rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c / r->history->half_width;
         int moves = 0;
 
         for (int i = 0; i < state->n; i++)
@@ -299,8 +290,7 @@ static rb_status all_steps(history_state *r, rb_message *why)
         s = solve_step(r, why);
         if (s == RB_OK && r->observer && r->observer->step &&
             r->observer->step(r->model, r->history, k, r->steps, r->observer->context))
-            s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1,
-                        r->steps);
+            s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->steps);
     }
     return s;
 }
@@ -336,15 +326,13 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
         return rb_rolling_variant_place(r->like, &widest, 0.0, r->scale, r->model, why);
     const size_t n = (size_t)r->found->n;
     double *x = rb_alloc(n, 2), *h = x + n;
-    const rb_rolling_elements elements = {
-        .are_equal = 1, .n = r->found->n, .x = x, .h = h};
+    const rb_rolling_elements elements = {.are_equal = 1, .n = r->found->n, .x = x, .h = h};
     for (size_t i = 0; x && i < n; i++) {
         x[i] = r->scale * r->found->x[i];
         h[i] = r->scale * r->found->h[i];
     }
-    const rb_status s =
-        x ? rb_rolling_model_of_result(&widest, &elements, r->model, why)
-          : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", r->found->n);
+    const rb_status s = x ? rb_rolling_model_of_result(&widest, &elements, r->model, why)
+                          : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", r->found->n);
     free(x);
     return s;
 }
@@ -402,8 +390,8 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         r->model->half_width = r->history->half_width;
     s = plan_steps(r, &step, why);
     if (s == RB_OK && r->found && r->found->steps != r->steps)
-        s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d",
-                    r->found->steps, r->steps);
+        s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
+                    r->steps);
     r->row = r->part = 0;
     r->particles = (rb_rolling_particles){.rc = r->rc,
                                           .model = r->model,
@@ -417,8 +405,7 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         s = r->q ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps,
-                                     r->history);
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps, r->history);
     r->history->step = step;
     r->history->steady_from = -1;
     return s;
@@ -436,14 +423,12 @@ static double half_width_at_rest(const history_state *r)
 {
     const rb_rolling_history *h = r->history;
 
-    return rb_rolling_hertz_half_width(r->rc,
-                                       fmax(0.0, largest(h->normal_load, h->n, 0.0)));
+    return rb_rolling_hertz_half_width(r->rc, fmax(0.0, largest(h->normal_load, h->n, 0.0)));
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of
  * the largest load at rest: *wider is the zone with which to start again, or 0. */
-static rb_status run_on_zone(history_state *r, double zone, double *wider,
-                             rb_message *why)
+static rb_status run_on_zone(history_state *r, double zone, double *wider, rb_message *why)
 {
     *wider = 0.0;
     rb_status s = prepare(r, zone, why);
@@ -466,8 +451,8 @@ static rb_status run_on_zone(history_state *r, double zone, double *wider,
 }
 
 /* The case and its program, and the columns of its own one, for free(). */
-static rb_status begin_program(history_state *r, const rb_rolling_case *rc,
-                               double **columns, rb_message *why)
+static rb_status begin_program(history_state *r, const rb_rolling_case *rc, double **columns,
+                               rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
@@ -493,8 +478,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
     double *columns = NULL;
     rb_status s = begin_program(r, rc, &columns, why);
 
-    for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0;
-         zone = wider) {
+    for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
         s = run_on_zone(r, zone, &wider, why);
         if (wider > 0.0) {
             /* more than asked for, with patches */
@@ -508,11 +492,9 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
     return s;
 }
 
-rb_status rb_rolling_history_run(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program,
-                                 const rb_rolling_observer *observer,
-                                 rb_rolling_model *model, rb_rolling_history *history,
-                                 rb_message *why)
+rb_status rb_rolling_history_run(const rb_rolling_case *rc, const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer, rb_rolling_model *model,
+                                 rb_rolling_history *history, rb_message *why)
 {
     history_state r = {
         .program = program, .observer = observer, .model = model, .history = history};
@@ -521,24 +503,21 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
     return run_program(&r, rc, why);
 }
 
-static rb_status check_followed(const rb_rolling_case *rc,
-                                const rb_rolling_states *states, rb_message *why)
+static rb_status check_followed(const rb_rolling_case *rc, const rb_rolling_states *states,
+                                rb_message *why)
 {
     if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
         return rb_fail(why, RB_EINVAL,
                        "history: not for friction that depends on the state or an "
                        "interface that yields, whose state variables are not stored");
     if (!(states->half_width > 0.0))
-        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
-                       states->half_width);
+        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0", states->half_width);
     return RB_OK;
 }
 
-rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
-                                    const rb_rolling_states *states,
-                                    const rb_rolling_observer *observer,
-                                    rb_rolling_model *model, rb_rolling_history *history,
-                                    rb_message *why)
+rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,
+                                    const rb_rolling_observer *observer, rb_rolling_model *model,
+                                    rb_rolling_history *history, rb_message *why)
 {
     history_state r = {.program = states->program,
                        .observer = observer,
@@ -564,8 +543,7 @@ struct rb_rolling_follower {
     double *columns;
 };
 
-rb_status rb_rolling_follower_create(const rb_rolling_case *rc,
-                                     const rb_rolling_states *states,
+rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling_states *states,
                                      const rb_rolling_follower *of, double scale,
                                      rb_rolling_follower **follower, rb_message *why)
 {

@@ -29,13 +29,11 @@ typedef struct {
  * rubbery. */
 rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
 /* Creates a track for bodies at rest without earlier loads.  tail > 0: equal elements. */
-rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
-                                         const rb_rolling_mesh *mesh, int tail,
-                                         rb_rolling_memory_track *r, rb_message *why);
+rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                         int tail, rb_rolling_memory_track *r, rb_message *why);
 /* Before a step is solved: the displacement w0 (2m) that its bodies bring along.  rolls:
  * 1: the material moves by one element towards -x. */
-void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls,
-                                   double *w0);
+void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0);
 /* After it, with the tractions on A that were found. */
 void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
                                  const double *q);
@@ -46,20 +44,19 @@ void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
 /* State variables that the particles bring into a step of a history.  The caller sets the
  * first five members. */
 typedef struct {
-    const rb_rolling_case *rc; /* of the history; borrowed */
-    rb_rolling_model *model;   /* after the last step; borrowed */
-    double step;               /* length of a rolled step; 0: no rolling */
-    int steps;                 /* in all */
-    int keeps_elements;        /* 1: keep the elements of the given states */
-    double *w_T;     /* n: tangential displacement that the next step starts from */
-    double *mu;      /* n: coefficients before the step */
-    double *yielded; /* n + 1: plastic slip of the interface, to be moved with the
-                        particles */
+    const rb_rolling_case *rc;     /* of the history; borrowed */
+    rb_rolling_model *model;       /* after the last step; borrowed */
+    double step;                   /* length of a rolled step; 0: no rolling */
+    int steps;                     /* in all */
+    int keeps_elements;            /* 1: keep the elements of the given states */
+    double *w_T;                   /* n: tangential displacement that the next step starts from */
+    double *mu;                    /* n: coefficients before the step */
+    double *yielded;               /* n + 1: plastic slip of the interface, to be moved with the
+                                      particles */
     rb_rolling_former_place ahead; /* for steps whose length is not that of an element */
     rb_rolling_heat_track heat;
     rb_rolling_memory_track past; /* of viscoelastic bodies */
-    double
-        interval; /* step length [s] for which the present bodies were built; -1: none */
+    double interval; /* step length [s] for which the present bodies were built; -1: none */
 } rb_rolling_particles;
 
 /* A step: rolled distance c (0: at rest) and duration in seconds. */
@@ -73,8 +70,8 @@ double rb_rolling_middle_length(const rb_rolling_model *model);
 /* This call may change the mesh of the model. */
 rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why);
 /* Before a step is solved: moves the state variables to the places of the particles. */
-rb_status rb_rolling_particles_bring(rb_rolling_particles *r,
-                                     const rb_rolling_stride *stride, rb_message *why);
+rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
+                                     rb_message *why);
 /* After a step: stores the state variables. */
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
 void rb_rolling_particles_free(rb_rolling_particles *r);
@@ -84,23 +81,19 @@ void rb_rolling_particles_free(rb_rolling_particles *r);
 /* Number of rows at rest at the beginning of the program. */
 int rb_rolling_program_at_rest(const rb_rolling_program *program);
 /* Number of steps at rest from row r - 1 to row r. */
-int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
-                             int r);
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc, int r);
 /* The case of row r at rest, or at the fraction part/parts between row r - 1 and row
  * r. */
-rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
-                                       const rb_rolling_case *rc, int r, int part,
-                                       int parts);
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                       int r, int part, int parts);
 /* The case of a step rolled from one distance to another. */
 rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
-                                        const rb_rolling_case *rc, double from,
-                                        double to);
+                                        const rb_rolling_case *rc, double from, double to);
 /* Checks that each row is a valid case. */
-rb_status rb_rolling_program_check(const rb_rolling_program *program,
-                                   const rb_rolling_case *rc, rb_message *why);
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why);
 /* The program of a case without a history: increments of pressing and of loading, then
  * rolling.  Returns the memory of its columns for free(); NULL: no memory. */
-double *rb_rolling_program_of_case(const rb_rolling_case *rc,
-                                   rb_rolling_program *program);
+double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program *program);
 
 #endif

@@ -6,10 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COLUMN(name, is_mean)                                                            \
-    {                                                                                    \
-#name, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name),      \
-            is_mean                                                                      \
+#define COLUMN(name, is_mean)                                                                      \
+    {                                                                                              \
+#name, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name), is_mean        \
     }
 
 const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
@@ -28,8 +27,7 @@ const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_CO
 static const double *column_of(const rb_rolling_program *program, int c)
 {
     const double *column;
-    memcpy(&column, (const char *)program + rb_rolling_program_columns[c].column,
-           sizeof column);
+    memcpy(&column, (const char *)program + rb_rolling_program_columns[c].column, sizeof column);
     return column;
 }
 
@@ -50,8 +48,7 @@ int rb_rolling_program_at_rest(const rb_rolling_program *program)
     return rows;
 }
 
-int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
-                             int r)
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc, int r)
 {
     if (!program->time || r == 0 || !(rc->time_step > 0.0))
         return 1;
@@ -61,13 +58,11 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
 
 static double value_of_part(const double *column, int r, int part, int parts)
 {
-    return part == parts ? column[r]
-                         : column[r - 1] + (column[r] - column[r - 1]) * part / parts;
+    return part == parts ? column[r] : column[r - 1] + (column[r] - column[r - 1]) * part / parts;
 }
 
-rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
-                                       const rb_rolling_case *rc, int r, int part,
-                                       int parts)
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                       int r, int part, int parts)
 {
     rb_rolling_case at = *rc;
 
@@ -99,15 +94,14 @@ static double value_at(const rb_rolling_program *program, const double *column, 
 }
 
 /* Mean between two distances, exact across the rows. */
-static double mean_between(const rb_rolling_program *program, const double *column,
-                           double from, double to)
+static double mean_between(const rb_rolling_program *program, const double *column, double from,
+                           double to)
 {
     double sum = 0.0, x = from;
 
     while (x < to) {
         const double end = fmin(to, program->distance[row_before(program, x) + 1]);
-        sum += 0.5 * (end - x) *
-               (value_at(program, column, x) + value_at(program, column, end));
+        sum += 0.5 * (end - x) * (value_at(program, column, x) + value_at(program, column, end));
         x = end;
     }
     return sum / (to - from);
@@ -122,9 +116,8 @@ rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
         const double *column = column_of(program, c);
         if (column)
             replace(&at, c,
-                    rb_rolling_program_columns[c].is_mean
-                        ? mean_between(program, column, from, to)
-                        : value_at(program, column, to));
+                    rb_rolling_program_columns[c].is_mean ? mean_between(program, column, from, to)
+                                                          : value_at(program, column, to));
     }
     return at;
 }
@@ -156,8 +149,8 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
     for (int r = 1; r < program->n; r++) {
         if (d[r] < d[r - 1])
             return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g is less than in the row before",
-                           r + 1, d[r]);
+                           "history: row %d: distance %g is less than in the row before", r + 1,
+                           d[r]);
         if (d[r] > 0.0 && d[r] == d[r - 1])
             return rb_fail(why, RB_EINVAL,
                            "history: row %d: distance %g twice; a jump needs two rows a "
@@ -167,8 +160,8 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
     return RB_OK;
 }
 
-static rb_status check_columns(const rb_rolling_program *program,
-                               const rb_rolling_case *rc, rb_message *why)
+static rb_status check_columns(const rb_rolling_program *program, const rb_rolling_case *rc,
+                               rb_message *why)
 {
     const rb_rolling_formulation formulation = rc->formulation;
 
@@ -177,8 +170,7 @@ static rb_status check_columns(const rb_rolling_program *program,
     if (formulation == RB_STEADY)
         return rb_fail(why, RB_EINVAL, "history: steady rolling has none");
     if (formulation == RB_TRANSIENT && !program->distance)
-        return rb_fail(why, RB_EINVAL,
-                       "history: transient rolling needs a column distance");
+        return rb_fail(why, RB_EINVAL, "history: transient rolling needs a column distance");
     if (formulation == RB_STATIC && program->distance)
         return rb_fail(why, RB_EINVAL,
                        "history: a column distance is for transient rolling; static "
@@ -188,26 +180,23 @@ static rb_status check_columns(const rb_rolling_program *program,
                        "history: a column time is for static contact; rolling needs a "
                        "column distance and a speed");
     if (program->time && !rb_rolling_relaxes(rc))
-        return rb_fail(
-            why, RB_EINVAL,
-            "history: a column time is for viscoelastic bodies, see --relaxation-time");
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column time is for viscoelastic bodies, see --relaxation-time");
     if (program->mu && rc->friction.law == RB_FRICTION_table)
-        return rb_fail(
-            why, RB_EINVAL,
-            "history: a column mu cannot be combined with a table of friction over x");
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column mu cannot be combined with a table of friction over x");
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         for (int r = 0; column_of(program, c) && r < program->n; r++)
             if (!isfinite(column_of(program, c)[r]))
-                return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number",
-                               r + 1, rb_rolling_program_columns[c].name);
+                return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number", r + 1,
+                               rb_rolling_program_columns[c].name);
     if (formulation == RB_STATIC && rb_rolling_relaxes(rc)) {
         const double *t = program->time;
         double steps = 0.0;
 
         if (!t)
-            return rb_fail(
-                why, RB_EINVAL,
-                "history: static contact of viscoelastic bodies needs a column time");
+            return rb_fail(why, RB_EINVAL,
+                           "history: static contact of viscoelastic bodies needs a column time");
         if (t[0] != 0.0)
             return rb_fail(why, RB_EINVAL,
                            "history: row 1: expected time 0, when the bodies are pressed "
@@ -215,23 +204,21 @@ static rb_status check_columns(const rb_rolling_program *program,
                            t[0]);
         for (int r = 1; r < program->n; r++) {
             if (t[r] < t[r - 1])
-                return rb_fail(
-                    why, RB_EINVAL,
-                    "history: row %d: time %g is before that of the row before", r + 1,
-                    t[r]);
+                return rb_fail(why, RB_EINVAL,
+                               "history: row %d: time %g is before that of the row before", r + 1,
+                               t[r]);
             steps += rb_rolling_program_parts(program, rc, r);
         }
-        return steps <= 1e7
-                   ? RB_OK
-                   : rb_fail(why, RB_EINVAL,
-                             "time step: %g s makes %.3g steps; expected at most 1e7",
-                             rc->time_step, steps);
+        return steps <= 1e7 ? RB_OK
+                            : rb_fail(why, RB_EINVAL,
+                                      "time step: %g s makes %.3g steps; expected at most 1e7",
+                                      rc->time_step, steps);
     }
     return program->distance ? check_distances(program, why) : RB_OK;
 }
 
-rb_status rb_rolling_program_check(const rb_rolling_program *program,
-                                   const rb_rolling_case *rc, rb_message *why)
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why)
 {
     rb_status s = check_columns(program, rc, why);
     rb_message reason = {""};

@@ -68,8 +68,8 @@ static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *
 {
     const double h = mesh->ends[1] - mesh->ends[0];
 
-    *longer = (rb_rolling_mesh){.n = mesh->n + tail,
-                                .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
+    *longer =
+        (rb_rolling_mesh){.n = mesh->n + tail, .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
     if (!longer->ends)
         return RB_ENOMEM;
     for (int i = 0; i < tail; i++)
@@ -78,9 +78,8 @@ static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *
     return RB_OK;
 }
 
-static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body,
-                          double sign, const rb_rolling_mesh *mesh,
-                          rb_rolling_memory_track *r, rb_message *why)
+static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body, double sign,
+                          const rb_rolling_mesh *mesh, rb_rolling_memory_track *r, rb_message *why)
 {
     rb_rolling_relaxing *own = &r->body[r->bodies];
 
@@ -109,9 +108,8 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
     return s;
 }
 
-rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
-                                         const rb_rolling_mesh *mesh, int tail,
-                                         rb_rolling_memory_track *r, rb_message *why)
+rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                         int tail, rb_rolling_memory_track *r, rb_message *why)
 {
     rb_rolling_mesh longer = {0};
     rb_status s = extend(mesh, tail, &longer);
@@ -126,9 +124,9 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
     if (s == RB_OK && rc->elastic_b)
         s = add_body(rc, &rc->b, -1.0, &longer, r, why);
     rb_rolling_mesh_free(&longer);
-    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the past of %d elements",
-                                    mesh->n + tail)
-                          : s;
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the past of %d elements", mesh->n + tail)
+               : s;
 }
 
 /* Values of both directions move by one element towards -x; nothing comes from +x. */
@@ -139,16 +137,14 @@ static void move(int n, double *values)
 }
 
 /* Tractions on a body in its own frame: B is mirrored, its tangent points towards -x. */
-static void mirror(const rb_rolling_relaxing *body, int n, const double *on_a,
-                   double *own)
+static void mirror(const rb_rolling_relaxing *body, int n, const double *on_a, double *own)
 {
     memcpy(own, on_a, (size_t)n * sizeof *own);
     for (int i = n; i < 2 * n; i++)
         own[i] = body->sign * on_a[i];
 }
 
-void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls,
-                                   double *w0)
+void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0)
 {
     const int all = r->all, m = r->n + 1;
     double *own = r->scratch, *sum = own + 2 * all + 2, *w = sum + 2 * all + 2;
@@ -204,9 +200,8 @@ static double advance(const rb_rolling_memory_track *r, const rb_rolling_relaxin
         }
         loss_factors(time, step, factor);
         rb_bem_flexibility_apply(&body->f, e, w);
-        lost +=
-            ratio * (factor[0] * work(body, e, w) +
-                     2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
+        lost += ratio * (factor[0] * work(body, e, w) +
+                         2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
         of_change += ratio * factor[2];
     }
     for (size_t i = 0; i < size; i++)

@@ -33,8 +33,7 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
         rb_rolling_model_free(model);
         s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
     } else {
-        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, model, why),
-                                            why);
+        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, model, why), why);
     }
     rb_rolling_history_free(&history);
     s = take_solution(model, s, solution, why);
@@ -114,14 +113,12 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
     rb_status s = rb_rolling_case_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
-    if (s == RB_OK && (rc->formulation == RB_STEADY || rb_rolling_relaxes(rc) ||
-                       rb_rolling_has_heat(rc)))
-        s = rb_fail(
-            why, RB_EINVAL,
-            "a step: not for steady rolling, viscoelastic bodies or temperatures");
-    if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
+    if (s == RB_OK &&
+        (rc->formulation == RB_STEADY || rb_rolling_relaxes(rc) || rb_rolling_has_heat(rc)))
         s = rb_fail(why, RB_EINVAL,
-                    "a step: its length %g: expected > 0 where it rolls, 0 at rest",
+                    "a step: not for steady rolling, viscoelastic bodies or temperatures");
+    if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
+        s = rb_fail(why, RB_EINVAL, "a step: its length %g: expected > 0 where it rolls, 0 at rest",
                     step);
     if (s == RB_OK)
         s = set_up_between(rc, from, to, &model, why);

@@ -22,12 +22,12 @@ typedef struct {
     double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
     double *compliance; /* n: depth that a step wears per pressure [length/stress] */
     double *path;       /* n: way that the surfaces slide in a cycle [length] */
-    double *softer; /* flexibility with the compliance on its diagonal, or, where there
-                       is no matrix, 2n: the interface's with it */
-    double work;    /* of friction in a cycle [force] */
-    double track;   /* volume per unit width that B has lost where A slides or rolls on a
-                       plane [length^2] */
-    double passage; /* depth of that track in one passage of A [length] */
+    double *softer;     /* flexibility with the compliance on its diagonal, or, where there
+                           is no matrix, 2n: the interface's with it */
+    double work;        /* of friction in a cycle [force] */
+    double track;       /* volume per unit width that B has lost where A slides or rolls on a
+                           plane [length^2] */
+    double passage;     /* depth of that track in one passage of A [length] */
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
     const rb_rolling_wear_observer *observer; /* or NULL */
@@ -134,8 +134,8 @@ static rb_rolling_bodies softened(wear_state *r)
         return bodies;
     }
     for (size_t i = 0; i < 2 * n; i++)
-        r->softer[i] = (bodies.f.compliance ? bodies.f.compliance[i] : 0.0) +
-                       (i < n ? r->compliance[i] : 0.0);
+        r->softer[i] =
+            (bodies.f.compliance ? bodies.f.compliance[i] : 0.0) + (i < n ? r->compliance[i] : 0.0);
     bodies.f.compliance = r->softer;
     return bodies;
 }
@@ -152,8 +152,7 @@ static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message
     if (s == RB_OK)
         s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
     if (s == RB_OK)
-        s = rb_rolling_problem_create(model->rc, &model->mesh, bodies, NULL,
-                                      &model->problem, why);
+        s = rb_rolling_problem_create(model->rc, &model->mesh, bodies, NULL, &model->problem, why);
     return s;
 }
 
@@ -178,9 +177,8 @@ static rb_status wear_off(wear_state *r, rb_message *why)
 /* Depth per pressure and slid length. */
 static double archard(const wear_state *r)
 {
-    return r->wear->law == RB_WEAR_ARCHARD
-               ? r->wear->coefficient
-               : r->wear->coefficient * rb_rolling_largest_mu(&r->rc);
+    return r->wear->law == RB_WEAR_ARCHARD ? r->wear->coefficient
+                                           : r->wear->coefficient * rb_rolling_largest_mu(&r->rc);
 }
 
 static rb_status slide(wear_state *r, double way, rb_message *why)
@@ -201,8 +199,8 @@ static rb_status slide(wear_state *r, double way, rb_message *why)
 }
 
 /* Adds the slip of an increment of the cycle that counts, the second one. */
-static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h,
-                         int step, int steps, void *context)
+static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                         int steps, void *context)
 {
     wear_state *r = context;
     const int quarter = r->wear->increments;
@@ -241,11 +239,10 @@ static rb_status fret(wear_state *r, double cycles, rb_message *why)
 
     r->work = 0.0;
     memset(r->path, 0, (size_t)r->n * sizeof *r->path);
-    rb_status s = column
-                      ? rb_rolling_history_run(&r->rc, &program,
-                                               &(rb_rolling_observer){see_increment, r},
-                                               &model, &history, why)
-                      : RB_ENOMEM;
+    rb_status s =
+        column ? rb_rolling_history_run(&r->rc, &program, &(rb_rolling_observer){see_increment, r},
+                                        &model, &history, why)
+               : RB_ENOMEM;
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&history);
     free(column);
@@ -275,17 +272,15 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         const rb_contact_state *state = &model->state;
         const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
 
-        depth = r->wear->coefficient *
-                (r->wear->law == RB_WEAR_ARCHARD
-                     ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda,
-                                                state->p, h, e_T)
-                     : rb_rolling_dissipated_power(model->rc, state->n, state->lambda,
-                                                   state->q, h, e_T));
-        const double radius = before - turns * (1.0 - share) * depth,
-                     moved = r->rc.a.radius;
+        depth =
+            r->wear->coefficient *
+            (r->wear->law == RB_WEAR_ARCHARD
+                 ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p, h, e_T)
+                 : rb_rolling_dissipated_power(model->rc, state->n, state->lambda, state->q, h,
+                                               e_T));
+        const double radius = before - turns * (1.0 - share) * depth, moved = r->rc.a.radius;
         if (turns_b)
-            r->rc.b.radius =
-                before_b - turns * share * depth * moved / fabs(r->rc.b.radius);
+            r->rc.b.radius = before_b - turns * share * depth * moved / fabs(r->rc.b.radius);
         if (!(radius > 0.5 * before) || !(r->rc.b.radius / before_b > 0.5 || !turns_b))
             return rb_fail(
                 why, RB_EINVAL, "wear: a step takes %g of the radius %g; take more steps",
@@ -296,9 +291,9 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
     }
     r->passage = share * depth;
     r->track += turns_b ? 0.0 : r->passage * turns * 2.0 * M_PI * before;
-    r->work = rb_rolling_dissipated_power(r->model.rc, r->model.state.n,
-                                          r->model.state.lambda, r->model.state.q,
-                                          r->model.bodies.f.h, r->model.problem.e_T);
+    r->work =
+        rb_rolling_dissipated_power(r->model.rc, r->model.state.n, r->model.state.lambda,
+                                    r->model.state.q, r->model.bodies.f.h, r->model.problem.e_T);
     return s;
 }
 
@@ -316,8 +311,7 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     h->way[k] = way;
     h->radius[k] = r->rc.a.radius;
     h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
-    h->worn[k] =
-        rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
+    h->worn[k] = rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
     const int both = !rolls && !r->wear->slides; /* wear where they touch */
     double volume = 0.0, deepest = 0.0;
     for (int i = 0; i < r->n; i++) { /* none where it rolls */
@@ -334,8 +328,7 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     if (h->radius_b) {
         h->radius_b[k] = r->rc.b.radius;
         if (rolls) {
-            h->worn_b[k] =
-                M_PI * fabs(gsl_pow_2(h->radius_b_before) - gsl_pow_2(h->radius_b[k]));
+            h->worn_b[k] = M_PI * fabs(gsl_pow_2(h->radius_b_before) - gsl_pow_2(h->radius_b[k]));
             h->max_depth_b[k] = h->radius_b_before - h->radius_b[k];
         }
     }
@@ -349,10 +342,8 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     h->n++;
     rb_rolling_solution_free(r->last);
     *r->last = s;
-    return r->observer &&
-                   r->observer->step(r->last, h, k, r->wear->steps, r->observer->context)
-               ? rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k,
-                         r->wear->steps)
+    return r->observer && r->observer->step(r->last, h, k, r->wear->steps, r->observer->context)
+               ? rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k, r->wear->steps)
                : RB_OK;
 }
 
@@ -376,8 +367,7 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
     return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
 }
 
-static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                       rb_message *why)
+static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
     const int rolls = rc->formulation == RB_STEADY;
 
@@ -386,8 +376,7 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        "wear: only by sliding, by fretting cycles (static) or by rolling "
                        "(steady), not in a transient");
     if (!(wear->coefficient > 0.0) || isinf(wear->coefficient))
-        return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g",
-                       wear->coefficient);
+        return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g", wear->coefficient);
     if (!(wear->share >= 0.0 && wear->share <= 1.0))
         return rb_fail(why, RB_EINVAL, "wear share: expected 0 ... 1 of body B, got %g",
                        wear->share);
@@ -395,27 +384,21 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
         return rb_fail(why, RB_EINVAL, "wear: expected a distance or cycles > 0, got %g",
                        wear->way);
     if (wear->steps < 1 || wear->steps > 1000000)
-        return rb_fail(why, RB_EINVAL, "wear steps: expected 1 ... 1000000, got %d",
-                       wear->steps);
+        return rb_fail(why, RB_EINVAL, "wear steps: expected 1 ... 1000000, got %d", wear->steps);
     if (!rolls && !wear->slides && wear->increments < 1)
-        return rb_fail(why, RB_EINVAL, "wear increments: expected >= 1, got %d",
-                       wear->increments);
-    if (rb_rolling_largest_mu(rc) == 0.0 &&
-        (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
+        return rb_fail(why, RB_EINVAL, "wear increments: expected >= 1, got %d", wear->increments);
+    if (rb_rolling_largest_mu(rc) == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
         return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
-    if (rc->friction.law != RB_FRICTION_constant && !rolls &&
-        wear->law == RB_WEAR_DISSIPATION)
+    if (rc->friction.law != RB_FRICTION_constant && !rolls && wear->law == RB_WEAR_DISSIPATION)
         return rb_fail(why, RB_EINVAL,
                        "wear: the law of dissipation takes one coefficient of friction, "
                        "not a friction law");
     if (!rolls && rc->mesh != RB_MESH_UNIFORM)
-        return rb_fail(why, RB_EINVAL,
-                       "wear: the worn gap needs equal elements (--mesh uniform)");
+        return rb_fail(why, RB_EINVAL, "wear: the worn gap needs equal elements (--mesh uniform)");
     if (rolls && wear->slides)
-        return rb_fail(
-            why, RB_EINVAL,
-            "wear: --slide needs --formulation static; for a rolling wheel give "
-            "--cycles N (turns)");
+        return rb_fail(why, RB_EINVAL,
+                       "wear: --slide needs --formulation static; for a rolling wheel give "
+                       "--cycles N (turns)");
     if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
         return rb_fail(why, RB_EINVAL,
                        "wear: a rolling wheel of one elastic material only, got a layer, "
@@ -442,8 +425,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     r.rc.half_width = NAN;
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1,
-                                     history);
+        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1, history);
     if (s == RB_OK) {
         if (wear->share == 0.0) {
             free(history->worn_b);

@@ -35,8 +35,8 @@ static void run_child(int to, io_work *work, const void *context)
     _exit(0); /* the library's own end may crash too */
 }
 
-rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
-                         char **bytes, size_t *size, rb_message *why)
+rb_status rb_io_in_child(const char *name, io_work *work, const void *context, char **bytes,
+                         size_t *size, rb_message *why)
 {
     int end[2], status = 0;
     ending e;
@@ -61,8 +61,8 @@ rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
     if (!all || *size < sizeof e) {
         free(all);
         if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
-            return rb_fail(why, RB_ENOMEM,
-                           "%s: HDF5 crashed: out of memory, or a damaged file", name);
+            return rb_fail(why, RB_ENOMEM, "%s: HDF5 crashed: out of memory, or a damaged file",
+                           name);
         return rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
     }
     *size -= sizeof e;

@@ -57,8 +57,8 @@ static int is_module_line(const char *line, int *module)
 static void fail(reading *r, const char *names, const char *got)
 {
     if (r->status == RB_OK)
-        r->status = rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %s, got '%.60s'",
-                            r->path, r->line, names, got ? got : "the end of the file");
+        r->status = rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %s, got '%.60s'", r->path, r->line,
+                            names, got ? got : "the end of the file");
 }
 
 /* The next n numbers, of one line or more; what stands behind them is a comment.  A d
@@ -95,9 +95,8 @@ static int whole(reading *r, double x, const char *names)
     if (fabs(x) <= 1e9 && x == floor(x))
         return (int)x;
     if (r->status == RB_OK)
-        r->status =
-            rb_fail(r->why, RB_EFORMAT, "%s:%d: %s: expected whole numbers, got %g",
-                    r->path, r->line, names, x);
+        r->status = rb_fail(r->why, RB_EFORMAT, "%s:%d: %s: expected whole numbers, got %g",
+                            r->path, r->line, names, x);
     return 0;
 }
 
@@ -122,8 +121,7 @@ static void read_control(reading *r, rb_io_contact_digits *d)
 {
     int x[8] = {0};
     read_digits(r, 6, x, "the digits P-B-T-N-F-S");
-    *d = (rb_io_contact_digits){
-        .P = x[0], .B = x[1], .T = x[2], .N = x[3], .F = x[4], .S = x[5]};
+    *d = (rb_io_contact_digits){.P = x[0], .B = x[1], .T = x[2], .N = x[3], .F = x[4], .S = x[5]};
     read_digits(r, 7, x, "the digits L-D-C-M-Z-E");
     d->V = x[0];
     d->L = x[1];
@@ -221,8 +219,7 @@ static void read_grid(reading *r, rb_io_contact_case *c)
         snprintf(got, sizeof got, "%d", c->potential);
         fail(r, "IPOTCN from 1 to 4, or negative", got);
     }
-    read_numbers(r, c->potential > 0 || c->potential == -6 ? 6 : 5, x,
-                 "MX, MY and the grid", NULL);
+    read_numbers(r, c->potential > 0 || c->potential == -6 ? 6 : 5, x, "MX, MY and the grid", NULL);
     if (r->status == RB_OK) {
         c->mx = whole(r, x[0], "MX");
         c->my = whole(r, x[1], "MY");
@@ -242,8 +239,7 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     if (c->potential >= 3)
         c->from -= c->dx / 2;
     if (c->mx < 1 || c->my < 1 ||
-        (c->potential > 0 &&
-         (!isfinite(c->from) || !(c->from + c->mx * c->dx > c->from))))
+        (c->potential > 0 && (!isfinite(c->from) || !(c->from + c->mx * c->dx > c->from))))
         fail(r, "MX, MY >= 1 and DX > 0", "another grid");
 }
 
@@ -282,8 +278,7 @@ static int stays(reading *r, const rb_io_contact_case *c)
 }
 
 /* What a case has behind what is read here ends at the next line that says MODULE. */
-rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases,
-                             rb_message *why)
+rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases, rb_message *why)
 {
     reading r = {.path = path, .why = why};
     rb_io_contact_case now = {.potential = 1};
@@ -336,9 +331,8 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
         } while (r.status == RB_OK && module == 3 && stays(&r, &now));
     }
     if (r.status == RB_OK && *n == 0)
-        r.status =
-            rb_fail(why, RB_EFORMAT,
-                    "%s: no line such as '3 MODULE': not an input file of CONTACT", path);
+        r.status = rb_fail(why, RB_EFORMAT,
+                           "%s: no line such as '3 MODULE': not an input file of CONTACT", path);
     if (r.status != RB_OK) {
         free(*cases);
         *cases = NULL;

@@ -30,11 +30,11 @@ typedef struct {
 static arrays arrays_of(rb_io_fclib *p)
 {
     const int m = p->contacts * p->spacedim;
-    return (arrays){.matrix = {&p->M, &p->H, &p->W, &p->G, &p->V, &p->R},
-                    .vector = {&p->mu, &p->f, &p->w, &p->q, &p->mu_r, &p->b, &p->s, &p->r,
-                               &p->u, &p->v},
-                    .length = {p->contacts, p->M.rows, m, m, p->contacts, p->constraints,
-                               p->constraints, m, m, p->M.rows}};
+    return (arrays){
+        .matrix = {&p->M, &p->H, &p->W, &p->G, &p->V, &p->R},
+        .vector = {&p->mu, &p->f, &p->w, &p->q, &p->mu_r, &p->b, &p->s, &p->r, &p->u, &p->v},
+        .length = {p->contacts, p->M.rows, m, m, p->contacts, p->constraints, p->constraints, m, m,
+                   p->M.rows}};
 }
 
 void rb_io_fclib_free(rb_io_fclib *problem)
@@ -51,8 +51,7 @@ void rb_io_fclib_free(rb_io_fclib *problem)
 
 int rb_io_is_hdf5(const char *path)
 {
-    static const unsigned char signature[] = {0x89, 'H',  'D',  'F',
-                                              '\r', '\n', 0x1a, '\n'};
+    static const unsigned char signature[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     unsigned char head[sizeof signature];
     const int fd = open(path, O_RDONLY);
     if (fd < 0)
@@ -104,22 +103,19 @@ static int exists(const reader *in, const char *name)
 }
 
 /* An array lies in this file, which is large enough for it. */
-static rb_status check_storage(const reader *in, const char *name, hid_t set,
-                               double points)
+static rb_status check_storage(const reader *in, const char *name, hid_t set, double points)
 {
     const hid_t layout = H5Dget_create_plist(set), type = H5Dget_type(set);
-    const int outside =
-        H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
+    const int outside = H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
     const double bytes = points * (double)H5Tget_size(type);
     H5Pclose(layout);
     H5Tclose(type);
     if (outside)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path,
-                       name);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path, name);
     if (bytes > in->most)
         return rb_fail(in->why, RB_EFORMAT,
-                       "%s: %s has %g bytes: a file of this size holds at most %g",
-                       in->path, name, bytes, in->most);
+                       "%s: %s has %g bytes: a file of this size holds at most %g", in->path, name,
+                       bytes, in->most);
     return RB_OK;
 }
 
@@ -142,8 +138,8 @@ static rb_status open_array(const reader *in, const char *name, hid_t *set, int 
 }
 
 /* The whole array, its length in n; type: what to convert to. */
-static rb_status read_array(const reader *in, const char *name, hid_t type, size_t size,
-                            int *n, void **values)
+static rb_status read_array(const reader *in, const char *name, hid_t type, size_t size, int *n,
+                            void **values)
 {
     hid_t set;
     *values = NULL;
@@ -154,8 +150,7 @@ static rb_status read_array(const reader *in, const char *name, hid_t type, size
     if (!*values)
         s = RB_ENOMEM;
     else if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
-        s = rb_fail(in->why, RB_EFORMAT, "%s: %s cannot be read (truncated?)", in->path,
-                    name);
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s cannot be read (truncated?)", in->path, name);
     H5Dclose(set);
     if (s != RB_OK) {
         free(*values);
@@ -164,8 +159,7 @@ static rb_status read_array(const reader *in, const char *name, hid_t type, size
     return s;
 }
 
-static rb_status read_int(const reader *in, const char *group, const char *name,
-                          int *value)
+static rb_status read_int(const reader *in, const char *group, const char *name, int *value)
 {
     char full[160];
     int n;
@@ -180,27 +174,27 @@ static rb_status read_int(const reader *in, const char *group, const char *name,
     return s;
 }
 
-static rb_status read_values(const reader *in, const char *group, const char *name,
-                             hid_t type, int least, void **values)
+static rb_status read_values(const reader *in, const char *group, const char *name, hid_t type,
+                             int least, void **values)
 {
     char full[160];
     int n;
     snprintf(full, sizeof full, "%s/%s", group, name);
     const rb_status s = read_array(in, full, type, H5Tget_size(type), &n, values);
     if (s == RB_OK && n < least)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d",
-                       in->path, full, n, least);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d", in->path, full, n,
+                       least);
     return s;
 }
 
-static rb_status read_ints(const reader *in, const char *group, const char *name,
-                           int least, int **values)
+static rb_status read_ints(const reader *in, const char *group, const char *name, int least,
+                           int **values)
 {
     return read_values(in, group, name, H5T_NATIVE_INT, least, (void **)values);
 }
 
-static rb_status read_doubles(const reader *in, const char *group, const char *name,
-                              int least, double **values)
+static rb_status read_doubles(const reader *in, const char *group, const char *name, int least,
+                              double **values)
 {
     return read_values(in, group, name, H5T_NATIVE_DOUBLE, least, (void **)values);
 }
@@ -214,8 +208,7 @@ static rb_status expand(const reader *in, const char *group, int n, int nz, cons
         return RB_ENOMEM;
     for (int j = 0; j < n; j++) {
         if (p[j] < 0 || p[j] > p[j + 1] || p[j + 1] > nz)
-            return rb_fail(in->why, RB_EFORMAT, "%s: %s/p does not increase", in->path,
-                           group);
+            return rb_fail(in->why, RB_EFORMAT, "%s: %s/p does not increase", in->path, group);
         for (int k = p[j]; k < p[j + 1]; k++)
             (*wide)[k] = j;
     }
@@ -224,8 +217,7 @@ static rb_status expand(const reader *in, const char *group, int n, int nz, cons
 
 /* Triplet: i holds rows and p columns, as CSparse writes them (fclib.h says the
  * opposite). nzmax may exceed what is stored. */
-static rb_status assemble(const reader *in, const char *group, int m, int n, int nz,
-                          rb_sparse *a)
+static rb_status assemble(const reader *in, const char *group, int m, int n, int nz, rb_sparse *a)
 {
     const int lines = nz == -1 ? n : m;
     int *p = NULL, *i = NULL, *wide = NULL;
@@ -251,8 +243,8 @@ static rb_status assemble(const reader *in, const char *group, int m, int n, int
                                .x = x};
         s = rb_sparse_from_triplets(&t, a);
         if (s == RB_EINVAL)
-            s = rb_fail(in->why, RB_EFORMAT, "%s: %s: index out of range for %d x %d",
-                        in->path, group, m, n);
+            s = rb_fail(in->why, RB_EFORMAT, "%s: %s: index out of range for %d x %d", in->path,
+                        group, m, n);
     }
     free(x);
     free(wide);
@@ -272,8 +264,8 @@ static rb_status read_matrix(const reader *in, const char *group, rb_sparse *a)
     if (s != RB_OK)
         return s;
     if (m < 1 || n < 1 || fmax(m, n) > fmin(in->most, 1 << 28) || nz < -2)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path,
-                       group, m, n, nz);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path, group, m, n,
+                       nz);
     return assemble(in, group, m, n, nz, a);
 }
 
@@ -315,14 +307,12 @@ static rb_status read_common(const reader *in, const char *root, int rows, rb_io
         return rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected %s", in->path,
                        p->spacedim, p->rolling ? "5" : "2 or 3");
     if (rows % p->spacedim)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d",
-                       in->path, rows, p->spacedim);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d", in->path,
+                       rows, p->spacedim);
     p->contacts = rows / p->spacedim;
     snprintf(vectors, sizeof vectors, "%s/vectors", root);
     s = read_doubles(in, vectors, "mu", p->contacts, &p->mu);
-    return s == RB_OK && p->rolling
-               ? read_doubles(in, vectors, "mu_r", p->contacts, &p->mu_r)
-               : s;
+    return s == RB_OK && p->rolling ? read_doubles(in, vectors, "mu_r", p->contacts, &p->mu_r) : s;
 }
 
 /* A matrix of constraints, if any part of them is there: a column for each. */
@@ -331,9 +321,8 @@ static rb_status read_columns(const reader *in, const char *group, int rows, int
 {
     const rb_status s = read_matrix(in, group, a);
     if (s == RB_OK && (a->rows != rows || (*count && a->cols != *count)))
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d, expected %d x %d",
-                       in->path, group, a->rows, a->cols, rows,
-                       *count ? *count : a->cols);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d, expected %d x %d", in->path, group,
+                       a->rows, a->cols, rows, *count ? *count : a->cols);
     if (s == RB_OK)
         *count = a->cols;
     return s;
@@ -350,16 +339,12 @@ static rb_status read_local_constraints(const reader *in, rb_io_fclib *p)
         s = read_columns(in, "/fclib_local/R", p->constraints, &p->constraints, &p->R);
     if (s == RB_OK)
         s = complete_symmetric(&p->R);
-    return s == RB_OK
-               ? read_doubles(in, "/fclib_local/vectors", "s", p->constraints, &p->s)
-               : s;
+    return s == RB_OK ? read_doubles(in, "/fclib_local/vectors", "s", p->constraints, &p->s) : s;
 }
 
 static const char *root_of(const rb_io_fclib *p)
 {
-    return p->rolling  ? "fclib_global_rolling"
-           : p->global ? "fclib_global"
-                       : "fclib_local";
+    return p->rolling ? "fclib_global_rolling" : p->global ? "fclib_global" : "fclib_local";
 }
 
 /* M v = H r + G l + f, G' v + b = 0 */
@@ -387,8 +372,7 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
     if (!p->rolling && exists(in, "/fclib_local")) {
         s = read_matrix(in, "/fclib_local/W", &p->W);
         if (s == RB_OK && p->W.rows != p->W.cols)
-            s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows,
-                        p->W.cols);
+            s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows, p->W.cols);
         if (s == RB_OK)
             s = read_common(in, "/fclib_local", p->W.rows, p);
         if (s == RB_OK)
@@ -407,8 +391,8 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
         if (s == RB_OK)
             s = read_matrix(in, H, &p->H);
         if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
-            s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d",
-                        in->path, p->M.rows, p->M.cols, p->H.rows, p->H.cols);
+            s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d", in->path,
+                        p->M.rows, p->M.cols, p->H.rows, p->H.cols);
         if (s == RB_OK)
             s = read_common(in, root, p->H.cols, p);
         if (s == RB_OK)
@@ -417,8 +401,7 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
             s = read_doubles(in, vectors, "w", p->H.cols, &p->w);
         s = s == RB_OK ? read_global_constraints(in, p) : s;
     } else
-        return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem",
-                       in->path);
+        return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem", in->path);
     if (s != RB_OK)
         return s;
     /* What is there under /solution and long enough. */
@@ -477,9 +460,9 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
                        why,
                        &unknown,
                        &linked};
-    rb_status s = in.file < 0 ? rb_fail(why, RB_EFORMAT,
-                                        "%s: HDF5 cannot open it (truncated?)", in.path)
-                              : read_file(&in, &p);
+    rb_status s = in.file < 0
+                      ? rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot open it (truncated?)", in.path)
+                      : read_file(&in, &p);
     if (s == RB_OK && unknown)
         s = rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot search it (truncated?)", in.path);
     if (linked)
@@ -589,8 +572,7 @@ static void write_set(hid_t parent, const char *name, hid_t type, hid_t space, i
 {
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(properties, 0); /* the same numbers give the same bytes */
-    const hid_t set =
-        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+    const hid_t set = H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     if (n)
         H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
     H5Dclose(set);
@@ -598,8 +580,7 @@ static void write_set(hid_t parent, const char *name, hid_t type, hid_t space, i
     H5Sclose(space);
 }
 
-static void write_array(hid_t parent, const char *name, hid_t type, int n,
-                        const void *values)
+static void write_array(hid_t parent, const char *name, hid_t type, int n, const void *values)
 {
     const hsize_t size = (hsize_t)n;
     write_set(parent, name, type, H5Screate_simple(1, &size, NULL), n, values);
@@ -642,8 +623,7 @@ static rb_status write_matrix(hid_t parent, const char *name, const rb_sparse *a
         s = rb_sparse_transpose(a, &t);
     if (s == RB_OK) {
         const rb_sparse *lines = t.p ? &t : a;
-        const hid_t group =
-            H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
         write_int(group, "m", a->rows);
         write_int(group, "n", a->cols);
         write_int(group, "nz", triplets ? entries : NZ[layout]);
@@ -660,15 +640,13 @@ static rb_status write_matrix(hid_t parent, const char *name, const rb_sparse *a
 }
 
 /* The vectors from the first to before the last that the problem has. */
-static void write_vectors(hid_t parent, const char *name, rb_io_fclib p, int first,
-                          int last)
+static void write_vectors(hid_t parent, const char *name, rb_io_fclib p, int first, int last)
 {
     const arrays all = arrays_of(&p);
     const hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     for (int k = first; k < last; k++)
         if (*all.vector[k])
-            write_array(group, VECTOR[k], H5T_NATIVE_DOUBLE, all.length[k],
-                        *all.vector[k]);
+            write_array(group, VECTOR[k], H5T_NATIVE_DOUBLE, all.length[k], *all.vector[k]);
     H5Gclose(group);
 }
 
@@ -693,10 +671,8 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
         const hid_t file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
         rb_io_fclib p = *c->problem;
         const arrays all = arrays_of(&p);
-        const hid_t root =
-            H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-        const hid_t info =
-            H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t root = H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t info = H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
         write_int(root, "spacedim", p.spacedim);
         write_text(info, "title", c->title ? c->title : "");
         write_text(info, "description", c->description ? c->description : "");
@@ -724,9 +700,8 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
     return failed || s != RB_OK ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;
 }
 
-rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
-                            rb_io_fclib_layout layout, const char *title,
-                            const char *description, rb_message *why)
+rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem, rb_io_fclib_layout layout,
+                            const char *title, const char *description, rb_message *why)
 {
     const contents c = {problem, layout, title, description};
     rb_io_writer w;

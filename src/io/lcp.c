@@ -27,8 +27,8 @@ static size_t count_words(io_tokens *t)
 
 /* ---- Vectors ---------------------------------------------------------------------- */
 
-static rb_status read_vector(const char *path, int n, const char *what, int infinite,
-                             double **x, rb_message *why)
+static rb_status read_vector(const char *path, int n, const char *what, int infinite, double **x,
+                             rb_message *why)
 {
     io_tokens t;
     *x = NULL;
@@ -38,11 +38,10 @@ static rb_status read_vector(const char *path, int n, const char *what, int infi
         rb_io_matrix m;
         rb_io_read_matrix_market(&t, &m);
         if (t.status == RB_OK && (m.rows != n || m.cols != 1))
-            rb_io_tokens_fail(&t, "%s: expected a matrix of %d by 1, got %d by %d", what,
-                              n, m.rows, m.cols);
+            rb_io_tokens_fail(&t, "%s: expected a matrix of %d by 1, got %d by %d", what, n, m.rows,
+                              m.cols);
         if (t.status == RB_OK && rb_io_matrix_to_dense(&m) != RB_OK)
-            t.status =
-                rb_fail(t.why, RB_ENOMEM, "%s: out of memory for %s", t.path, what);
+            t.status = rb_fail(t.why, RB_ENOMEM, "%s: out of memory for %s", t.path, what);
         if (t.status == RB_OK) {
             *x = m.dense;
             m.dense = NULL;
@@ -64,14 +63,12 @@ static rb_status read_vector(const char *path, int n, const char *what, int infi
     return t.status;
 }
 
-rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
-                            rb_message *why)
+rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x, rb_message *why)
 {
     return read_vector(path, n, what, 0, x, why);
 }
 
-rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x,
-                            rb_message *why)
+rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x, rb_message *why)
 {
     return read_vector(path, n, what, 1, x, why);
 }
@@ -142,29 +139,26 @@ static void read_text(io_tokens *t, rb_io_lcp *p)
                           n);
 }
 
-rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
-                         rb_message *why)
+rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p, rb_message *why)
 {
     io_tokens t;
     *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why);
     if (is_market(&t)) {
         if (!q_path) {
-            rb_io_tokens_fail(&t,
-                              "a Matrix Market file holds M alone: q is wanted from a "
-                              "file of its own (--q)");
+            rb_io_tokens_fail(&t, "a Matrix Market file holds M alone: q is wanted from a "
+                                  "file of its own (--q)");
         } else {
             rb_io_read_matrix_market(&t, &p->M);
             if (t.status == RB_OK && p->M.rows != p->M.cols)
-                rb_io_tokens_fail(&t, "M: expected a square matrix, got %d by %d",
-                                  p->M.rows, p->M.cols);
+                rb_io_tokens_fail(&t, "M: expected a square matrix, got %d by %d", p->M.rows,
+                                  p->M.cols);
             p->n = p->M.rows;
             if (t.status == RB_OK)
                 t.status = rb_io_vector_read(q_path, p->n, "q", &p->q, t.why);
         }
     } else if (t.status == RB_OK && q_path)
-        rb_io_tokens_fail(&t,
-                          "this file holds q itself: only Matrix Market files do not");
+        rb_io_tokens_fail(&t, "this file holds q itself: only Matrix Market files do not");
     else if (t.status == RB_OK)
         read_text(&t, p);
     if (t.status != RB_OK)
@@ -193,9 +187,8 @@ rb_status rb_io_bimatrix_read(const char *path, rb_io_bimatrix *p, rb_message *w
     p->A = read_rows(&t, p->m, p->n, "A");
     p->B = read_rows(&t, p->m, p->n, "B");
     if (t.status == RB_OK && rb_io_tokens_more(&t))
-        rb_io_tokens_fail(&t,
-                          "expected the end of the file after m, n, A and B (%d by %d)",
-                          p->m, p->n);
+        rb_io_tokens_fail(&t, "expected the end of the file after m, n, A and B (%d by %d)", p->m,
+                          p->n);
     if (t.status != RB_OK)
         rb_io_bimatrix_free(p);
     rb_io_tokens_close(&t);

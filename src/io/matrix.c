@@ -41,9 +41,8 @@ rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char 
                                     rb_message *why)
 {
     if (m.rows < 0 || m.cols < 0 || m.ld < m.rows)
-        return rb_fail(why, RB_EINVAL,
-                       "%s: a matrix of %d by %d with leading dimension %d", path, m.rows,
-                       m.cols, m.ld);
+        return rb_fail(why, RB_EINVAL, "%s: a matrix of %d by %d with leading dimension %d", path,
+                       m.rows, m.cols, m.ld);
     rb_io_writer w;
     const rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
@@ -86,8 +85,7 @@ static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
         !have(t, m->dense = rb_alloc(rows, cols)))
         return;
     for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
-        rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows,
-                           "column of the triangle");
+        rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows, "column of the triangle");
         for (size_t i = j; i < rows; i++)
             m->dense[j + i * rows] = m->dense[i + j * rows];
     }
@@ -124,9 +122,8 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
             (rb_io_tokens_take(t, "real") || rb_io_tokens_take(t, "integer"));
     kind.symmetric = rb_io_tokens_take(t, "symmetric");
     if (!known || !(kind.symmetric || rb_io_tokens_take(t, "general")))
-        rb_io_tokens_fail(t,
-                          "expected the line '%%%%MatrixMarket matrix array|coordinate "
-                          "real|integer general|symmetric'");
+        rb_io_tokens_fail(t, "expected the line '%%%%MatrixMarket matrix array|coordinate "
+                             "real|integer general|symmetric'");
     while (rb_io_tokens_more(t) && *t->at == '%')
         rb_io_tokens_skip_line(t);
     m->rows = rb_io_tokens_int(t, 0, INT_MAX, "rows");

@@ -28,8 +28,7 @@ static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
 }
 
 /* n integers, increasing (by step at least) from low; the last is total. */
-static int *read_increasing(io_tokens *t, int n, int low, int step, int total,
-                            const char *what)
+static int *read_increasing(io_tokens *t, int n, int low, int step, int total, const char *what)
 {
     int *x = rb_io_tokens_alloc_int(t, (size_t)n, what);
     for (int i = 0; ok(t) && i < n; i++)
@@ -52,8 +51,7 @@ static int extent(const int *end, int i)
 
 static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix *m)
 {
-    const int j = b->column[k], rows = extent(b->row_end, i),
-              cols = extent(b->col_end, j);
+    const int j = b->column[k], rows = extent(b->row_end, i), cols = extent(b->col_end, j);
     const int row = b->row_end[i] - rows, col = b->col_end[j] - cols;
     rb_io_tokens_int(t, k, k, "number of the block");
     rb_triplets *e = &m->entries;
@@ -69,8 +67,7 @@ static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix
 static void read_sparse(io_tokens *t, rb_io_matrix *m)
 {
     char size[60];
-    const int origin =
-        rb_io_tokens_int(t, TRIPLETS, COLUMNS, "origin of the sparse matrix");
+    const int origin = rb_io_tokens_int(t, TRIPLETS, COLUMNS, "origin of the sparse matrix");
     snprintf(size, sizeof size, "%d-by-%d,", m->rows, m->cols);
     if (ok(t) && rb_io_tokens_more(t)) /* the version */
         rb_io_tokens_skip_line(t);
@@ -117,8 +114,7 @@ static void read_sparse(io_tokens *t, rb_io_matrix *m)
 static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
 {
     const int storage = rb_io_tokens_int(t, DENSE, SPARSE, "storage of the matrix");
-    m->rows =
-        rb_io_tokens_int(t, rows ? rows : 1, rows ? rows : INT_MAX, "rows of the matrix");
+    m->rows = rb_io_tokens_int(t, rows ? rows : 1, rows ? rows : INT_MAX, "rows of the matrix");
     cols = cols ? cols : m->rows;
     m->cols = rb_io_tokens_int(t, cols, cols, "columns of the matrix");
     if (!ok(t))
@@ -148,8 +144,7 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
             size_t nz = 0;
             for (int i = 0; i < b.rows; i++)
                 for (int k = b.first[i]; k < b.first[i + 1] && nz <= INT_MAX; k++)
-                    nz += (size_t)extent(b.row_end, i) *
-                          (size_t)extent(b.col_end, b.column[k]);
+                    nz += (size_t)extent(b.row_end, i) * (size_t)extent(b.col_end, b.column[k]);
             alloc_triplets(t, nz, m);
         }
         for (int i = 0; ok(t) && i < b.rows; i++)
@@ -223,8 +218,7 @@ static int read_sizes(io_tokens *t, int *dimension, int *contacts)
     return *dimension * *contacts;
 }
 
-rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
-                                      rb_message *why)
+rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p, rb_message *why)
 {
     io_tokens t;
     *p = (rb_io_friction){0};
@@ -313,14 +307,12 @@ int rb_io_siconos_kind_at(io_tokens *t)
     const int matrix = head[2] <= SPARSE && head[3] == head[4];
     if (head[1] <= SPARSE && head[2] == head[0] && head[3] == head[0])
         return RB_IO_SICONOS_LCP;
-    if (matrix && (head[0] == 2 || head[0] == 3) &&
-        head[3] == (long long)head[0] * head[1])
+    if (matrix && (head[0] == 2 || head[0] == 3) && head[3] == (long long)head[0] * head[1])
         return RB_IO_SICONOS_FRICTION;
     if (matrix && head[3] == head[0])
         return RB_IO_SICONOS_SOCLCP;
-    return matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0
-               ? RB_IO_SICONOS_FRICTION_GLOBAL
-               : -1;
+    return matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0 ? RB_IO_SICONOS_FRICTION_GLOBAL
+                                                                   : -1;
 }
 
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)

@@ -83,8 +83,8 @@ static rb_status check_name(const reading *r, int j)
 {
     for (int i = 0; i < j; i++)
         if (strcmp(r->t->name[i], r->t->name[j]) == 0)
-            return rb_fail(r->why, RB_EFORMAT, "%s:%d: column '%s' is named twice",
-                           r->path, r->line, r->t->name[j]);
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: column '%s' is named twice", r->path,
+                           r->line, r->t->name[j]);
     return RB_OK;
 }
 
@@ -132,8 +132,7 @@ static rb_status make_room(reading *r)
         return rb_fail(r->why, RB_EFORMAT, "%s:%d: more than %d rows", r->path, r->line,
                        r->capacity);
     const int capacity = r->capacity ? 2 * r->capacity : 64;
-    double *x =
-        realloc(t->x, sizeof(double) * (size_t)capacity * (size_t)(t->columns + 1));
+    double *x = realloc(t->x, sizeof(double) * (size_t)capacity * (size_t)(t->columns + 1));
     if (x)
         t->x = x;
     int *line = x ? realloc(t->line, sizeof(int) * (size_t)capacity) : NULL;
@@ -155,8 +154,8 @@ static rb_status read_row(reading *r, const char *text)
     for (size_t length; (length = next_word(&text, &word)) > 0; n++) {
         double value;
         if (!is_number(word, length, &value))
-            return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'",
-                           r->path, r->line, length < 60 ? (int)length : 60, word);
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'", r->path,
+                           r->line, length < 60 ? (int)length : 60, word);
         if (n < t->columns)
             t->x[(size_t)t->rows * (size_t)t->columns + (size_t)n] = value;
     }
@@ -164,9 +163,9 @@ static rb_status read_row(reading *r, const char *text)
         char names[160] = "";
         for (int j = 0; r->t->name && j < r->t->columns; j++)
             rb_append(names, sizeof names, "%s%s", j ? ", " : " (", r->t->name[j]);
-        return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d",
-                       r->path, r->line, r->t->columns, r->t->columns == 1 ? "" : "s",
-                       names, *names ? ")" : "", n);
+        return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path,
+                       r->line, r->t->columns, r->t->columns == 1 ? "" : "s", names,
+                       *names ? ")" : "", n);
     }
     t->line[t->rows++] = r->line;
     return RB_OK;
@@ -205,8 +204,7 @@ static rb_status by_columns(const reading *r)
         return no_memory(r);
     for (int i = 0; i < t->rows; i++)
         for (int j = 0; j < t->columns; j++)
-            x[i + (size_t)j * (size_t)t->rows] =
-                t->x[(size_t)i * (size_t)t->columns + (size_t)j];
+            x[i + (size_t)j * (size_t)t->rows] = t->x[(size_t)i * (size_t)t->columns + (size_t)j];
     free(t->x);
     t->x = x;
     return RB_OK;
@@ -245,19 +243,17 @@ rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
     return s;
 }
 
-rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
-                                     rb_message *why)
+rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t, rb_message *why)
 {
     if (t->columns == columns)
         return RB_OK;
-    const rb_status s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d",
-                                path, t->line[0], columns, t->columns);
+    const rb_status s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path,
+                                t->line[0], columns, t->columns);
     rb_io_table_free(t);
     return s;
 }
 
-rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
-                                   rb_message *why)
+rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t, rb_message *why)
 {
     const rb_status s = rb_io_table_read(path, t, why);
     return s == RB_OK ? rb_io_table_expect_columns(path, columns, t, why) : s;

@@ -43,8 +43,7 @@ char *rb_io_read_all(FILE *file, size_t most, size_t *size)
 
 static rb_status too_large(const char *path, size_t most, rb_message *why)
 {
-    return rb_fail(why, RB_EFORMAT, "%s: more than %zu MB, expected a text", path,
-                   most >> 20);
+    return rb_fail(why, RB_EFORMAT, "%s: more than %zu MB, expected a text", path, most >> 20);
 }
 
 /* Of them terminals end, and /dev/null is empty. */
@@ -64,11 +63,9 @@ static rb_status cannot_read(const char *path, rb_message *why)
 }
 
 /* What is no text is said to be none, before anything takes it for malformed numbers. */
-static rb_status check_text(const char *path, const char *text, size_t size,
-                            rb_message *why)
+static rb_status check_text(const char *path, const char *text, size_t size, rb_message *why)
 {
-    if (size >= 2 &&
-        (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0))
+    if (size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0))
         return rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
     const char *zero = memchr(text, '\0', size);
     if (!zero)

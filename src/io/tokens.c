@@ -160,9 +160,8 @@ int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *wh
     const size_t most = ((size_t)(t->end - t->at) + 1) / 2;
     if (rows <= most / cols)
         return 1;
-    rb_io_tokens_fail(t,
-                      "%s: expected %.10g numbers, the rest of the file has room for %zu",
-                      what, (double)rows * (double)cols, most);
+    rb_io_tokens_fail(t, "%s: expected %.10g numbers, the rest of the file has room for %zu", what,
+                      (double)rows * (double)cols, most);
     return 0;
 }
 
@@ -175,15 +174,13 @@ static void *allocated(io_tokens *t, void *memory, const char *what)
 
 double *rb_io_tokens_alloc(io_tokens *t, size_t rows, size_t cols, const char *what)
 {
-    return rb_io_tokens_room_for(t, rows, cols, what)
-               ? allocated(t, rb_alloc(rows, cols), what)
-               : NULL;
+    return rb_io_tokens_room_for(t, rows, cols, what) ? allocated(t, rb_alloc(rows, cols), what)
+                                                      : NULL;
 }
 
 int *rb_io_tokens_alloc_int(io_tokens *t, size_t n, const char *what)
 {
-    return rb_io_tokens_room_for(t, n, 1, what) ? allocated(t, rb_alloc_int(n), what)
-                                                : NULL;
+    return rb_io_tokens_room_for(t, n, 1, what) ? allocated(t, rb_alloc_int(n), what) : NULL;
 }
 
 int rb_io_tokens_more(io_tokens *t)

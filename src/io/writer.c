@@ -276,8 +276,7 @@ char *rb_io_join(const char *folder, const char *name)
 rb_status rb_io_make_folder(const char *path, rb_message *why)
 {
     struct stat st;
-    if (mkdir(path, 0777) == 0 ||
-        (errno == EEXIST && stat(path, &st) == 0 && S_ISDIR(st.st_mode)))
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &st) == 0 && S_ISDIR(st.st_mode)))
         return RB_OK;
     return cannot_write(path, why);
 }
@@ -297,8 +296,7 @@ rb_status rb_io_folder_check(const char *path, rb_message *why)
     while (n > 1 && parent[n - 1] == '/')
         parent[--n] = '\0';
     char *here = parent ? beside(parent, ".") : NULL;
-    const rb_status s =
-        here && access(here, W_OK | X_OK) == 0 ? RB_OK : cannot_write(path, why);
+    const rb_status s = here && access(here, W_OK | X_OK) == 0 ? RB_OK : cannot_write(path, why);
     free(here);
     free(parent);
     return s;

@@ -31,8 +31,7 @@ static double natural(int n, const double *z, const double *w, double worst)
 }
 
 /* Half of z and more is zero: only runs of other entries are gone through. */
-static void add_product(int rows, int columns, const double *M, int ldm, const double *z,
-                        double *w)
+static void add_product(int rows, int columns, const double *M, int ldm, const double *z, double *w)
 {
     for (int from = 0, to; from < columns; from = to + 1) {
         for (to = from; to < columns && z[to] != 0.0;)
@@ -60,8 +59,7 @@ double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w)
 
 /* Of the variables first ... first + n - 1: the basic ones as given, `entering` 1, the
  * other nonbasic ones 0. */
-static double values(const lemke *l, const double *basic, int entering, int first,
-                     double *x)
+static double values(const lemke *l, const double *basic, int entering, int first, double *x)
 {
     for (int i = 0; i < l->n; i++) {
         const int v = first + i, row = l->t.place[v];
@@ -72,8 +70,8 @@ static double values(const lemke *l, const double *basic, int entering, int firs
 
 /* r = constant + M z + d z0 - w at these values, which is zero but for rounding; constant
  * NULL: 0.  Returns max |r| as a part of the terms' size.  z: scratch. */
-static double defect(const lemke *l, const double *constant, const double *basic,
-                     int entering, double *z, double *r)
+static double defect(const lemke *l, const double *constant, const double *basic, int entering,
+                     double *z, double *r)
 {
     const int n = l->n, z0_row = l->t.place[2 * n];
     const double z0 = z0_row >= 0 ? basic[z0_row] : (double)(entering == 2 * n);
@@ -93,9 +91,8 @@ rb_status rb_lcp_lemke_rebuild(lemke *l)
 {
     l->rebuilt = l->info->iters;
     const rb_status s = rb_lcp_tableau_rebuild(&l->t);
-    return s == RB_ENOMEM
-               ? rb_fail(&l->info->msg, s, "lcp: out of memory to rebuild the tableau")
-               : s;
+    return s == RB_ENOMEM ? rb_fail(&l->info->msg, s, "lcp: out of memory to rebuild the tableau")
+                          : s;
 }
 
 rb_status rb_lcp_lemke_keep_accurate(lemke *l)
@@ -172,8 +169,7 @@ static void polish(lemke *l, double *z)
     for (size_t j = 0; j < m; j++)
         for (size_t i = 0; i < m; i++)
             b.LU[i + j * m] = l->data.p.M[(size_t)b.index[i] + (size_t)b.index[j] * ldm];
-    if (!(m > 0 &&
-          LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b.m, b.m, b.LU, b.m, b.pivots) == 0))
+    if (!(m > 0 && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b.m, b.m, b.LU, b.m, b.pivots) == 0))
         return;
     memset(x, 0, n * sizeof *x);
     correct(l, &b, l->a, l->other, x);

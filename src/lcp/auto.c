@@ -57,8 +57,8 @@ static structure read_structure(const rb_sparse *M)
 
 enum { TABLEAU, SPARSE, NEWTON, MEMBERS };
 
-static const lcp_method *const methods[MEMBERS] = {
-    &rb_lcp_tableau_method, &rb_lcp_sparse_method, &rb_lcp_newton_method};
+static const lcp_method *const methods[MEMBERS] = {&rb_lcp_tableau_method, &rb_lcp_sparse_method,
+                                                   &rb_lcp_newton_method};
 
 typedef struct {
     const lcp_method *method;
@@ -229,10 +229,8 @@ static rb_status play(portfolio *p, double *z, rb_lcp_info *info)
             member *a = &p->member[k];
             if (a->ended)
                 continue;
-            s = round ? take_turn(p, a, last ? allowance : allowance * a->share)
-                      : first_turn(p);
-            if (a->ended &&
-                (s == RB_OK || s < 0 || s == RB_INTERRUPTED || a == spokesman(p)))
+            s = round ? take_turn(p, a, last ? allowance : allowance * a->share) : first_turn(p);
+            if (a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED || a == spokesman(p)))
                 keep(p, a, z, info);
             if (a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED))
                 return s;
@@ -286,8 +284,8 @@ const rb_lcp_solver *rb_lcp_solvers(int *count)
     return solvers;
 }
 
-rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
-                       const rb_lcp_options *opt, double *z, rb_lcp_info *info)
+rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info)
 {
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};
@@ -310,10 +308,8 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
         return s;
     const int path = o.trace || o.cover || o.rule != RB_LCP_LEXICOGRAPHIC;
     if (kind == AUTO && !path && !boxes) {
-        const lcp_task task = {.M = {.n = p->M->cols, .sparse = p->M},
-                               .q = p->q,
-                               .opt = &o,
-                               .began = rb_seconds()};
+        const lcp_task task = {
+            .M = {.n = p->M->cols, .sparse = p->M}, .q = p->q, .opt = &o, .began = rb_seconds()};
         const rb_status game = rb_lcp_game_solve(p->M, p->q, &o, z, info);
         return game == RB_OK || game < 0 ? game : run_portfolio(&task, z, info);
     }
@@ -328,8 +324,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p,
     if (status == RB_OK)
         status = rb_lcp_lemke(&(rb_lcp_problem){n, dense, n, p->q}, &o, z, info);
     else
-        rb_fail(&info->msg, status, "lcp: out of memory for a dense matrix of order %d",
-                n);
+        rb_fail(&info->msg, status, "lcp: out of memory for a dense matrix of order %d", n);
     free(dense);
     return status;
 }

@@ -22,8 +22,8 @@ rb_status rb_lcp_basis_create(const rb_sparse *M, lcp_basis *b)
     b->pivot = rb_alloc_int(MOST_EXCHANGES);
     b->scale = rb_alloc(MOST_EXCHANGES, 1);
     b->start = calloc(MOST_EXCHANGES + 1, sizeof *b->start);
-    if (!b->d || !b->variable || !b->A.p || !b->A.i || !b->A.x || !b->pivot ||
-        !b->scale || !b->start) {
+    if (!b->d || !b->variable || !b->A.p || !b->A.i || !b->A.x || !b->pivot || !b->scale ||
+        !b->start) {
         rb_lcp_basis_free(b);
         return RB_ENOMEM;
     }

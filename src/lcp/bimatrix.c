@@ -63,15 +63,13 @@ static int blocking_row(const tableau *t, int entering, int *tied)
         double least = INFINITY, size = 0.0;
         int kept = 0;
         for (int i = 0; i < count; i++) {
-            const double ratio =
-                row_of(t, tied[i])[column] / row_of(t, tied[i])[entering];
+            const double ratio = row_of(t, tied[i])[column] / row_of(t, tied[i])[entering];
             least = fmin(least, ratio);
             size = fmax(size, fabs(ratio));
         }
         for (int i = 0; i < count; i++) {
             const double *row = row_of(t, tied[i]);
-            if (row[column] / row[entering] - least <=
-                SAME * fmax(fabs(least), SAME * size))
+            if (row[column] / row[entering] - least <= SAME * fmax(fabs(least), SAME * size))
                 tied[kept++] = tied[i];
         }
         count = kept;
@@ -181,8 +179,7 @@ static rb_status follow_path(lemke_howson *l, int dropped)
         const int row = blocking_row(t, entering, l->tied);
         if (row < 0)
             return rb_fail(&l->info->msg, RB_INACCURATE,
-                           "lcp: rounding errors are too large after %d pivots",
-                           l->info->iters);
+                           "lcp: rounding errors are too large after %d pivots", l->info->iters);
         leaving = t->basis[row];
         pivot(t, row, entering);
         /* After the pivot on that row of t. */
@@ -209,10 +206,8 @@ double rb_lcp_bimatrix_regret(const rb_lcp_game *g, const double *z, double *reg
     const int m = g->m, n = g->n;
     double worst = 0.0;
     payoff[0] = payoff[1] = -INFINITY;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, m, n, -1.0, g->A, g->ld, y, 1, 0.0, regret,
-                1);
-    cblas_dgemv(CblasColMajor, CblasTrans, m, n, -1.0, g->B, g->ld, x, 1, 0.0, regret + m,
-                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, m, n, -1.0, g->A, g->ld, y, 1, 0.0, regret, 1);
+    cblas_dgemv(CblasColMajor, CblasTrans, m, n, -1.0, g->B, g->ld, x, 1, 0.0, regret + m, 1);
     for (int k = 0; k < m + n; k++)
         payoff[k >= m] = fmax(payoff[k >= m], -regret[k]);
     for (int k = 0; k < m + n; k++) {
@@ -233,14 +228,12 @@ static rb_status check_input(const rb_lcp_game *g, int label, rb_message *why)
                        "<= ld, 1 <= n",
                        m, n, g->ld);
     if (label < 0 || label >= m + n)
-        return rb_fail(why, RB_EINVAL, "lcp: label %d: expected 1 to %d", label + 1,
-                       m + n);
+        return rb_fail(why, RB_EINVAL, "lcp: label %d: expected 1 to %d", label + 1, m + n);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < m; i++) {
             const size_t at = (size_t)i + (size_t)j * (size_t)g->ld;
             if (!isfinite(g->A[at]) || !isfinite(g->B[at]))
-                return rb_fail(why, RB_EINVAL,
-                               "lcp: %c(%d, %d): expected a finite number",
+                return rb_fail(why, RB_EINVAL, "lcp: %c(%d, %d): expected a finite number",
                                isfinite(g->A[at]) ? 'B' : 'A', i + 1, j + 1);
         }
     return RB_OK;
@@ -248,12 +241,11 @@ static rb_status check_input(const rb_lcp_game *g, int label, rb_message *why)
 
 static rb_status out_of_memory(const rb_lcp_game *g, rb_message *why)
 {
-    return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", g->m,
-                   g->n);
+    return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", g->m, g->n);
 }
 
-rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options *opt,
-                          double *z, rb_lcp_info *info)
+rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options *opt, double *z,
+                          rb_lcp_info *info)
 {
     rb_lcp_info unread;
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
@@ -289,8 +281,7 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
 /* With payoffs turned into costs a, b > 0 an equilibrium is, but for the length of its
  * halves, a solution of the LCP with M = [0 a; b' 0] and q = -1 (Cottle, Pang, Stone,
  * section 1.2); w >= 0 leaves neither half of it zero. */
-rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all,
-                                    rb_message *why)
+rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all, rb_message *why)
 {
     const int m = g->m, order = g->m + g->n;
     *all = (rb_lcp_solutions){0};

@@ -61,8 +61,7 @@ static int aggregate(const rb_sparse *M, int *of)
                 if (M->i[k] != j)
                     strong = fmax(strong, -STRONG * M->x[k]);
             for (int k = M->p[j]; k < M->p[j + 1]; k++)
-                if (M->i[k] != j && strong > 0.0 && -M->x[k] >= strong &&
-                    of[M->i[k]] >= 0)
+                if (M->i[k] != j && strong > 0.0 && -M->x[k] >= strong && of[M->i[k]] >= 0)
                     joined = of[M->i[k]];
             if (joined >= 0) {
                 of[j] = pass == 0 ? -1 : joined;
@@ -77,17 +76,14 @@ static int aggregate(const rb_sparse *M, int *of)
     return count;
 }
 
-rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z,
-                              double *work)
+rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z, double *work)
 {
     const int n = M->cols;
     int *of = rb_alloc_int((size_t)n);
     const int count = of ? aggregate(M, of) : 0;
     double *coarse_q = rb_alloc((size_t)count, 3);
     rb_sparse C = {0};
-    rb_status s = !of || !coarse_q      ? RB_ENOMEM
-                  : count > COARSER * n ? RB_SINGULAR
-                                        : RB_OK;
+    rb_status s = !of || !coarse_q ? RB_ENOMEM : count > COARSER * n ? RB_SINGULAR : RB_OK;
     if (s == RB_OK) {
         /* Sums of M over pairs of aggregates; what couples different ones is made softer
          * without a change of the columns' sums. */
@@ -111,8 +107,7 @@ rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z,
         rb_lcp_info info = {0};
         for (int i = 0; i < n; i++)
             coarse_q[of[i]] += q[i];
-        s = count < LCP_COARSE_FROM ? RB_SINGULAR
-                                    : rb_lcp_coarse_start(&C, coarse_q, start, work);
+        s = count < LCP_COARSE_FROM ? RB_SINGULAR : rb_lcp_coarse_start(&C, coarse_q, start, work);
         for (int a = 0; s == RB_SINGULAR && a < count; a++)
             start[a] = 1.0;
         if (s != RB_ENOMEM)

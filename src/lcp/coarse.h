@@ -13,7 +13,6 @@ enum { LCP_COARSE_FROM = 300 };
 int rb_lcp_coarse_fits(const rb_sparse *M);
 /* z (n): what the solution of a coarser problem comes to; work grows by its operations.
  * RB_SINGULAR: there is no coarser one, or it was not solved; RB_ENOMEM. */
-rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z,
-                              double *work);
+rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z, double *work);
 
 #endif

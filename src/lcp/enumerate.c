@@ -57,8 +57,8 @@ static int next_choice(search *s)
 static void product(search *s)
 {
     memcpy(s->w, s->p.q, (size_t)s->n * sizeof *s->w);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->p.M, s->p.ldm, s->z, 1,
-                1.0, s->w, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->p.M, s->p.ldm, s->z, 1, 1.0, s->w,
+                1);
 }
 
 /* z of the basis; 0: its matrix has no inverse. */
@@ -189,8 +189,8 @@ static rb_status check(const search *s, rb_message *why)
     return status;
 }
 
-rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
-                           const double *upper, rb_lcp_solutions *all, rb_message *why)
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
+                           rb_lcp_solutions *all, rb_message *why)
 {
     const int n = p->n;
     search s = {.n = n, .p = *p, .lower = lower, .upper = upper, .all = all};

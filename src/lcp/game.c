@@ -30,8 +30,8 @@ static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
     return of_other > 0 && *m > 0;
 }
 
-rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
-                            const rb_lcp_options *opt, double *z, rb_lcp_info *info)
+rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                            double *z, rb_lcp_info *info)
 {
     const int n = M->cols;
     int m = 0, count[2] = {0, 0};
@@ -61,8 +61,7 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
             for (int k = M->p[j]; k < M->p[j + 1]; k++) {
                 const int i = M->i[k], row = side[j] ? of[i] : of[j];
                 const int col = side[j] ? of[j] : of[i];
-                (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] =
-                    M->x[k] / q[i] * unit[j];
+                (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] = M->x[k] / q[i] * unit[j];
             }
         }
         /* Paths that begin with one strategy can be long where others are short: one
@@ -75,8 +74,8 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
         for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
             for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
                 o.max_iters = own && own < limit ? own : limit;
-                s = rb_lcp_bimatrix(&game, label * (n / LABELS > 0 ? n / LABELS : 1), &o,
-                                    mixed, info);
+                s = rb_lcp_bimatrix(&game, label * (n / LABELS > 0 ? n / LABELS : 1), &o, mixed,
+                                    info);
                 iters += info->iters;
                 if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
                     s = s == RB_MAXITER ? RB_INTERRUPTED : s;

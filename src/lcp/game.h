@@ -6,7 +6,7 @@
 
 /* z and info as the other solvers.  RB_SINGULAR: it is no game, and nothing was done;
  * other statuses as rb_lcp_bimatrix. */
-rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q,
-                            const rb_lcp_options *opt, double *z, rb_lcp_info *info);
+rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                            double *z, rb_lcp_info *info);
 
 #endif

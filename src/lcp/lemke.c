@@ -143,9 +143,9 @@ static rb_status find_row(lemke *l, int entering, int *row)
 {
     driving_column(l, entering);
     *row = blocking_row(l);
-    const int holds = *row < 0 ? rb_lcp_lemke_column_holds(l, entering)
-                               : l->rebuilt == l->info->iters ||
-                                     fabs(l->a[*row]) > DOUBT * largest(l->n, l->a);
+    const int holds =
+        *row < 0 ? rb_lcp_lemke_column_holds(l, entering)
+                 : l->rebuilt == l->info->iters || fabs(l->a[*row]) > DOUBT * largest(l->n, l->a);
     if (holds)
         return RB_OK;
     const rb_status s = rb_lcp_lemke_rebuild(l);
@@ -195,21 +195,19 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0)
 {
     info->ray_variable = entering;
     return rb_fail(&info->msg, RB_RAY,
-                   "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g",
-                   info->iters, entering < n ? 'w' : 'z', entering % n + 1, z0);
+                   "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g", info->iters,
+                   entering < n ? 'w' : 'z', entering % n + 1, z0);
 }
 
-rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
-                              double start)
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start)
 {
     const int most = opt->max_iters ? opt->max_iters : 50 * n + 1000;
     if (info->iters >= most)
-        return rb_fail(&info->msg, RB_MAXITER,
-                       "lcp: no solution after max_iters = %d pivots", most);
+        return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivots",
+                       most);
     if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
-        return rb_fail(&info->msg, RB_INTERRUPTED,
-                       "lcp: no solution after %d pivots in %g s", info->iters,
-                       opt->seconds);
+        return rb_fail(&info->msg, RB_INTERRUPTED, "lcp: no solution after %d pivots in %g s",
+                       info->iters, opt->seconds);
     return RB_OK;
 }
 
@@ -240,8 +238,7 @@ static rb_status follow_path(void *state)
             if (l->data.p.q[i] >= 0.0)
                 continue;
             const double ratio = l->data.p.q[i] / rb_lcp_cover(&l->data, i);
-            const int wins =
-                l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
+            const int wins = l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
             if (wins) {
                 least = ratio;
                 row = i;
@@ -287,8 +284,7 @@ static rb_status fail_memory(lemke *l)
  * Fathi short, and little enough for other paths to stay as long as with ones. */
 static const double GENERIC = 0.0625;
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
-                       void *state)
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     lemke *l = state;
     const lcp_matrix *M = &task->M;
@@ -303,8 +299,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
     rb_status s = rb_lcp_scale_create(M, task->q, balance_q, &l->scale);
     l->largest = l->scale.largest;
     if (s == RB_OK && l->scale.needed) {
-        s = rb_lcp_scaled_create(M, &l->scale, task->q, NULL, NULL, task->opt,
-                                 &l->scaled);
+        s = rb_lcp_scaled_create(M, &l->scale, task->q, NULL, NULL, task->opt, &l->scaled);
         if (s == RB_OK) {
             l->opt = l->scaled.opt;
             l->data = (lcp_data){{n, l->scaled.dense, n, l->scaled.q}, l->opt.cover};
@@ -364,11 +359,10 @@ static rb_status end(void *state, rb_status s, double *z)
     return s;
 }
 
-const lcp_method rb_lcp_tableau_method = {"lemke", sizeof(lemke), begin, follow_path,
-                                          end};
+const lcp_method rb_lcp_tableau_method = {"lemke", sizeof(lemke), begin, follow_path, end};
 
-rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state,
-                     double *z, rb_lcp_info *info)
+rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state, double *z,
+                     rb_lcp_info *info)
 {
     int first = 0;
     rb_status s = RB_OK;
@@ -397,10 +391,8 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
     const rb_status s = rb_lcp_check_dense(p, &o, &info->msg);
     if (s != RB_OK)
         return s;
-    const lcp_task task = {.M = {.n = p->n, .dense = p->M, .ld = p->ldm},
-                           .q = p->q,
-                           .opt = &o,
-                           .began = rb_seconds()};
+    const lcp_task task = {
+        .M = {.n = p->n, .dense = p->M, .ld = p->ldm}, .q = p->q, .opt = &o, .began = rb_seconds()};
     lemke l;
     return rb_lcp_run(&rb_lcp_tableau_method, &task, &l, z, info);
 }

@@ -52,8 +52,7 @@ static inline double lemke_z0(const lemke *l)
 }
 
 /* Nothing is known yet. */
-#define RB_LCP_INFO_NONE                                                                 \
-    ((rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1})
+#define RB_LCP_INFO_NONE ((rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1})
 
 /* ---- The ends that the methods share (lemke.c, newton.c) --------------------------- */
 
@@ -61,21 +60,18 @@ static inline double lemke_z0(const lemke *l)
 rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
 /* RB_OK: the path of a problem of order n may go on.  RB_MAXITER, RB_INTERRUPTED with
  * their messages; start: on rb_seconds(). */
-rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
-                              double start);
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start);
 /* RB_INACCURATE where info->scaled is not below 1e-10, with a message that names the row.
  */
 rb_status rb_lcp_assess(rb_lcp_info *info);
 
 /* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
 
-rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
-                             rb_message *why);
-rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
-                              const rb_lcp_options *opt, rb_message *why);
+rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt, rb_message *why);
+rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                              rb_message *why);
 /* lower, upper: n, NULL as in rb_lcp_mixed_problem.  RB_EINVAL: crossed bounds. */
-rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,
-                             rb_message *why);
+rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper, rb_message *why);
 
 /* All of these but q's cover, which the path itself looks for. */
 rb_status rb_lcp_check_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,

@@ -26,8 +26,7 @@ typedef struct {
     const char *name;
     size_t size; /* of its state */
     /* balance_q: scales that balance q as well. */
-    rb_status (*begin)(const lcp_task *task, int balance_q, rb_lcp_info *info,
-                       void *state);
+    rb_status (*begin)(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state);
     /* Until it ends or pauses: RB_OK, and work.paused says which. */
     rb_status (*go_on)(void *state);
     /* After begin or go_on: z and what is measured of it; s: what they returned.  Frees
@@ -39,8 +38,8 @@ extern const lcp_method rb_lcp_tableau_method, rb_lcp_sparse_method, rb_lcp_newt
 
 /* From its beginning to its end, and once more in other scales where the end does not
  * solve; state: room for the method's. */
-rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state,
-                     double *z, rb_lcp_info *info);
+rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state, double *z,
+                     rb_lcp_info *info);
 
 /* Of a pivot on a tableau, with what brings columns up to date. */
 static inline double rb_lcp_work_of_pivot(int n)

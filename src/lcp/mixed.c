@@ -35,9 +35,8 @@ typedef struct {
     lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
     int underway;      /* 0: the path has not begun */
     int leaving;       /* what left last */
-    int n,
-        given; /* order; that of the caller's problem, before free variables are split */
-    const int *of; /* n - given: whose other half each more is */
+    int n, given;      /* order; that of the caller's problem, before free variables are split */
+    const int *of;     /* n - given: whose other half each more is */
     const rb_sparse *M;
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
@@ -204,11 +203,10 @@ static rb_status choose_cover(mixed *p)
         if (cover == 0.0) {
             /* Of the other half of a free variable the caller knows the first one. */
             const int i = v < p->given ? v : p->of[v - p->given];
-            return rb_fail(
-                &p->info->msg, RB_EINVAL,
-                "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
-                "at the start has the wrong sign",
-                i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
+            return rb_fail(&p->info->msg, RB_EINVAL,
+                           "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
+                           "at the start has the wrong sign",
+                           i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
         }
         worst = fmax(worst, violation(p, s) / cover);
     }
@@ -216,8 +214,7 @@ static rb_status choose_cover(mixed *p)
         const range r = range_of(p, p->b.variable[s]);
         const double out = fmax(violation(p, s), 0.0);
         if (p->b.variable[s] >= p->n)
-            p->y[s] =
-                out > 0.0 ? (out + fmin(out, 0.25 * (r.high - r.low))) / worst : 0.0;
+            p->y[s] = out > 0.0 ? (out + fmin(out, 0.25 * (r.high - r.low))) / worst : 0.0;
         else if (isinf(r.low) && isinf(r.high))
             p->y[s] = 0.0;
         p->y[s] *= inwards(p, s);
@@ -310,8 +307,7 @@ static int blocking_slot(mixed *p, int entering, double sign, double *step, int 
     }
     *step = least;
     /* most may have overflowed: a variable without another bound never comes to it */
-    return resolve_tie(p, *count, sign,
-                       isfinite(width) && width <= most ? least : INFINITY);
+    return resolve_tie(p, *count, sign, isfinite(width) && width <= most ? least : INFINITY);
 }
 
 /* p->y = the column of the entering variable, without what is zero but for rounding. */
@@ -327,14 +323,12 @@ static rb_status driving_column(mixed *p, int entering)
 
 /* The slot that blocks.  A pivot near rounding and the absence of one are believed only
  * with a new LU. */
-static rb_status find_slot(mixed *p, int entering, double sign, int *slot, double *step,
-                           int *count)
+static rb_status find_slot(mixed *p, int entering, double sign, int *slot, double *step, int *count)
 {
     for (;;) {
         rb_status s = driving_column(p, entering);
         if (s != RB_OK)
-            return rb_fail(&p->info->msg, s, "lcp: no column after %d pivots",
-                           p->info->iters);
+            return rb_fail(&p->info->msg, s, "lcp: no column after %d pivots", p->info->iters);
         *slot = blocking_slot(p, entering, sign, step, count);
         const int sure =
             *slot == OPPOSITE ||
@@ -368,8 +362,7 @@ static void tell_trace(const mixed *p, int entering, int leaving, int slot, doub
 /* The entering variable moves by sign * step: the basic ones with it, those that tie to
  * their bounds exactly.  It then replaces the variable of the slot, or is at its other
  * bound. */
-static rb_status move(mixed *p, int entering, double sign, double step, int slot,
-                      int count)
+static rb_status move(mixed *p, int entering, double sign, double step, int slot, int count)
 {
     const range own = range_of(p, entering);
     const double from = sign > 0.0 ? own.low : own.high;
@@ -498,8 +491,7 @@ static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
                 const int i = M->i[k], row = more & 1 ? number[i] : i;
                 const int col = more & 2 ? number[j] : j;
                 if (row >= 0 && col >= 0)
-                    rb_triplets_add(&t, row, col,
-                                    more == 1 || more == 2 ? -M->x[k] : M->x[k]);
+                    rb_triplets_add(&t, row, col, more == 1 || more == 2 ? -M->x[k] : M->x[k]);
             }
     const rb_status s = rb_sparse_from_triplets(&t, &f->M);
     rb_triplets_free(&t);
@@ -594,18 +586,13 @@ double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, dou
     return 1e-14 * rb_norm_inf((size_t)M->rows, work);
 }
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
-                       void *state)
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     mixed *p = state;
-    const rb_lcp_mixed_problem given = {task->M.sparse, task->q, task->lower,
-                                        task->upper};
+    const rb_lcp_mixed_problem given = {task->M.sparse, task->q, task->lower, task->upper};
     const int n = task->M.n;
-    *p = (mixed){.work.allowed = INFINITY,
-                 .task = task,
-                 .given = n,
-                 .info = info,
-                 .opt = *task->opt};
+    *p = (mixed){
+        .work.allowed = INFINITY, .task = task, .given = n, .info = info, .opt = *task->opt};
     split *f = &p->f;
     rb_status s = split_create(&given, p->opt.start, p->opt.cover, f);
     const rb_sparse *M = f->n > n ? &f->M : given.M;
@@ -615,8 +602,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
     if (s == RB_OK)
         s = rb_lcp_scale_create(&all, f->q, balance_q, &p->scale);
     if (s == RB_OK && p->scale.needed) {
-        s = rb_lcp_scaled_create(&all, &p->scale, f->q, f->lower, f->upper, &p->opt,
-                                 &p->scaled);
+        s = rb_lcp_scaled_create(&all, &p->scale, f->q, f->lower, f->upper, &p->opt, &p->scaled);
         if (s == RB_OK)
             p->opt = p->scaled.opt;
     }
@@ -646,10 +632,9 @@ static rb_status end(void *state, rb_status s, double *z)
             else
                 z[p->f.of[i - task->M.n]] -= x;
         }
-        if (rb_lcp_measure(&task->M, &p->scale, task->q, task->lower, task->upper, z,
-                           p->info) != RB_OK)
-            s = rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d",
-                        task->M.n);
+        if (rb_lcp_measure(&task->M, &p->scale, task->q, task->lower, task->upper, z, p->info) !=
+            RB_OK)
+            s = rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d", task->M.n);
     }
     if (s == RB_OK)
         s = rb_lcp_assess(p->info);
@@ -664,11 +649,10 @@ static rb_status end(void *state, rb_status s, double *z)
     return s;
 }
 
-const lcp_method rb_lcp_sparse_method = {"lemke-sparse", sizeof(mixed), begin, go_on,
-                                         end};
+const lcp_method rb_lcp_sparse_method = {"lemke-sparse", sizeof(mixed), begin, go_on, end};
 
-rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
-                       double *z, rb_lcp_info *info)
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info)
 {
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};

@@ -103,8 +103,8 @@ static rb_status iterate(void *state)
                            "lcp: newton: no solution after max_iters = %d steps", most);
         if (opt->seconds > 0.0 && rb_seconds() - s->task->began > opt->seconds)
             return rb_fail(&s->info->msg, RB_INTERRUPTED,
-                           "lcp: newton: no solution after %d steps in %g s",
-                           s->info->iters, opt->seconds);
+                           "lcp: newton: no solution after %d steps in %g s", s->info->iters,
+                           opt->seconds);
         const rb_status status = solve_basic(s);
         if (status != RB_OK)
             return status;
@@ -142,8 +142,7 @@ static rb_status fail_memory(newton *s)
                    M->p[M->cols]);
 }
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
-                       void *state)
+static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     newton *s = state;
     const rb_sparse *M = task->M.sparse;
@@ -156,8 +155,8 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info,
                   .info = info};
     rb_status status = rb_lcp_scale_create(&task->M, task->q, balance_q, &s->scale);
     if (status == RB_OK && s->scale.needed)
-        status = rb_lcp_scaled_create(&task->M, &s->scale, task->q, NULL, NULL, task->opt,
-                                      &s->scaled);
+        status =
+            rb_lcp_scaled_create(&task->M, &s->scale, task->q, NULL, NULL, task->opt, &s->scaled);
     if (s->scaled.q)
         s->p = (rb_lcp_mixed_problem){.M = &s->scaled.sparse, .q = s->scaled.q};
     if (status == RB_ENOMEM)
@@ -216,8 +215,8 @@ static rb_status end(void *state, rb_status status, double *z)
 
 const lcp_method rb_lcp_newton_method = {"newton", sizeof(newton), begin, iterate, end};
 
-rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
-                        double *z, rb_lcp_info *info)
+rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt, double *z,
+                        rb_lcp_info *info)
 {
     rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread = {0};

@@ -47,8 +47,8 @@ static column column_of(const lcp_matrix *M, int j)
 /* ---- Scales ------------------------------------------------------------------------ */
 
 /* The largest |r_i M_ij c_j| of each row and column; r, c NULL: ones. */
-static void largest_entries(const lcp_matrix *M, const double *r, const double *c,
-                            double *row, double *col)
+static void largest_entries(const lcp_matrix *M, const double *r, const double *c, double *row,
+                            double *col)
 {
     memset(row, 0, (size_t)M->n * sizeof *row);
     for (int j = 0; j < M->n; j++) {
@@ -138,8 +138,7 @@ static double power_of_two(double x)
     return exp2(fmin(fmax(round(log2(x)), -most), most));
 }
 
-rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always,
-                              lcp_scale *s)
+rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, lcp_scale *s)
 {
     const int n = M->n;
     *s = (lcp_scale){.row = rb_alloc((size_t)n, 4)};
@@ -190,9 +189,7 @@ void rb_lcp_scale_free(lcp_scale *s)
 /* The size of a variable (w 0 ... n - 1, z, z0) in units of the scaled problem. */
 static double unit_of(const lcp_scale *s, int n, int variable)
 {
-    return variable < n       ? 1.0 / s->row[variable]
-           : variable < 2 * n ? s->col[variable - n]
-                              : 1.0;
+    return variable < n ? 1.0 / s->row[variable] : variable < 2 * n ? s->col[variable - n] : 1.0;
 }
 
 /* Hands the pivot on in the caller's units.  The artificial variable of mixed problems
@@ -212,8 +209,7 @@ static void trace_in_units(const rb_lcp_pivot *p, void *context)
             const double of_column = c <= n ? unit_of(s->scale, n, p->nonbasis[c]) : 1.0;
             for (int i = 0; i < n; i++) {
                 const size_t at = (size_t)i + (size_t)c * (size_t)n;
-                s->tableau[at] =
-                    p->tableau[at] * unit_of(s->scale, n, p->basis[i]) / of_column;
+                s->tableau[at] = p->tableau[at] * unit_of(s->scale, n, p->basis[i]) / of_column;
             }
         }
         seen.tableau = s->tableau;
@@ -222,8 +218,7 @@ static void trace_in_units(const rb_lcp_pivot *p, void *context)
 }
 
 /* to = by times from, or over it where `inverse`; 0: a finite number overflows. */
-static int scale_vector(int n, const double *by, int inverse, const double *from,
-                        double *to)
+static int scale_vector(int n, const double *by, int inverse, const double *from, double *to)
 {
     int fits = 1;
     for (int i = 0; from && i < n; i++) {
@@ -233,9 +228,9 @@ static int scale_vector(int n, const double *by, int inverse, const double *from
     return fits;
 }
 
-rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale,
-                               const double *q, const double *lower, const double *upper,
-                               const rb_lcp_options *opt, lcp_scaled *s)
+rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale, const double *q,
+                               const double *lower, const double *upper, const rb_lcp_options *opt,
+                               lcp_scaled *s)
 {
     const size_t n = (size_t)M->n;
     const int tableau = opt->trace && opt->trace_tableau && M->dense;
@@ -378,8 +373,8 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
     return RB_OK;
 }
 
-rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z,
-                                 double *scaled, int *row)
+rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z, double *scaled,
+                                 int *row)
 {
     const lcp_matrix M = {.n = p->M->rows, .sparse = p->M};
     rb_lcp_info info = {.scaled = NAN, .row = -1};

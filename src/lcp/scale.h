@@ -22,8 +22,7 @@ typedef struct {
 
 /* Ruiz' equilibration, which begins from scales that balance [M q]; always: also where M
  * is balanced, because q is not.  RB_ENOMEM. */
-rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always,
-                              lcp_scale *s);
+rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, lcp_scale *s);
 void rb_lcp_scale_free(lcp_scale *s);
 
 /* A problem in the scale: R M C, R q, and what the options and boxes hold.  Members that
@@ -40,9 +39,9 @@ typedef struct {
 
 /* opt: the caller's, borrowed as long as the problem.  RB_ENOMEM; RB_EINVAL: the scaled
  * numbers overflow, solve the problem as it stands. */
-rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale,
-                               const double *q, const double *lower, const double *upper,
-                               const rb_lcp_options *opt, lcp_scaled *s);
+rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale, const double *q,
+                               const double *lower, const double *upper, const rb_lcp_options *opt,
+                               lcp_scaled *s);
 void rb_lcp_scaled_free(lcp_scaled *s);
 /* z of the scaled problem becomes that of the caller's. */
 void rb_lcp_scale_back(const lcp_scale *scale, int n, double *z);

@@ -70,8 +70,7 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
                        .group = (n < 16     ? n + 1
                                  : n < 1024 ? depth_of(n)
                                             : LARGEST_GROUP)};
-    const size_t rows = (size_t)n, capacity = (size_t)t->capacity,
-                 group = (size_t)t->group;
+    const size_t rows = (size_t)n, capacity = (size_t)t->capacity, group = (size_t)t->group;
     t->T = rb_alloc(rows, rows + 2 + capacity + group);
     t->L = rb_alloc((size_t)depth, capacity + group);
     t->basis = rb_alloc_int(9 * rows + 6);
@@ -148,8 +147,8 @@ static void apply(const lcp_tableau *t, int from, int to, double *s, double *x)
 {
     const size_t depth = (size_t)t->depth, first = (size_t)(from - from % t->depth);
     const double *L = t->L + first * depth + ((size_t)from - first) * (depth + 1);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, to - from, L,
-                t->depth, s, 1);
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, to - from, L, t->depth, s,
+                1);
     cblas_dgemv(CblasColMajor, CblasNoTrans, t->n, to - from, -1.0,
                 t->U + (size_t)from * (size_t)t->n, t->n, s, 1, 1.0, x, 1);
 }
@@ -199,12 +198,10 @@ static void advance_group(lcp_tableau *t, int count, const int *columns)
                 take_rows_of(t, c, to, x, rhs + (own - first));
             }
         }
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit,
-                    to - first, active, 1.0, t->L + (size_t)first * (size_t)t->depth,
-                    t->depth, t->S, t->depth);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, active, to - first,
-                    -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X,
-                    t->n);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, to - first,
+                    active, 1.0, t->L + (size_t)first * (size_t)t->depth, t->depth, t->S, t->depth);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, active, to - first, -1.0,
+                    t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X, t->n);
     }
     for (int g = 0; g < count; g++) {
         /* Places are taken up again as soon as they are free: T stays small and warm. */
@@ -235,8 +232,7 @@ void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns)
 
 /* A column enters the sum in the block in which it stands; before it, nothing of it is
  * changed. */
-void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch,
-                            double *x)
+void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch, double *x)
 {
     const int n = t->n;
     double *s = t->S, *own = t->S + t->depth;
@@ -433,8 +429,8 @@ static void solve(solver *p, const lcp_tableau *t, int columns, double *X)
     if (m)
         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', m, columns, p->A, m, p->pivots, X, n);
     if (n > m)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n - m, columns, m, 1.0,
-                    p->E, n - m, X, n, 1.0, X + m, n);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n - m, columns, m, 1.0, p->E, n - m,
+                    X, n, 1.0, X + m, n);
     for (int c = 0; c < columns; c++) {
         double *x = X + (size_t)c * (size_t)n;
         memcpy(p->g, x, (size_t)n * sizeof *x);
@@ -459,8 +455,7 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
         if (rest)
             memcpy(p.E + c * rest, p.g + m, rest * sizeof *p.E);
     }
-    if (m == 0 ||
-        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p.m, p.m, p.A, p.m, p.pivots) == 0) {
+    if (m == 0 || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p.m, p.m, p.A, p.m, p.pivots) == 0) {
         for (int c = 0; c <= n; c++) {
             gather(&p, t->nonbasis[c]);
             memcpy(t->T + (size_t)c * (size_t)n, p.g, (size_t)n * sizeof *p.g);

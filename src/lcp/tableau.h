@@ -35,9 +35,9 @@ static inline double rb_lcp_cover(const lcp_data *data, int i)
 typedef struct {
     int n;
     const lcp_data *data; /* borrowed */
-    double *T; /* n x (n + 1): columns after `level` pivots each, in any order; owned, as
-                  all here */
-    double *q; /* n: the constants, always current */
+    double *T;            /* n x (n + 1): columns after `level` pivots each, in any order; owned, as
+                             all here */
+    double *q;            /* n: the constants, always current */
     int *basis, *nonbasis; /* variable of each row (n), of each column (n + 1) */
     int *place;            /* of each variable: its row, or -1 - its column */
     int *level;            /* n + 1 */
@@ -46,8 +46,8 @@ typedef struct {
 
     int depth, capacity, k; /* pivots of a block; that U can hold; that it holds */
     double *U;              /* n x capacity */
-    double *L; /* depth x capacity, lower by blocks: row j = (U_rj before pivot j, p_j) */
-    int *row;  /* capacity: pivot rows */
+    double *L;   /* depth x capacity, lower by blocks: row j = (U_rj before pivot j, p_j) */
+    int *row;    /* capacity: pivot rows */
     int *before; /* capacity: the last pivot on the same row before, or -1 */
     int *last;   /* n: the row's last pivot, or -1 */
     int *wanted; /* n + 1: columns chosen by the look-ahead; scratch */
@@ -74,8 +74,7 @@ void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns);
  * next. */
 void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving);
 /* x = the sum of weight_c T_:c; scratch: n. */
-void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch,
-                            double *x);
+void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch, double *x);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
 /* Computes T and q again from the data and the basis.  RB_SINGULAR: a pivot is zero (one

@@ -65,11 +65,10 @@ static cli_exit assess(const verdict *all)
 {
     for (int r = 1; r < size && all[0].code == CLI_CONTINUE; r++) {
         if (all[r].code != CLI_CONTINUE)
-            return cli_fail((cli_exit)all[r].code, "process %d on %s: %s", r,
-                            all[r].machine, all[r].line);
+            return cli_fail((cli_exit)all[r].code, "process %d on %s: %s", r, all[r].machine,
+                            all[r].line);
         if (all[r].study != all[0].study)
-            return cli_fail(CLI_DATA,
-                            "process %d on %s reads another study, or is another version",
+            return cli_fail(CLI_DATA, "process %d on %s reads another study, or is another version",
                             r, all[r].machine);
     }
     return (cli_exit)all[0].code;
@@ -101,8 +100,7 @@ void cli_pool_end(void)
     if (!active)
         return;
     for (int left = stopped; left > 0; left -= m.k == STOP)
-        MPI_Recv(&m, sizeof m, MPI_BYTE, MPI_ANY_SOURCE, ROW, MPI_COMM_WORLD,
-                 MPI_STATUS_IGNORE);
+        MPI_Recv(&m, sizeof m, MPI_BYTE, MPI_ANY_SOURCE, ROW, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     MPI_Finalize();
     active = 0;
 }
@@ -156,8 +154,7 @@ static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_r
     MPI_Iprobe(MPI_ANY_SOURCE, ROW, MPI_COMM_WORLD, &here, &from);
     if (!here) /* nobody wakes us for a message */
         return all->own->collect(all->own, milliseconds > 0, k, row);
-    MPI_Recv(&m, sizeof m, MPI_BYTE, from.MPI_SOURCE, ROW, MPI_COMM_WORLD,
-             MPI_STATUS_IGNORE);
+    MPI_Recv(&m, sizeof m, MPI_BYTE, from.MPI_SOURCE, ROW, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     all->left[from.MPI_SOURCE]++;
     *k = m.k;
     *row = m.row;

@@ -21,8 +21,7 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
                {RB_UNITS_SI, "MPa", 1e4, {1e3, "kPa"}},
                {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (all[k].units == units && strcmp(all[k].of, unit) == 0 &&
-            largest >= all[k].from)
+        if (all[k].units == units && strcmp(all[k].of, unit) == 0 && largest >= all[k].from)
             return all[k].unit;
     if (units == RB_UNITS_SI && strcmp(unit, "mm") == 0 && largest < 0.1)
         return (rb_report_unit){1e-3, "mm"};
@@ -65,8 +64,7 @@ const char *rb_report_raised(const char *unit, char text[40])
         } else if (*unit == '^') {
             const size_t digits = strspn(unit + 1, "-.0123456789");
             const int root = digits == 3 && strncmp(unit + 1, "0.5", 3) == 0;
-            rb_append(text, 40, "^{%.*s}", root ? 3 : (int)digits,
-                      root ? "1/2" : unit + 1);
+            rb_append(text, 40, "^{%.*s}", root ? 3 : (int)digits, root ? "1/2" : unit + 1);
             unit += 1 + digits;
         }
     }
@@ -101,8 +99,7 @@ typedef struct {
     size_t n;
 } words;
 
-__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format,
-                                                            ...)
+__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -113,8 +110,7 @@ __attribute__((format(printf, 2, 3))) static void add_words(words *w, const char
 
 static void add_length(words *w, const char *of, double length, rb_units units)
 {
-    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length),
-              rb_unit_name(units, "mm"));
+    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length), rb_unit_name(units, "mm"));
 }
 
 static void add_body(words *w, const rb_rolling_body *b, rb_units units)
@@ -132,8 +128,8 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
               b->memory.n > 0 ? ", relaxes" : "");
 }
 
-void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units,
-                            double x, double y)
+void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units, double x,
+                            double y)
 {
     enum { FITS = 90 }; /* characters of this size in a line */
     words w = {.n = 0};
@@ -145,7 +141,6 @@ void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units
         add_body(&w, &rc->b, units);
     } else
         add_words(&w, " rigid");
-    fprintf(out,
-            "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
+    fprintf(out, "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
             w.n > FITS ? 0.95 * FITS / (double)w.n : 0.95, w.text, x, y);
 }

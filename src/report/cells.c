@@ -72,8 +72,7 @@ void rb_report_cells_end_row(rb_report_cells *c)
     c->cells = 0;
 }
 
-rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
-                                      const char *names)
+rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style, const char *names)
 {
     rb_report_cells c = {.out = out, .style = *style};
     for (size_t n; *names; names += n + (names[n] == ' ')) {

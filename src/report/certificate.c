@@ -12,7 +12,7 @@
 
 static const double CONTROLS = 1e-9; /* a given value against the one that was met */
 static const double RATIO = 1e-13;   /* rounding of the creepage ratio of a table */
-enum { UNRESOLVED = 4 }; /* slip zones at the trailing edge of fewer elements */
+enum { UNRESOLVED = 4 };             /* slip zones at the trailing edge of fewer elements */
 
 void rb_certificate_violated(rb_certificate *c, const char *format, ...)
 {
@@ -27,8 +27,8 @@ void rb_certificate_violated(rb_certificate *c, const char *format, ...)
     fputc('\n', c->out);
 }
 
-void rb_certificate_expect(rb_certificate *c, const char *what, int element,
-                           double printed, double want, double allowed)
+void rb_certificate_expect(rb_certificate *c, const char *what, int element, double printed,
+                           double want, double allowed)
 {
     char place[40] = "";
     c->found->numbers++;
@@ -36,9 +36,9 @@ void rb_certificate_expect(rb_certificate *c, const char *what, int element,
         return;
     if (element > 0)
         snprintf(place, sizeof place, " of element %d", element);
-    rb_certificate_violated(
-        c, "%s%s: printed %.17g, recomputed %.17g (difference %.2g, allowed %.2g)", what,
-        place, printed, want, printed - want, allowed);
+    rb_certificate_violated(c,
+                            "%s%s: printed %.17g, recomputed %.17g (difference %.2g, allowed %.2g)",
+                            what, place, printed, want, printed - want, allowed);
 }
 
 double rb_certificate_number(const json_t *value)
@@ -72,23 +72,22 @@ const char *rb_certificate_word(const json_t *object, const char *key)
 
 /* ---- The model again --------------------------------------------------------------- */
 
-rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
-                              int n, double *x, rb_message *why)
+rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading, int n,
+                              double *x, rb_message *why)
 {
     if ((int)json_array_size(list) != n)
-        return rb_fail(why, RB_EFORMAT, "%s: table: expected %d numbers in %s", name, n,
-                       heading);
+        return rb_fail(why, RB_EFORMAT, "%s: table: expected %d numbers in %s", name, n, heading);
     for (int i = 0; i < n; i++) {
         x[i] = rb_certificate_number(json_array_get(list, (size_t)i));
         if (!isfinite(x[i]))
-            return rb_fail(why, RB_EFORMAT, "%s: table: %s of element %d is no number",
-                           name, heading, i + 1);
+            return rb_fail(why, RB_EFORMAT, "%s: table: %s of element %d is no number", name,
+                           heading, i + 1);
     }
     return RB_OK;
 }
 
-rb_status rb_certificate_column(const char *name, const json_t *table,
-                                const char *heading, int n, double *x, rb_message *why)
+rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
+                                double *x, rb_message *why)
 {
     return rb_certificate_list(name, json_object_get(table, heading), heading, n, x, why);
 }
@@ -105,16 +104,15 @@ static int has_equal_elements(const json_t *table)
 }
 
 /* Bodies and contact problem on the elements of the table. */
-static rb_status rebuild_problem(rb_certificate *c, const rb_resolved_case *resolved,
-                                 int n, rb_message *why)
+static rb_status rebuild_problem(rb_certificate *c, const rb_resolved_case *resolved, int n,
+                                 rb_message *why)
 {
     rb_rolling_model *m = &c->model;
     double *xh = rb_alloc((size_t)n, 2);
     rb_status s = xh ? RB_OK : RB_ENOMEM;
 
-    m->equal_instead =
-        c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
-                   : has_equal_elements(c->table);
+    m->equal_instead = c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
+                                  : has_equal_elements(c->table);
     const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
@@ -122,11 +120,10 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_resolved_case *reso
         s = rb_certificate_column(c->name, c->table, "h_mm", n, xh + n, why);
     for (int i = 0; i < n && s == RB_OK; i++)
         if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
-            s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name,
-                        i + 1);
+            s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);
     if (s == RB_OK)
-        s = rb_rolling_model_of_result(
-            &resolved->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
+        s = rb_rolling_model_of_result(&resolved->rc,
+                                       &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
     free(xh);
     return s;
 }
@@ -142,8 +139,7 @@ static rb_status read_plastic(rb_certificate *c, rb_message *why)
     double *u = state->plastic;
 
     for (int i = 0; i < p->n && s == RB_OK; i++) {
-        const double next = i + 1 < p->n ? u[i + 1] : 0.0,
-                     second = i + 2 < p->n ? u[i + 2] : 0.0;
+        const double next = i + 1 < p->n ? u[i + 1] : 0.0, second = i + 2 < p->n ? u[i + 2] : 0.0;
         const double own = (u[i] - p->recall[0] * next - p->recall[1] * second) / p->own;
         const double with = state->q[i] != 0.0 ? -state->q[i] : state->lambda[i];
         u[i] = with < 0.0 ? -own : own;
@@ -180,8 +176,7 @@ static rb_status fit_motion(rb_certificate *c, rb_message *why)
     double *w = rb_alloc(n, 6), *unit = w + 2 * n, *printed = w + 4 * n;
     if (!w)
         return RB_ENOMEM;
-    const rb_status s =
-        rb_certificate_column(c->name, c->table, "gap_mm", p->n, printed, why);
+    const rb_status s = rb_certificate_column(c->name, c->table, "gap_mm", p->n, printed, why);
     memcpy(printed + n, x->lambda, n * sizeof *printed);
     x->xi = p->xi;
     x->delta = p->delta;
@@ -217,10 +212,9 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
         s = rb_certificate_column(c->name, c->table, "zone", n, m->state.lambda, why);
     for (int i = 0; i < n && s == RB_OK; i++) {
         const double zone = m->state.lambda[i];
-        if (!(zone >= 0.0 && zone <= (m->problem.yield ? 5.0 : 3.0)) ||
-            zone != floor(zone))
-            s = rb_fail(why, RB_EFORMAT, "%s: table: zone of element %d is %g", c->name,
-                        i + 1, zone);
+        if (!(zone >= 0.0 && zone <= (m->problem.yield ? 5.0 : 3.0)) || zone != floor(zone))
+            s = rb_fail(why, RB_EFORMAT, "%s: table: zone of element %d is %g", c->name, i + 1,
+                        zone);
         else
             m->state.zone[i] = (int)zone;
     }
@@ -231,11 +225,9 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
     if (s == RB_OK && !c->summary)
         return fit_motion(c, why);
     m->state.delta = rb_certificate_member(c->summary, "approach");
-    m->state.xi =
-        rb_certificate_member(c->summary, is_static ? "tangential_shift" : "creepage");
+    m->state.xi = rb_certificate_member(c->summary, is_static ? "tangential_shift" : "creepage");
     if (s == RB_OK && !(isfinite(m->state.delta) && isfinite(m->state.xi)))
-        s = rb_fail(why, RB_EFORMAT, "%s: summary: no approach, shift or creepage",
-                    c->name);
+        s = rb_fail(why, RB_EFORMAT, "%s: summary: no approach, shift or creepage", c->name);
     return s;
 }
 
@@ -260,8 +252,7 @@ static void add_product(compensated *s, double a, double b)
     s->lost += fma(a, b, -product);
 }
 
-static double weighted(int n, const double *a, const double *p, const double *b,
-                       const double *q)
+static double weighted(int n, const double *a, const double *p, const double *b, const double *q)
 {
     compensated s = {0.0, 0.0};
     for (int i = 0; i < n; i++) {
@@ -293,15 +284,13 @@ static void check_forces(rb_certificate *c)
     const rb_rolling_derived d = rb_rolling_derive(c->model.rc);
 
     if (c->summary) {
-        rb_certificate_expect(c, "normal_load", 0,
-                              rb_certificate_member(c->summary, "normal_load"), P,
-                              1e-13 * fabs(P));
+        rb_certificate_expect(c, "normal_load", 0, rb_certificate_member(c->summary, "normal_load"),
+                              P, 1e-13 * fabs(P));
         rb_certificate_expect(c, "tangential_load", 0,
                               rb_certificate_member(c->summary, "tangential_load"), Q,
                               1e-13 * fabs(P));
     }
-    c->model.half_width =
-        P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
+    c->model.half_width = P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
     rb_certificate_given(c, P);
 }
 
@@ -315,11 +304,11 @@ void rb_certificate_motion(rb_certificate *c)
     if (p->force_given)
         return;
     if (c->step == 0 && rc->formulation == RB_STEADY && !isnan(rc->creep_ratio))
-        rb_certificate_expect(c, "the given creep_ratio", 0, c->again.creep_ratio,
-                              rc->creep_ratio, CONTROLS * fabs(rc->creep_ratio) + RATIO);
+        rb_certificate_expect(c, "the given creep_ratio", 0, c->again.creep_ratio, rc->creep_ratio,
+                              CONTROLS * fabs(rc->creep_ratio) + RATIO);
     else
-        rb_certificate_expect(c, "the given shift or creepage", 0, c->model.state.xi,
-                              p->xi, CONTROLS * fabs(p->xi));
+        rb_certificate_expect(c, "the given shift or creepage", 0, c->model.state.xi, p->xi,
+                              CONTROLS * fabs(p->xi));
 }
 
 static void check_zone(rb_certificate *c, int i, double slack, double yield)
@@ -334,38 +323,34 @@ static void check_zone(rb_certificate *c, int i, double slack, double yield)
     if (p < 0.0)
         rb_certificate_violated(c, "pressure of element %d: %.3g < 0", i + 1, p);
     if ((p > 0.0) != (zone != RB_ZONE_SEPARATED))
-        rb_certificate_violated(c, "zone of element %d: %d at a pressure of %.3g", i + 1,
-                                zone, p);
+        rb_certificate_violated(c, "zone of element %d: %d at a pressure of %.3g", i + 1, zone, p);
     if (fabs(q) > bound + stress)
         rb_certificate_violated(
-            c, "Coulomb's bound of element %d: |q| exceeds mu p by %.3g (allowed %.2g)",
-            i + 1, fabs(q) - bound, stress);
+            c, "Coulomb's bound of element %d: |q| exceeds mu p by %.3g (allowed %.2g)", i + 1,
+            fabs(q) - bound, stress);
     if (zone == RB_ZONE_STICK && fabs(slip) > length)
-        rb_certificate_violated(c, "stick of element %d: it slips by %.3g (allowed %.2g)",
-                                i + 1, fabs(slip), length);
+        rb_certificate_violated(c, "stick of element %d: it slips by %.3g (allowed %.2g)", i + 1,
+                                fabs(slip), length);
     if (zone == RB_ZONE_SLIP_NEGATIVE && (fabs(q + bound) > stress || slip < -length))
-        rb_certificate_violated(c, "slip of element %d: q + mu p = %.3g, shift %.3g",
-                                i + 1, q + bound, slip);
+        rb_certificate_violated(c, "slip of element %d: q + mu p = %.3g, shift %.3g", i + 1,
+                                q + bound, slip);
     if (zone == RB_ZONE_SLIP_POSITIVE && (fabs(q - bound) > stress || slip > length))
-        rb_certificate_violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g",
-                                i + 1, q - bound, slip);
+        rb_certificate_violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g", i + 1,
+                                q - bound, slip);
     if (zone > RB_ZONE_SLIP_POSITIVE && fabs(fabs(q) - yield) > stress)
-        rb_certificate_violated(
-            c, "yield of element %d: |q| is off its yield stress by %.3g", i + 1,
-            fabs(q) - yield);
+        rb_certificate_violated(c, "yield of element %d: |q| is off its yield stress by %.3g",
+                                i + 1, fabs(q) - yield);
     if (fabs(q) > yield + stress)
-        rb_certificate_violated(
-            c, "yield stress of element %d: |q| exceeds it by %.3g (allowed %.2g)", i + 1,
-            fabs(q) - yield, stress);
+        rb_certificate_violated(c,
+                                "yield stress of element %d: |q| exceeds it by %.3g (allowed %.2g)",
+                                i + 1, fabs(q) - yield, stress);
 }
 
 /* A share of the largest displacement: that of a wheel comes from solving the system of
  * its boundary again, on ends of elements that differ by a rounding. */
 static double rounding_of_displacements(const rb_certificate *c)
 {
-    return c->hierarchical                             ? 1e-10
-           : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13
-                                                       : 2e-12;
+    return c->hierarchical ? 1e-10 : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13 : 2e-12;
 }
 
 /* Of the half-planes that thin layers would be without their bases: what these take away
@@ -393,17 +378,15 @@ static double displacement_without_bases(const rb_certificate *c)
 void rb_certificate_tolerances(rb_certificate *c, double residual)
 {
     const rb_contact_problem *p = &c->model.problem;
-    c->hierarchical = c->summary
-                          ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
-                                   "hierarchical") == 0
-                          : c->again.hierarchical;
+    c->hierarchical =
+        c->summary ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"), "hierarchical") == 0
+                   : c->again.hierarchical;
     const double asked = fmax(c->model.rc->contact.tol, p->rounding);
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
-    c->displacement =
-        rounding_of_displacements(c) *
-        (largest(json_object_get(c->table, "un_mm")) +
-         largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
+    c->displacement = rounding_of_displacements(c) *
+                      (largest(json_object_get(c->table, "un_mm")) +
+                       largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
     c->tol = (c->hierarchical ? 100.0 : 10.0) * asked +
              c->displacement / fmin(p->gap_length, p->slip_length);
 }
@@ -421,18 +404,17 @@ rb_status rb_certificate_laws(rb_certificate *c)
     rb_contact_kinematics(p, x, gap, gap + n);
     rb_contact_yielded(p, x->plastic, yielded);
     for (int i = 0; i < n; i++) {
-        const json_t *printed =
-            json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
+        const json_t *printed = json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
         const double length = c->tol * p->gap_length + c->displacement;
         if (c->step == 0)
-            rb_certificate_expect(c, "gap_mm", i + 1, rb_certificate_number(printed),
-                                  gap[i], c->exact * p->gap_length + c->displacement);
+            rb_certificate_expect(c, "gap_mm", i + 1, rb_certificate_number(printed), gap[i],
+                                  c->exact * p->gap_length + c->displacement);
         rb_certificate_expect(c, "shift_mm", i + 1, x->lambda[i], gap[n + i],
                               c->exact * p->slip_length + c->displacement);
         if (x->p[i] > 0.0 ? fabs(gap[i]) > length : gap[i] < -length)
-            rb_certificate_violated(
-                c, "gap of element %d: %.3g at a pressure of %.3g (allowed %.2g)", i + 1,
-                gap[i], x->p[i], length);
+            rb_certificate_violated(c,
+                                    "gap of element %d: %.3g at a pressure of %.3g (allowed %.2g)",
+                                    i + 1, gap[i], x->p[i], length);
         check_zone(c, i, c->tol, rb_contact_yield_stress(p, i, yielded[i]));
     }
     if (x->p[0] > 0.0 || x->p[n - 1] > 0.0)
@@ -473,16 +455,14 @@ static double rounding_of(const rb_certificate *c, const char *key)
                                           isnan(s->half_width) ? 0.0 : s->half_width,
                                           .load = s->normal_load,
                                           .pressure = s->max_pressure,
-                                          .radius =
-                                              rb_rolling_larger_radius(c->model.rc)};
+                                          .radius = rb_rolling_larger_radius(c->model.rc)};
 
     if (strcmp(key, "residual") == 0)
         return c->tol;
     if (strncmp(key, "residual_", 9) == 0)
         return c->tol * (strcmp(key, "residual_friction") == 0 ? c->model.problem.stress
-                         : strcmp(key, "residual_gap") == 0
-                             ? c->model.problem.gap_length
-                             : c->model.problem.slip_length);
+                         : strcmp(key, "residual_gap") == 0    ? c->model.problem.gap_length
+                                                               : c->model.problem.slip_length);
     return rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10);
 }
 
@@ -510,23 +490,21 @@ static void compare_table(rb_certificate *c, const json_t *again)
         const double most = largest(list);
         for (size_t i = 0; i < json_array_size(list); i++) {
             const double want = rb_certificate_number(json_array_get(list, i));
-            rb_certificate_expect(c, key, (int)i + 1,
-                                  rb_certificate_number(json_array_get(printed, i)), want,
-                                  1e-9 * fabs(want) + 1e-11 * most +
-                                      rounding_of_column(c, key, (int)i));
+            rb_certificate_expect(
+                c, key, (int)i + 1, rb_certificate_number(json_array_get(printed, i)), want,
+                1e-9 * fabs(want) + 1e-11 * most + rounding_of_column(c, key, (int)i));
         }
     }
     if (json_object_size(c->table) != json_object_size(again))
-        rb_certificate_violated(c, "table: %zu columns, expected %zu",
-                                json_object_size(c->table), json_object_size(again));
+        rb_certificate_violated(c, "table: %zu columns, expected %zu", json_object_size(c->table),
+                                json_object_size(again));
 }
 
 /* How the answer was found, which nothing but solving again would tell. */
 static int is_of_the_way(const char *key)
 {
-    static const char *const keys[] = {"iterations",   "solver",    "lcp_form",
-                                       "seconds",      "integrals", "openblas",
-                                       "free_creepage"};
+    static const char *const keys[] = {"iterations", "solver",   "lcp_form",     "seconds",
+                                       "integrals",  "openblas", "free_creepage"};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
         if (strcmp(key, keys[k]) == 0)
             return 1;
@@ -534,9 +512,8 @@ static int is_of_the_way(const char *key)
 }
 
 /* A number, or null where there is none; name: its path, element: its place in a list. */
-static void compare_number(rb_certificate *c, const char *name, int element,
-                           const json_t *printed, const json_t *again,
-                           rb_certificate_slack *slack)
+static void compare_number(rb_certificate *c, const char *name, int element, const json_t *printed,
+                           const json_t *again, rb_certificate_slack *slack)
 {
     const char *dot = strrchr(name, '.');
     const double want = rb_certificate_number(again);
@@ -550,9 +527,8 @@ static void compare_number(rb_certificate *c, const char *name, int element,
 }
 
 /* The members of an object, and that there are no others. */
-static void compare_members(rb_certificate *c, const char *name, int element,
-                            const json_t *printed, const json_t *again,
-                            rb_certificate_slack *slack)
+static void compare_members(rb_certificate *c, const char *name, int element, const json_t *printed,
+                            const json_t *again, rb_certificate_slack *slack)
 {
     const char *key;
     json_t *value;
@@ -562,8 +538,7 @@ static void compare_members(rb_certificate *c, const char *name, int element,
     {
         snprintf(path, sizeof path, "%s.%s", own, key);
         if (!is_of_the_way(key))
-            rb_certificate_compare(c, path, 0, json_object_get(printed, key), value,
-                                   slack);
+            rb_certificate_compare(c, path, 0, json_object_get(printed, key), value, slack);
     }
     json_object_foreach((json_t *)printed, key, value)
     {
@@ -572,9 +547,8 @@ static void compare_members(rb_certificate *c, const char *name, int element,
     }
 }
 
-void rb_certificate_compare(rb_certificate *c, const char *name, int element,
-                            const json_t *printed, const json_t *again,
-                            rb_certificate_slack *slack)
+void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
+                            const json_t *again, rb_certificate_slack *slack)
 {
     const size_t n = json_array_size(again);
     if (json_is_object(again))
@@ -606,8 +580,7 @@ static void compare_solver(rb_certificate *c)
     const int is_plain = strcmp(solver, rb_case_word("solver", RB_SOLVER_LEMKE)) == 0 ||
                          strcmp(solver, rb_case_word("solver", RB_SOLVER_NEWTON)) == 0;
 
-    if (!is_plain &&
-        !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver) == 0))
+    if (!is_plain && !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver) == 0))
         rb_certificate_violated(c, "summary.solver is none that this case may have");
     if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
         rb_certificate_violated(c, "summary.lcp_form is none");
@@ -629,8 +602,8 @@ static int slipping_at_trailing_edge(const rb_rolling_solution *s)
  * differences along the contact count that work as hysteresis, waves do not. */
 static rb_status check_hysteresis(rb_certificate *c)
 {
-    const double printed = c->summary ? rb_certificate_member(c->summary, "hysteresis")
-                                      : c->again.hysteresis;
+    const double printed =
+        c->summary ? rb_certificate_member(c->summary, "hysteresis") : c->again.hysteresis;
     double waves, allowed;
 
     if (c->model.rc->formulation != RB_STEADY || !(c->again.n > 0) ||
@@ -652,13 +625,12 @@ static rb_status check_hysteresis(rb_certificate *c)
 static rb_status compare_results(rb_certificate *c)
 {
     json_t *summary = rb_report_json_summary(&c->again);
-    json_t *table = c->summary ? rb_report_json_table(&c->again)
-                               : rb_report_json_table_columns(&c->again);
+    json_t *table =
+        c->summary ? rb_report_json_table(&c->again) : rb_report_json_table_columns(&c->again);
     rb_status s = summary && table ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
         if (c->summary)
-            rb_certificate_compare(c, "summary", 0, c->summary, summary,
-                                   slack_of_summary);
+            rb_certificate_compare(c, "summary", 0, c->summary, summary, slack_of_summary);
         compare_table(c, table);
         if (c->summary)
             compare_solver(c);
@@ -670,8 +642,8 @@ static rb_status compare_results(rb_certificate *c)
     return s;
 }
 
-rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved,
-                                 int n, rb_message *why)
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved, int n,
+                                 rb_message *why)
 {
     rb_status s = rebuild_problem(c, resolved, n, why);
     if (s == RB_OK)
@@ -697,7 +669,7 @@ rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why)
     if (s == RB_OK || s == RB_EFORMAT)
         return s;
     const rb_message reason = *why;
-    return s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", c->name)
-                          : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", c->name,
-                                    reason.text);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "%s: out of memory", c->name)
+               : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", c->name, reason.text);
 }

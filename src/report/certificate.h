@@ -18,8 +18,8 @@ typedef struct {
     rb_rolling_solution again; /* computed from the state */
     int hierarchical;          /* a matrix that approximates */
     double tol;                /* of the scaled residual */
-    double exact; /* of the scaled gap and slip, as the result's own residual has it */
-    double displacement; /* rounding of displacements [length] */
+    double exact;              /* of the scaled gap and slip, as the result's own residual has it */
+    double displacement;       /* rounding of displacements [length] */
 } rb_certificate;
 
 #if defined(__GNUC__)
@@ -27,8 +27,8 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void rb_certificate_violated(rb_certificate *c, const char *format, ...);
 /* NAN is equal to NAN alone. */
-void rb_certificate_expect(rb_certificate *c, const char *what, int element,
-                           double printed, double want, double allowed);
+void rb_certificate_expect(rb_certificate *c, const char *what, int element, double printed,
+                           double want, double allowed);
 /* RB_EFORMAT: "<name>: cannot be checked: <what>". */
 rb_status rb_certificate_refuse(const char *name, const char *what, rb_message *why);
 /* "" where there is no such word. */
@@ -38,19 +38,19 @@ double rb_certificate_member(const json_t *object, const char *key);
 
 /* Refuses results of other schemas, kinds (a list of keys, NULL at its end), units or
  * versions, with error bars, or not solved. */
-rb_status rb_certificate_head(const char *name, const json_t *root,
-                              const char *const *known, rb_message *why);
+rb_status rb_certificate_head(const char *name, const json_t *root, const char *const *known,
+                              rb_message *why);
 /* A value as an option takes it: a word, a number, numbers with commas. */
 void rb_certificate_option_text(const json_t *value, char *text, size_t size);
 /* Sets and resolves words by the inputs, and sees that the same inputs come out. */
-rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs,
-                                      rb_case *words, rb_message *why);
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+                                      rb_message *why);
 
 /* n numbers: a list, and the one that a table has under a heading. */
-rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
-                              int n, double *x, rb_message *why);
-rb_status rb_certificate_column(const char *name, const json_t *table,
-                                const char *heading, int n, double *x, rb_message *why);
+rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading, int n,
+                              double *x, rb_message *why);
+rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
+                                double *x, rb_message *why);
 
 /* Typical sizes of the numbers of a result; rounding errors are compared with them. */
 typedef struct {
@@ -64,13 +64,11 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
                                const rb_certificate_scales *scales, double otherwise);
 
 /* What the number of this key may differ by. */
-typedef double rb_certificate_slack(const rb_certificate *c, const char *key,
-                                    double want);
+typedef double rb_certificate_slack(const rb_certificate *c, const char *key, double want);
 /* All that `again` holds against what is printed in its place: objects in objects, lists.
  * name: the path of both, of which a violation tells; element: from 1 on, in a list. */
-void rb_certificate_compare(rb_certificate *c, const char *name, int element,
-                            const json_t *printed, const json_t *again,
-                            rb_certificate_slack *slack);
+void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
+                            const json_t *again, rb_certificate_slack *slack);
 
 /* From the residual that is printed for the current state. */
 void rb_certificate_tolerances(rb_certificate *c, double residual);
@@ -81,8 +79,8 @@ void rb_certificate_motion(rb_certificate *c);
 rb_status rb_certificate_laws(rb_certificate *c);
 
 /* The model of a case on the n elements of its table, with the state that is printed. */
-rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved,
-                                 int n, rb_message *why);
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved, int n,
+                                 rb_message *why);
 /* Judges the state of the model, and what is printed beside it; residual: as printed. */
 rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *why);
 /* Frees, and returns s with its reason in words. */
@@ -93,8 +91,8 @@ rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 /* Follows the steps of a history by its states, checks each of them and leaves the model
  * at the last one.  h: overwritten; free it in any case. */
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_resolved_case *resolved, int n,
-                                rb_rolling_history *h, rb_message *why);
+                                const rb_resolved_case *resolved, int n, rb_rolling_history *h,
+                                rb_message *why);
 /* Its columns against those that came out. */
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
@@ -102,16 +100,14 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
 /* ---- certificate_crack.c ----------------------------------------------------------- */
 
 /* A crack under the passing contact, with its faces. */
-rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
-                               rb_case *words, rb_report_certificate *found,
-                               rb_message *why);
+rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
+                               rb_report_certificate *found, rb_message *why);
 
 /* ---- certificate_power.c ----------------------------------------------------------- */
 
 /* Power per unit speed that the bodies lose in steady rolling, from the current state;
  * allowed: what elements of this size may make of it. */
-rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power,
-                                    double *allowed);
+rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed);
 
 /* ---- certificate_stress.c ---------------------------------------------------------- */
 

@@ -24,12 +24,12 @@ typedef struct {
     rb_case_crack_result r; /* what is printed of contact and faces, and what follows */
     rb_case_crack_track track;
     rb_crack *body;
-    rb_crack_history again; /* computed */
-    double *T, *hat;        /* 2n: load; n */
-    double *length, *force; /* n: typical D and r of a node */
-    double exact;           /* of D over its length */
-    double per_D;           /* K over D next to a tip */
-    rb_rolling_model wheel; /* of a coupled contact, whose pressures are in r.history */
+    rb_crack_history again;    /* computed */
+    double *T, *hat;           /* 2n: load; n */
+    double *length, *force;    /* n: typical D and r of a node */
+    double exact;              /* of D over its length */
+    double per_D;              /* K over D next to a tip */
+    rb_rolling_model wheel;    /* of a coupled contact, whose pressures are in r.history */
     double *gap, *slip, *none; /* of its elements; gap owns them */
 } judge;
 
@@ -37,15 +37,14 @@ typedef struct {
 
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {
-        "schema",     "version",       "command", "conventions", "notes",   "units",
-        "input_hash", "inputs",        "crack",   "contact",     "summary", "table",
-        "faces",      "contact_table", "history", NULL};
+    static const char *const known[] = {"schema", "version",       "command",    "conventions",
+                                        "notes",  "units",         "input_hash", "inputs",
+                                        "crack",  "contact",       "summary",    "table",
+                                        "faces",  "contact_table", "history",    NULL};
 
     if (json_object_get(root, "growth"))
         return rb_certificate_refuse(
-            name, "a crack that grows: the faces at its other lengths are not printed",
-            why);
+            name, "a crack that grows: the faces at its other lengths are not printed", why);
     if (!json_is_object(json_object_get(root, "faces")))
         return rb_certificate_refuse(
             name, "its stress intensities follow from the faces: take --states", why);
@@ -57,8 +56,8 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
 static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
 {
     const json_t *inputs = json_object_get(j->root, "inputs");
-    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, &j->crack,
-                               NULL, NULL};
+    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, &j->crack, NULL,
+                               NULL};
     json_t *own = json_copy((json_t *)inputs), *again = json_object();
     rb_message reason = {""};
     const char *key;
@@ -85,8 +84,8 @@ static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
     {
         if (*s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
             *s = rb_fail(why, RB_EFORMAT,
-                         "%s: cannot be checked: '%s' of inputs cannot be built again",
-                         j->c.name, key);
+                         "%s: cannot be checked: '%s' of inputs cannot be built again", j->c.name,
+                         key);
         json_object_del(own, key);
     }
     json_decref(again);
@@ -138,11 +137,10 @@ static rb_status couple(rb_case *words, rb_message *why)
 /* The contact as a result of its own. */
 static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
 {
-    static const char *const shared[][2] = {
-        {"schema", "schema"},   {"version", "version"},
-        {"units", "units"},     {"conventions", "conventions"},
-        {"contact", "summary"}, {"contact_table", "table"},
-        {"history", "history"}};
+    static const char *const shared[][2] = {{"schema", "schema"},   {"version", "version"},
+                                            {"units", "units"},     {"conventions", "conventions"},
+                                            {"contact", "summary"}, {"contact_table", "table"},
+                                            {"history", "history"}};
     rb_report_certificate own = {0};
     json_t *one = json_object();
     rb_status s = RB_OK;
@@ -158,8 +156,7 @@ static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
     rb_report_json_set(&one, "inputs", rb_report_json_inputs(words));
     rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
     if (s == RB_OK)
-        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why)
-                : RB_ENOMEM;
+        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why) : RB_ENOMEM;
     json_decref(one);
     j->c.found->violations += own.violations;
     j->c.found->numbers += own.numbers;
@@ -170,15 +167,14 @@ static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
 /* ---- What is printed --------------------------------------------------------------- */
 
 /* n numbers of each of the steps, `apart` numbers from step to step. */
-static rb_status read_lists(const judge *j, const json_t *object, const char *key,
-                            int steps, int n, size_t apart, double *to, rb_message *why)
+static rb_status read_lists(const judge *j, const json_t *object, const char *key, int steps, int n,
+                            size_t apart, double *to, rb_message *why)
 {
     const json_t *lists = json_object_get(object, key);
     rb_status s = RB_OK;
 
     if ((int)json_array_size(lists) != steps)
-        return rb_fail(why, RB_EFORMAT, "%s: expected %d steps in %s", j->c.name, steps,
-                       key);
+        return rb_fail(why, RB_EFORMAT, "%s: expected %d steps in %s", j->c.name, steps, key);
     for (int k = 0; k < steps && s == RB_OK; k++)
         s = rb_certificate_list(j->c.name, json_array_get(lists, (size_t)k), key, n,
                                 to + (size_t)k * apart, why);
@@ -221,9 +217,9 @@ static rb_status read_contact(judge *j, rb_message *why)
             s = read_lists(j, states, "q_MPa", steps, n, (size_t)n, to->q, why);
         run->distance = rb_alloc((size_t)steps, 1);
         if (s == RB_OK)
-            s = run->distance ? rb_certificate_column(name, history, "distance", steps,
-                                                      run->distance, why)
-                              : RB_ENOMEM;
+            s = run->distance
+                    ? rb_certificate_column(name, history, "distance", steps, run->distance, why)
+                    : RB_ENOMEM;
         run->half_width = rb_certificate_member(history, "half_width");
     }
     return s;
@@ -249,13 +245,13 @@ static rb_status read_history(judge *j, rb_message *why)
     if (s == RB_OK)
         s = read_lists(j, faces, "q_MPa", steps, n, apart, h->r + n, why);
     if (s == RB_OK && h->wheel)
-        s = read_lists(j, faces, "contact_p_MPa", steps, h->elements, (size_t)h->elements,
-                       h->wheel, why);
+        s = read_lists(j, faces, "contact_p_MPa", steps, h->elements, (size_t)h->elements, h->wheel,
+                       why);
     if (s == RB_OK)
         s = read_lists(j, faces, "zone", steps, n, (size_t)n, zone, why);
     if (s == RB_OK)
-        s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps,
-                                  h->fluid_volume, why);
+        s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps, h->fluid_volume,
+                                  why);
     for (int k = 0; k < rb_case_crack_columns.n && s == RB_OK; k++) {
         const rb_rolling_result *row = &rb_case_crack_columns.row[k];
         double *column = *(double *const *)(void *)((char *)h + row->offset);
@@ -291,8 +287,7 @@ static rb_status find_per_D(judge *j, rb_message *why)
     const rb_status s = rb_crack_create(&straight, &known, why);
     if (s == RB_OK) {
         const int n = rb_crack_nodes(known);
-        const double D =
-            cblas_ddot(n, rb_crack_flexibility(known) + n - 1, 2 * n, j->hat, 1);
+        const double D = cblas_ddot(n, rb_crack_flexibility(known) + n - 1, 2 * n, j->hat, 1);
         j->per_D = (is_deep ? sqrt(0.5 * PI * a) : EDGE_CRACK * sqrt(PI * a)) / D;
     }
     rb_crack_free(known);
@@ -308,8 +303,7 @@ static void set_scales(judge *j)
 
     for (int k = 0; k < j->track.loads; k++)
         for (int i = 0; i < j->track.load[k].n; i++)
-            stress = fmax(stress,
-                          fmax(fabs(j->track.load[k].p[i]), fabs(j->track.load[k].q[i])));
+            stress = fmax(stress, fmax(fabs(j->track.load[k].p[i]), fabs(j->track.load[k].q[i])));
     for (int i = 0; i < n; i++) {
         widest = fmax(widest, j->hat[i]);
         stiffest = fmax(stiffest, 1.0 / sqrt(F[i + (size_t)i * 2 * (size_t)n]));
@@ -320,8 +314,7 @@ static void set_scales(judge *j)
         j->length[i] = size / scale;
         j->force[i] = size * scale;
     }
-    const double printed =
-        rb_certificate_member(json_object_get(j->root, "summary"), "residual");
+    const double printed = rb_certificate_member(json_object_get(j->root, "summary"), "residual");
     j->exact = 10.0 * fmax(printed < 1e-10 ? printed : 1e-10, 1e-13);
 }
 
@@ -351,8 +344,7 @@ static rb_status rebuild(judge *j, rb_message *why)
     const int steps = (int)json_array_size(x);
     if (s == RB_OK && /* before anything large is computed */
         ((int)json_array_size(places) != n || steps != steps_wanted))
-        return rb_fail(why, RB_EFORMAT,
-                       "expected %d nodes in faces, %.0f positions in table", n,
+        return rb_fail(why, RB_EFORMAT, "expected %d nodes in faces, %.0f positions in table", n,
                        steps_wanted);
     if (s == RB_OK)
         s = rb_crack_create(&j->r.shape, &j->body, why);
@@ -360,8 +352,7 @@ static rb_status rebuild(judge *j, rb_message *why)
         return s;
     j->T = rb_alloc((size_t)n, 5);
     const int elements = j->crack.coupled ? j->r.contact.solution.n : 0;
-    s = j->T ? rb_crack_history_alloc(j->body, steps, elements, &j->r.history)
-             : RB_ENOMEM;
+    s = j->T ? rb_crack_history_alloc(j->body, steps, elements, &j->r.history) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_history_alloc(j->body, steps, elements, &j->again);
     if (s == RB_OK && elements > 0)
@@ -386,10 +377,8 @@ static rb_status displace(judge *j, int k, rb_message *why)
     const rb_crack_history *h = &j->r.history;
     const rb_case_crack_track *t = &j->track;
     const int n = h->nodes, step = k % t->n;
-    const rb_bem_edge_load *load =
-        t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
-    const rb_bem_edge_load coupled = {h->elements, t->ends, h->wheel + k * h->elements,
-                                      j->none};
+    const rb_bem_edge_load *load = t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
+    const rb_bem_edge_load coupled = {h->elements, t->ends, h->wheel + k * h->elements, j->none};
     const rb_status s = rb_crack_load(j->body, h->wheel ? &coupled : load, t->x[step],
                                       j->crack.remote_stress, j->T);
 
@@ -398,9 +387,8 @@ static rb_status displace(judge *j, int k, rb_message *why)
     for (int i = 0; i < 2 * n; i++)
         j->T[i] += h->r[(size_t)k * 2 * (size_t)n + (size_t)i] +
                    (i < n ? h->fluid_pressure[k] * j->hat[i] : 0.0);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, 2 * n, 1.0,
-                rb_crack_flexibility(j->body), 2 * n, j->T, 1, 0.0,
-                j->again.D + (size_t)k * 2 * (size_t)n, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, 2 * n, 1.0, rb_crack_flexibility(j->body),
+                2 * n, j->T, 1, 0.0, j->again.D + (size_t)k * 2 * (size_t)n, 1);
     return RB_OK;
 }
 
@@ -413,8 +401,7 @@ static rb_status check_wheel(judge *j, int k)
     const int n = h->nodes, m = h->elements;
     const double *p = h->wheel + k * m, *ends = j->track.ends,
                  *D = j->again.D + (size_t)k * 2 * (size_t)n;
-    const double load =
-        rb_certificate_member(json_object_get(j->root, "contact"), "normal_load");
+    const double load = rb_certificate_member(json_object_get(j->root, "contact"), "normal_load");
     const double slack = TOLERANCE * problem->gap_length;
     double carried = 0.0, weighted = 0.0, sum = 0.0;
 
@@ -423,8 +410,7 @@ static rb_status check_wheel(judge *j, int k)
     for (int i = 0; i < m; i++) {
         const double width = ends[i + 1] - ends[i], unit = 1.0 / width;
         const rb_bem_edge_load strip = {1, ends + i, &unit, j->none};
-        const rb_status s =
-            rb_crack_load(j->body, &strip, j->track.x[k % j->track.n], 0.0, j->T);
+        const rb_status s = rb_crack_load(j->body, &strip, j->track.x[k % j->track.n], 0.0, j->T);
         if (s != RB_OK)
             return s;
         j->gap[i] += cblas_ddot(2 * n, j->T, 1, D, 1);
@@ -435,8 +421,8 @@ static rb_status check_wheel(judge *j, int k)
     for (int i = 0; i < m; i++) { /* against the approach that fits the contact */
         const double gap = j->gap[i] - weighted / sum;
         if (p[i] < 0.0 || gap < -slack || (p[i] > 0.0 && gap > slack))
-            rb_certificate_violated(&j->c, "contact: element %d: gap %.3g, pressure %.3g",
-                                    i + 1, gap, p[i]);
+            rb_certificate_violated(&j->c, "contact: element %d: gap %.3g, pressure %.3g", i + 1,
+                                    gap, p[i]);
         j->again.max_pressure[k] = fmax(j->again.max_pressure[k], p[i]);
     }
     if (p[0] > 0.0 || p[m - 1] > 0.0)
@@ -457,8 +443,7 @@ static int is_open(const judge *j, int k)
  * place where the mouth closes lies between. */
 static int follows_closing(const judge *j, int k)
 {
-    return j->crack.locate_closing && k % j->track.n > 0 && is_open(j, k - 1) &&
-           !is_open(j, k);
+    return j->crack.locate_closing && k % j->track.n > 0 && is_open(j, k - 1) && !is_open(j, k);
 }
 
 /* Contact and friction of node i in step k. */
@@ -470,8 +455,7 @@ static void check_node(judge *j, int k, int i)
     const double gap = j->again.D[N], mu = j->crack.friction, p = h->r[N], q = h->r[T];
     const double slip = h->D[T] - (k > 0 ? h->D[T - 2 * (size_t)n] : 0.0);
     const double length = j->length[i], force = j->force[i];
-    const double ps = p / force, qs = q / force, ls = slip / length,
-                 most = mu * fmax(ps, 0.0);
+    const double ps = p / force, qs = q / force, ls = slip / length, most = mu * fmax(ps, 0.0);
     double off = fabs(fmin(gap / length, ps));
 
     off = fmax(off, fabs(qs) - mu * ps);
@@ -557,8 +541,8 @@ static void compare_step(judge *j, int k)
 
     for (int i = 0; i < 2 * n; i++) {
         const size_t at = (size_t)k * 2 * (size_t)n + (size_t)i;
-        rb_certificate_expect(&j->c, i < n ? "faces.opening_mm" : "faces.sliding_mm",
-                              i % n + 1, h->D[at], again->D[at],
+        rb_certificate_expect(&j->c, i < n ? "faces.opening_mm" : "faces.sliding_mm", i % n + 1,
+                              h->D[at], again->D[at],
                               1e-9 * fabs(again->D[at]) + j->exact * j->length[i % n]);
     }
     for (int r = 0; r < rb_case_crack_columns.n; r++) {
@@ -566,8 +550,8 @@ static void compare_step(judge *j, int k)
         if (!rb_rolling_has_column(row, h))
             continue;
         const double want = rb_rolling_entry(row, again, k);
-        const double size = row->error_bar ? j->per_D * j->exact * j->length[n - 1]
-                                           : 1e-12 * j->r.half_width;
+        const double size =
+            row->error_bar ? j->per_D * j->exact * j->length[n - 1] : 1e-12 * j->r.half_width;
         rb_certificate_expect(&j->c, row->name, 0, rb_rolling_entry(row, h, k), want,
                               1e-9 * fabs(want) + size);
     }
@@ -590,8 +574,8 @@ static void check_direction(judge *j)
             most = fmax(most, c * (h->K_I[k] * c * c - 1.5 * h->K_II[k] * sin(theta)));
             size = fmax(size, fmax(fabs(h->K_I[k]), fabs(h->K_II[k])));
         }
-    rb_certificate_expect(&j->c, "summary.K_theta_max by trying directions", 0, printed,
-                          most, 3e-6 * size);
+    rb_certificate_expect(&j->c, "summary.K_theta_max by trying directions", 0, printed, most,
+                          3e-6 * size);
 }
 
 static double slack_of_summary(const rb_certificate *c, const char *key, double want)
@@ -609,8 +593,7 @@ static rb_status compare_rest(judge *j)
     json_t *again = json_object();
 
     memcpy(h->residual, j->again.residual, (size_t)h->n * sizeof *h->residual);
-    j->c.found->residual =
-        fmax(j->c.found->residual, rb_norm_inf((size_t)h->n, h->residual));
+    j->c.found->residual = fmax(j->c.found->residual, rb_norm_inf((size_t)h->n, h->residual));
     j->r.summary = rb_case_crack_summarise(h, j->r.passes);
     j->r.contact.solution.n = 0; /* judged as a result of its own */
     rb_report_json_crack(&again, &j->r);
@@ -643,9 +626,8 @@ static rb_status compare_rest(judge *j)
 
 /* ---- The whole --------------------------------------------------------------------- */
 
-rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
-                               rb_case *words, rb_report_certificate *found,
-                               rb_message *why)
+rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
+                               rb_report_certificate *found, rb_message *why)
 {
     judge j = {.c = {.out = out, .name = name, .found = found}, .root = root};
     rb_message reason = {""};
@@ -686,9 +668,8 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root,
     rb_rolling_model_free(&j.wheel);
     memset(&j.r.contact.solution, 0, sizeof j.r.contact.solution); /* it was lent */
     rb_case_crack_free(&j.r);
-    return s != RB_OK && reason.text[0]
-               ? rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
-                         "%s: cannot be checked: %s", name, reason.text)
-           : s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", name)
-                            : s;
+    return s != RB_OK && reason.text[0] ? rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
+                                                  "%s: cannot be checked: %s", name, reason.text)
+           : s == RB_ENOMEM             ? rb_fail(why, s, "%s: out of memory", name)
+                                        : s;
 }

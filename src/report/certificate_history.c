@@ -9,23 +9,22 @@
 /* ---- The states -------------------------------------------------------------------- */
 
 /* n numbers of each step. */
-static rb_status read_lists(const rb_certificate *c, const json_t *states,
-                            const char *key, const rb_rolling_states *to, double *values,
-                            rb_message *why)
+static rb_status read_lists(const rb_certificate *c, const json_t *states, const char *key,
+                            const rb_rolling_states *to, double *values, rb_message *why)
 {
     const json_t *lists = json_object_get(states, key);
     rb_status s = RB_OK;
     if ((int)json_array_size(lists) != to->steps)
-        return rb_fail(why, RB_EFORMAT, "%s: states: expected %d steps in %s", c->name,
-                       to->steps, key);
+        return rb_fail(why, RB_EFORMAT, "%s: states: expected %d steps in %s", c->name, to->steps,
+                       key);
     for (int k = 0; k < to->steps && s == RB_OK; k++)
         s = rb_certificate_list(c->name, json_array_get(lists, (size_t)k), key, to->n,
                                 values + (size_t)k * (size_t)to->n, why);
     return s;
 }
 
-static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to,
-                            const double *zone, rb_message *why)
+static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to, const double *zone,
+                            rb_message *why)
 {
     const size_t all = (size_t)to->n * (size_t)to->steps;
     for (size_t i = 0; i < all; i++) {
@@ -36,8 +35,8 @@ static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to,
     return RB_OK;
 }
 
-static rb_status read_states(const rb_certificate *c, const json_t *printed,
-                             rb_rolling_states *to, rb_message *why)
+static rb_status read_states(const rb_certificate *c, const json_t *printed, rb_rolling_states *to,
+                             rb_message *why)
 {
     const json_t *states = json_object_get(printed, "states");
     double *zone = rb_alloc((size_t)to->n, (size_t)to->steps);
@@ -58,8 +57,7 @@ static rb_status read_states(const rb_certificate *c, const json_t *printed,
     if (s == RB_OK)
         s = read_zones(c, to, zone, why);
     if (s == RB_OK)
-        s = rb_certificate_column(c->name, printed, "approach", to->steps, to->delta,
-                                  why);
+        s = rb_certificate_column(c->name, printed, "approach", to->steps, to->delta, why);
     if (s == RB_OK)
         s = rb_certificate_column(c->name, states, "motion", to->steps, to->xi, why);
     free(zone);
@@ -74,8 +72,8 @@ typedef struct {
     rb_status status;
 } step_check;
 
-static int assess_step(const rb_rolling_model *model, const rb_rolling_history *h,
-                       int step, int steps, void *context)
+static int assess_step(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                       int steps, void *context)
 {
     step_check *j = context;
     rb_certificate *c = j->c;
@@ -83,8 +81,7 @@ static int assess_step(const rb_rolling_model *model, const rb_rolling_history *
     (void)model; /* it is the certificate's own */
     (void)steps;
     c->step = step + 1;
-    rb_certificate_tolerances(
-        c, rb_certificate_number(json_array_get(j->residual, (size_t)step)));
+    rb_certificate_tolerances(c, rb_certificate_number(json_array_get(j->residual, (size_t)step)));
     rb_certificate_given(c, h->normal_load[step]);
     rb_certificate_motion(c);
     j->status = rb_certificate_laws(c);
@@ -93,8 +90,8 @@ static int assess_step(const rb_rolling_model *model, const rb_rolling_history *
 }
 
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_resolved_case *resolved, int n,
-                                rb_rolling_history *h, rb_message *why)
+                                const rb_resolved_case *resolved, int n, rb_rolling_history *h,
+                                rb_message *why)
 {
     const int steps = (int)json_array_size(json_object_get(printed, "approach"));
     step_check j = {c, json_object_get(printed, "residual"), RB_OK};
@@ -109,8 +106,7 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     states.half_width = rb_certificate_member(printed, "half_width");
     states.program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
-        s = rb_rolling_history_follow(&resolved->rc, &states, &observer, &c->model, h,
-                                      why);
+        s = rb_rolling_history_follow(&resolved->rc, &states, &observer, &c->model, h, why);
     rb_rolling_states_free(&states);
     return j.status != RB_OK ? j.status : s;
 }
@@ -119,8 +115,8 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 
 /* rounding: of its numbers, as of a force that is none, or of the moment of a symmetric
  * pressure. */
-static void compare_list(rb_certificate *c, const char *key, double rounding,
-                         const json_t *printed, const json_t *again)
+static void compare_list(rb_certificate *c, const char *key, double rounding, const json_t *printed,
+                         const json_t *again)
 {
     double largest = 0.0;
 
@@ -133,8 +129,7 @@ static void compare_list(rb_certificate *c, const char *key, double rounding,
         const double want = rb_certificate_number(json_array_get(again, k));
         const int whole = json_is_integer(json_array_get(again, k));
         c->step = (int)k + 1;
-        rb_certificate_expect(c, key, 0,
-                              rb_certificate_number(json_array_get(printed, k)), want,
+        rb_certificate_expect(c, key, 0, rb_certificate_number(json_array_get(printed, k)), want,
                               whole ? 0.0
                               : strcmp(key, "residual") == 0
                                   ? c->tol
@@ -162,13 +157,11 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
     {
         const json_t *value = json_object_get(printed, key);
         if (json_is_array(want))
-            compare_list(
-                c, key,
-                rb_certificate_rounding(&rb_rolling_history_columns, key, &scales, 0.0),
-                value, want);
+            compare_list(c, key,
+                         rb_certificate_rounding(&rb_rolling_history_columns, key, &scales, 0.0),
+                         value, want);
         else if (json_is_real(want))
-            rb_certificate_expect(c, key, 0, rb_certificate_number(value),
-                                  json_real_value(want),
+            rb_certificate_expect(c, key, 0, rb_certificate_number(value), json_real_value(want),
                                   1e-9 * fabs(json_real_value(want)));
         else if (!json_equal(value, want))
             rb_certificate_violated(c, "history: %s is not what it should be", key);

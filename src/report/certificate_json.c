@@ -7,8 +7,8 @@
 
 /* ---- What can be checked ----------------------------------------------------------- */
 
-rb_status rb_certificate_head(const char *name, const json_t *root,
-                              const char *const *known, rb_message *why)
+rb_status rb_certificate_head(const char *name, const json_t *root, const char *const *known,
+                              rb_message *why)
 {
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *summary = json_object_get(root, "summary");
@@ -35,11 +35,9 @@ rb_status rb_certificate_head(const char *name, const json_t *root,
                                      "cases, histories, stress and "
                                      "cracks without error bars can)",
                                      why);
-    if (json_is_true(json_object_get(inputs, "error")) ||
-        json_object_get(summary, "errors") ||
+    if (json_is_true(json_object_get(inputs, "error")) || json_object_get(summary, "errors") ||
         json_is_number(json_object_get(inputs, "accuracy")))
-        return rb_certificate_refuse(name, "error bars take solutions on other meshes",
-                                     why);
+        return rb_certificate_refuse(name, "error bars take solutions on other meshes", why);
     if (strcmp(rb_certificate_word(inputs, "units"), "mm") != 0 ||
         strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
         return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
@@ -53,26 +51,24 @@ rb_status rb_certificate_head(const char *name, const json_t *root,
 /* Results of `rollbem` itself. */
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {
-        "schema", "version", "command", "conventions", "notes", "units", "input_hash",
-        "inputs", "summary", "table", "history", "depth", "maxima", "grid", "points",
-        "shakedown",
-        /* not judged; the result beside them is */
-        "derivatives", "without_derivatives", "derivatives_over_x", "derivatives_are",
-        "tolerances", NULL};
+    static const char *const known[] = {"schema", "version", "command", "conventions", "notes",
+                                        "units", "input_hash", "inputs", "summary", "table",
+                                        "history", "depth", "maxima", "grid", "points", "shakedown",
+                                        /* not judged; the result beside them is */
+                                        "derivatives", "without_derivatives", "derivatives_over_x",
+                                        "derivatives_are", "tolerances", NULL};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const rb_status s = rb_certificate_head(name, root, known, why);
 
     if (s != RB_OK)
         return s;
-    const int has_steps =
-        strcmp(rb_certificate_word(inputs, "formulation"), "transient") == 0 ||
-        rb_certificate_word(inputs, "history")[0] ||
-        rb_certificate_member(inputs, "increments") > 1.0;
+    const int has_steps = strcmp(rb_certificate_word(inputs, "formulation"), "transient") == 0 ||
+                          rb_certificate_word(inputs, "history")[0] ||
+                          rb_certificate_member(inputs, "increments") > 1.0;
     if (has_steps != json_is_object(history))
-        return rb_certificate_refuse(
-            name, "its inputs and its history do not belong together", why);
+        return rb_certificate_refuse(name, "its inputs and its history do not belong together",
+                                     why);
     if (has_steps && !json_is_object(json_object_get(history, "states")))
         return rb_certificate_refuse(
             name,
@@ -88,8 +84,7 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
 /* What the case and its state say nothing of without solving again. */
 static void say_what_is_not_judged(const rb_certificate *c, const json_t *root)
 {
-    const json_t *steps =
-        json_object_get(json_object_get(root, "history"), "derivatives");
+    const json_t *steps = json_object_get(json_object_get(root, "history"), "derivatives");
     const int slopes = steps || json_object_get(root, "derivatives"),
               deviations = json_object_get(root, "tolerances") != NULL;
 
@@ -163,8 +158,8 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
 
 /* What follows from others, such as the mesh of
  * steady rolling, is given as well where it is another one: hence the second round. */
-rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs,
-                                      rb_case *words, rb_message *why)
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+                                      rb_message *why)
 {
     json_t *now = rb_report_json_inputs(words), *value;
     rb_status s = now ? RB_OK : RB_ENOMEM;
@@ -179,33 +174,29 @@ rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs,
             s = RB_ENOMEM;
     }
     if (s != RB_OK)
-        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
-                    "%s: cannot be checked: inputs: %s", name, reason.text);
+        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT, "%s: cannot be checked: inputs: %s", name,
+                    reason.text);
     json_object_foreach(now, key, value)
     {
         if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
             s = rb_fail(why, RB_EFORMAT,
-                        "%s: cannot be checked: '%s' of inputs cannot be built again",
-                        name, key);
+                        "%s: cannot be checked: '%s' of inputs cannot be built again", name, key);
     }
     if (s == RB_OK && !json_equal(now, inputs))
-        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names",
-                    name);
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names", name);
     json_decref(now);
     return s;
 }
 
 /* Also of what the answer does not depend on, and of the files that inputs name. */
-static rb_status compare_hash(rb_certificate *c, const json_t *printed,
-                              const rb_case *words)
+static rb_status compare_hash(rb_certificate *c, const json_t *printed, const rb_case *words)
 {
     json_t *now = rb_report_json_input_hash(words);
     if (!now)
         return RB_ENOMEM;
     if (!json_equal(now, printed))
-        rb_certificate_violated(c,
-                                "inputs, or a file that they name, are not those of the "
-                                "result (input_hash)");
+        rb_certificate_violated(c, "inputs, or a file that they name, are not those of the "
+                                   "result (input_hash)");
     json_decref(now);
     return RB_OK;
 }
@@ -238,8 +229,8 @@ static rb_status compare_texts(rb_certificate *c, const json_t *root,
     const rb_status s = again && units && notes ? RB_OK : RB_ENOMEM;
     size_t same = 0;
 
-    if (s == RB_OK && !json_equal(json_object_get(again, "conventions"),
-                                  json_object_get(root, "conventions")))
+    if (s == RB_OK &&
+        !json_equal(json_object_get(again, "conventions"), json_object_get(root, "conventions")))
         rb_certificate_violated(c, "conventions are not those of rollbem");
     if (s == RB_OK && !json_equal(units, json_object_get(root, "units")))
         rb_certificate_violated(c, "units are not mm, N, MPa");
@@ -256,8 +247,8 @@ static rb_status compare_texts(rb_certificate *c, const json_t *root,
     return s;
 }
 
-rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
-                            rb_case *words, rb_report_certificate *found, rb_message *why)
+rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_case *words,
+                            rb_report_certificate *found, rb_message *why)
 {
     rb_certificate c = {.out = out,
                         .name = name,
@@ -273,8 +264,7 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK && n < 3)
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
-        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words,
-                                        why);
+        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
     if (s == RB_OK)
         s = compare_hash(&c, json_object_get(root, "input_hash"), words);
     if (s == RB_OK && history)

@@ -44,8 +44,7 @@ static compliance across(double m, double nu, double thickness, compliance K)
             (m + 1.0) * (1.0 + (cabs(K.N + m * K.C) + cabs(K.C + m * K.T)) / (1.0 - nu));
         const double h = fmin(left, 0.25 / rate);
         const compliance k1 = slope(m, nu, K), k2 = slope(m, nu, plus(K, 0.5 * h, k1)),
-                         k3 = slope(m, nu, plus(K, 0.5 * h, k2)),
-                         k4 = slope(m, nu, plus(K, h, k3));
+                         k3 = slope(m, nu, plus(K, 0.5 * h, k2)), k4 = slope(m, nu, plus(K, h, k3));
         K = plus(plus(plus(plus(K, h / 6.0, k1), h / 3.0, k2), h / 3.0, k3), h / 6.0, k4);
         left = h < left ? left - h : 0.0;
     }
@@ -76,8 +75,7 @@ static compliance answer(const body *b, double m)
     cplx softer = 1.0;
 
     for (int k = 0; k < b->memory->n; k++)
-        softer += b->memory->ratio[k] /
-                  (1.0 - I * (m / b->radius * b->speed * b->memory->time[k]));
+        softer += b->memory->ratio[k] / (1.0 - I * (m / b->radius * b->speed * b->memory->time[k]));
     if (m * b->own > reach) {
         K = of_disc(m, b->material.poisson);
     } else {
@@ -134,10 +132,8 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
         const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
         const double at = turns ? b->radius * asin(sine) : x[i];
         const int given = model->rc->normals == RB_BEM_NORMALS_SURFACE;
-        const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine),
-                     turned = given ? 0.0 : sine;
-        const cplx wave =
-            h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
+        const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine), turned = given ? 0.0 : sine;
+        const cplx wave = h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
         p += (P * cosine - Q * turned) * wave;
         q += (Q * cosine + P * turned) * wave;
     }
@@ -154,8 +150,7 @@ static double lost_in(const rb_certificate *c, const body *b, int is_b, double l
 {
     /* Gauss and Legendre, five points */
     static const double at[3] = {0.0, 0.5384693101056831, 0.9061798459386640},
-                        weight[3] = {0.5688888888888889, 0.4786286704993665,
-                                     0.2369268850561891};
+                        weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
     const int n = c->again.n;
     const double width = c->again.x[n - 1] - c->again.x[0], widest = acos(-1.0) / width;
     const double last = 16.0 * acos(-1.0) * n / width;
@@ -173,8 +168,7 @@ static double lost_in(const rb_certificate *c, const body *b, int is_b, double l
         const double step = fmin(widest, from), middle = from + 0.5 * step;
         for (int i = -2; i <= 2; i++) {
             const double k = middle + copysign(at[abs(i)], i) * 0.5 * step;
-            const double one =
-                0.5 * step * weight[abs(i)] * loss(c, b, is_b, k * b->radius);
+            const double one = 0.5 * step * weight[abs(i)] * loss(c, b, is_b, k * b->radius);
             sum += one;
             *unresolved += k > shortest ? fabs(one) : 0.0;
         }
@@ -185,15 +179,14 @@ static double lost_in(const rb_certificate *c, const body *b, int is_b, double l
 
 /* -int p w' dx by differences between the neighbours at `reach` elements; the elements at
  * the ends carry nothing. */
-static double work_by_differences(const rb_rolling_solution *s, const double *p,
-                                  const double *w, int reach)
+static double work_by_differences(const rb_rolling_solution *s, const double *p, const double *w,
+                                  int reach)
 {
     double work = 0.0;
 
     for (int i = reach; i + reach < s->n; i++) {
         const double left = s->x[i] - s->x[i - reach], right = s->x[i + reach] - s->x[i];
-        const double before = (w[i] - w[i - reach]) / left,
-                     after = (w[i + reach] - w[i]) / right;
+        const double before = (w[i] - w[i - reach]) / left, after = (w[i + reach] - w[i]) / right;
         work -= p[i] * s->h[i] * (right * before + left * after) / (left + right);
     }
     return work;
@@ -244,8 +237,7 @@ static rb_status missed_by_differences(const rb_certificate *c, double *missed)
  * contact's width at most, and on equal elements, in one of which the contact ends, a
  * part of it; chords for arcs that of a/R; waves that the elements do not resolve up to
  * two times what these lose (tests/test_certificates.c). */
-rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power,
-                                    double *allowed)
+rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed)
 {
     const rb_rolling_case *rc = c->model.rc;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
@@ -264,15 +256,12 @@ rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power,
     }
     const int fitted = rc->mesh == RB_MESH_FITTED && !c->model.equal_instead;
     const double share = longest / s->half_width;
-    const double turned =
-        rb_rolling_can(rc, RB_BODY_FLAT) ? 0.0 : s->half_width / rc->a.radius;
-    const double missed =
-        2.0 * share * share + (fitted ? 0.0 : 0.06 * share) + turned * turned;
+    const double turned = rb_rolling_can(rc, RB_BODY_FLAT) ? 0.0 : s->half_width / rc->a.radius;
+    const double missed = 2.0 * share * share + (fitted ? 0.0 : 0.06 * share) + turned * turned;
     double differences = 0.0;
     const rb_status status =
         rb_rolling_can(rc, RB_BODY_FLAT) ? missed_by_differences(c, &differences) : RB_OK;
-    *allowed =
-        fabs(sum) * missed + differences + 3.0 * unresolved + 1e-12 * s->normal_load;
+    *allowed = fabs(sum) * missed + differences + 3.0 * unresolved + 1e-12 * s->normal_load;
     *power = sum;
     return status;
 }

@@ -43,8 +43,8 @@ static void compare_solutions(FILE *out, const char *name, const json_t *root,
         listed |= difference(root, one) < SAME;
         for (size_t j = 0; j < k; j++)
             if (difference(one, json_array_get(all, j)) < SAME) {
-                fprintf(out, "%s: violated: solutions %zu and %zu are the same\n", name,
-                        j + 1, k + 1);
+                fprintf(out, "%s: violated: solutions %zu and %zu are the same\n", name, j + 1,
+                        k + 1);
                 found->violations++;
             }
     }
@@ -88,8 +88,7 @@ static rb_status certify_one(FILE *out, const char *name, json_t *one, rb_case *
 }
 
 rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t *root,
-                                      rb_case *words, rb_report_certificate *found,
-                                      rb_message *why)
+                                      rb_case *words, rb_report_certificate *found, rb_message *why)
 {
     const json_t *all = json_object_get(root, "solutions");
     char label[400];
@@ -100,16 +99,15 @@ rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t 
     if (!all)
         return rb_report_certify(out, name, root, words, found, why);
     if (!json_is_array(all) || json_array_size(all) == 0)
-        return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no list of solutions",
-                       name);
+        return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no list of solutions", name);
     rb_status s = certify_one(out, name, result_with(root, root), words, found, why);
     for (size_t k = 0; k < json_array_size(all) && s == RB_OK; k++) {
         const json_t *one = json_array_get(all, k);
         snprintf(label, sizeof label, "%.300s: solution %zu", name, k + 1);
         s = json_object_size(one) == 2
                 ? certify_one(out, label, result_with(root, one), words, found, why)
-                : rb_fail(why, RB_EFORMAT,
-                          "%s: cannot be checked: expected a summary and a table", label);
+                : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: expected a summary and a table",
+                          label);
     }
     if (s == RB_OK)
         compare_solutions(out, name, root, found);

@@ -21,10 +21,9 @@ static double slack_of_stress(const rb_certificate *c, const char *key, double w
     const double most = c->again.max_pressure;
     if (strcmp(key, "x_mm") == 0 || strcmp(key, "y_mm") == 0)
         return 1e-12 * c->again.half_width;
-    return 1e-9 * fabs(want) +
-           most * (c->hierarchical                                      ? 1e-5
-                   : rb_rolling_body_can(&c->model.rc->a, RB_BODY_FLAT) ? 1e-12
-                                                                        : 1e-7);
+    return 1e-9 * fabs(want) + most * (c->hierarchical                                      ? 1e-5
+                                       : rb_rolling_body_can(&c->model.rc->a, RB_BODY_FLAT) ? 1e-12
+                                                                                            : 1e-7);
 }
 
 /* The grid's points follow from its size. */
@@ -40,8 +39,8 @@ static rb_status grid_again(rb_certificate *c, const json_t *printed, double dep
 }
 
 /* Given points are taken as they are: a list in one row. */
-static rb_status points_again(rb_certificate *c, const json_t *printed,
-                              rb_rolling_stress_grid *row, rb_message *why)
+static rb_status points_again(rb_certificate *c, const json_t *printed, rb_rolling_stress_grid *row,
+                              rb_message *why)
 {
     const int n = (int)json_array_size(json_object_get(printed, "x_mm"));
     double *x = rb_alloc((size_t)n, 4), *y = x + n, *xy = y + n;
@@ -70,8 +69,7 @@ static rb_rolling_extremum printed_extremum(const json_t *maxima, const char *na
 {
     const json_t *one = json_object_get(maxima, name);
     return (rb_rolling_extremum){rb_certificate_member(one, "value"),
-                                 rb_certificate_member(one, "x"),
-                                 rb_certificate_member(one, "y")};
+                                 rb_certificate_member(one, "x"), rb_certificate_member(one, "y")};
 }
 
 /* Its place has to lie in the depth that was given, and no other may have more. */
@@ -80,11 +78,11 @@ static void expect_largest(rb_certificate *c, const char *name, double depth,
 {
     const double below = printed.y - rb_rolling_surface(c->model.rc, printed.x);
     if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
-        rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g",
-                                name, below, depth);
+        rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g", name,
+                                below, depth);
     if (!(found.value <= printed.value + search_slack(c)))
-        rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)",
-                                name, printed.value, found.value, found.x, found.y);
+        rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)", name,
+                                printed.value, found.value, found.x, found.y);
 }
 
 /* The stresses at the places that are printed: where a flat or symmetric maximum has
@@ -103,8 +101,7 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
         return s;
     expect_largest(c, "max_shear", depth, there->max_shear, found.max_shear);
     expect_largest(c, "von_mises", depth, there->von_mises, found.von_mises);
-    expect_largest(c, "orthogonal_shear", depth, there->orthogonal_shear,
-                   found.orthogonal_shear);
+    expect_largest(c, "orthogonal_shear", depth, there->orthogonal_shear, found.orthogonal_shear);
     expect_largest(c, "tension", depth, there->tension, found.tension);
     s = rb_rolling_stress_maxima_at(&c->model, there, why);
     if (s == RB_EINVAL)
@@ -119,14 +116,13 @@ static rb_status shakedown_again(rb_certificate *c, const json_t *printed,
     rb_rolling_shakedown found;
     rb_status s = rb_rolling_shakedown_find(&c->model, &found, why);
 
-    *there = (rb_rolling_shakedown){rb_certificate_member(printed, "shear_yield"),
-                                    rb_certificate_member(printed, "x"),
-                                    rb_certificate_member(printed, "y"),
-                                    rb_certificate_member(printed, "residual")};
+    *there = (rb_rolling_shakedown){
+        rb_certificate_member(printed, "shear_yield"), rb_certificate_member(printed, "x"),
+        rb_certificate_member(printed, "y"), rb_certificate_member(printed, "residual")};
     if (s != RB_OK)
         return s;
-    rb_certificate_expect(c, "shakedown.shear_yield", 0, there->shear_yield,
-                          found.shear_yield, search_slack(c));
+    rb_certificate_expect(c, "shakedown.shear_yield", 0, there->shear_yield, found.shear_yield,
+                          search_slack(c));
     s = rb_rolling_shakedown_at(&c->model, there, why);
     if (s == RB_EINVAL)
         rb_certificate_violated(c, "shakedown: %s", why->text);
@@ -134,8 +130,7 @@ static rb_status shakedown_again(rb_certificate *c, const json_t *printed,
 }
 
 /* What the program would print of them now. */
-static rb_status compare_all(rb_certificate *c, const json_t *root,
-                             const rb_report_stress *stress)
+static rb_status compare_all(rb_certificate *c, const json_t *root, const rb_report_stress *stress)
 {
     json_t *again = json_object(), *part;
     const char *key;
@@ -143,8 +138,7 @@ static rb_status compare_all(rb_certificate *c, const json_t *root,
     rb_report_json_stress(&again, stress);
     json_object_foreach(again, key, part)
     {
-        rb_certificate_compare(c, key, 0, json_object_get(root, key), part,
-                               slack_of_stress);
+        rb_certificate_compare(c, key, 0, json_object_get(root, key), part, slack_of_stress);
     }
     const rb_status s = again ? RB_OK : RB_ENOMEM;
     json_decref(again);
@@ -168,17 +162,17 @@ rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_messag
     if (s == RB_OK && shakedown)
         s = shakedown_again(c, shakedown, &limit, why);
     if (s == RB_OK)
-        s = compare_all(c, root,
-                        &(rb_report_stress){.nx = is_grid ? grid.nx : 0,
-                                            .ny = grid.ny,
-                                            .n = is_grid ? grid.nx * grid.ny : grid.nx,
-                                            .depth = depth,
-                                            .at = grid.at,
-                                            .maxima = &maxima,
-                                            .shakedown = shakedown ? &limit : NULL,
-                                            .yield_shear = rb_certificate_member(
-                                                shakedown, "yield_shear"),
-                                            .s = &c->again});
+        s = compare_all(
+            c, root,
+            &(rb_report_stress){.nx = is_grid ? grid.nx : 0,
+                                .ny = grid.ny,
+                                .n = is_grid ? grid.nx * grid.ny : grid.nx,
+                                .depth = depth,
+                                .at = grid.at,
+                                .maxima = &maxima,
+                                .shakedown = shakedown ? &limit : NULL,
+                                .yield_shear = rb_certificate_member(shakedown, "yield_shear"),
+                                .s = &c->again});
     rb_rolling_stress_grid_free(&grid);
     return s;
 }

@@ -33,13 +33,12 @@ rb_status rb_report_table_command(const char *text, char **line)
 /* ---- Comments ---------------------------------------------------------------------- */
 
 /* "# steady, solved; residual 3.1e-14" */
-static rb_status read_status(const char *name, const char *text, double *residual,
-                             rb_message *why)
+static rb_status read_status(const char *name, const char *text, double *residual, rb_message *why)
 {
     const char *of = strstr(text, "; residual ");
     if (!of || sscanf(of, "; residual %lf", residual) != 1)
-        return rb_certificate_refuse(
-            name, "expected a table of a single case, with its comments", why);
+        return rb_certificate_refuse(name, "expected a table of a single case, with its comments",
+                                     why);
     const size_t n = strlen(", solved");
     return of - text > (ptrdiff_t)n && strncmp(of - n, ", solved", n) == 0
                ? RB_OK
@@ -59,16 +58,14 @@ static void compare_patches(rb_certificate *c, const char *text)
         double from, to, p0, P, Q;
         snprintf(start, sizeof start, "# patch %d: ", k + 1);
         const char *line = line_behind(text, start);
-        if (!line ||
-            sscanf(line, "from %lf to %lf mm, p0 = %lf MPa, P = %lf, Q = %lf N/mm", &from,
-                   &to, &p0, &P, &Q) != 5) {
+        if (!line || sscanf(line, "from %lf to %lf mm, p0 = %lf MPa, P = %lf, Q = %lf N/mm", &from,
+                            &to, &p0, &P, &Q) != 5) {
             rb_certificate_violated(c, "patch %d is missing", k + 1);
             continue;
         }
         rb_certificate_expect(c, "from of a patch", 0, from, want->from,
                               1e-8 * fabs(want->from) + length);
-        rb_certificate_expect(c, "to of a patch", 0, to, want->to,
-                              1e-8 * fabs(want->to) + length);
+        rb_certificate_expect(c, "to of a patch", 0, to, want->to, 1e-8 * fabs(want->to) + length);
         rb_certificate_expect(c, "p0 of a patch", 0, p0, want->max_pressure,
                               1e-8 * want->max_pressure + stress);
         rb_certificate_expect(c, "P of a patch", 0, P, want->normal_load,
@@ -80,16 +77,14 @@ static void compare_patches(rb_certificate *c, const char *text)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status check_inputs(const char *name, const rb_resolved_case *resolved,
-                              rb_message *why)
+static rb_status check_inputs(const char *name, const rb_resolved_case *resolved, rb_message *why)
 {
-    const char *what =
-        rb_case_has_steps(resolved)
-            ? "its last state depends on the steps before it: take --json --states"
-        : resolved->error || resolved->accuracy > 0.0
-            ? "error bars take solutions on other meshes"
-        : resolved->units != RB_UNITS_MM ? "units other than mm, N, MPa"
-                                         : NULL;
+    const char *what = rb_case_has_steps(resolved)
+                           ? "its last state depends on the steps before it: take --json --states"
+                       : resolved->error || resolved->accuracy > 0.0
+                           ? "error bars take solutions on other meshes"
+                       : resolved->units != RB_UNITS_MM ? "units other than mm, N, MPa"
+                                                        : NULL;
     return what ? rb_certificate_refuse(name, what, why) : RB_OK;
 }
 
@@ -98,9 +93,8 @@ static json_t *json_of(const rb_io_table *t)
     json_t *table = json_object();
     char name[80]; /* JSON has no bytes that are not UTF-8; no column of ours is longer */
     for (int j = 0; t->name && j < t->columns; j++)
-        rb_report_json_set(
-            &table, rb_printable(t->name[j], name, sizeof name),
-            rb_report_json_numbers(t->rows, t->x + (size_t)j * (size_t)t->rows));
+        rb_report_json_set(&table, rb_printable(t->name[j], name, sizeof name),
+                           rb_report_json_numbers(t->rows, t->x + (size_t)j * (size_t)t->rows));
     return table;
 }
 
@@ -125,8 +119,7 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
     if (s == RB_OK && !table)
         s = RB_ENOMEM;
     if (s == RB_OK && t.rows < 3)
-        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: it has %d elements", name,
-                    t.rows);
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: it has %d elements", name, t.rows);
     if (s == RB_OK)
         s = rb_certificate_rebuild(&c, resolved, t.rows, why);
     if (s == RB_OK)

@@ -59,8 +59,7 @@ static const struct {
      "(1975) 297-319."},
 };
 
-void rb_report_citations(FILE *out, const rb_rolling_case *rc,
-                         const rb_rolling_solution *s)
+void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const int is_static = rc->formulation == RB_STATIC;
     const int plane_a = rb_rolling_body_can(&rc->a, RB_BODY_FLAT);

@@ -20,14 +20,13 @@ static const char about_growth[] =
     "sharp tip, linear elasticity, no wear of the mouth";
 
 /* A crack that grows: its lengths; otherwise the positions of the contact. */
-rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
-                                const char *command, const rb_report_style *style)
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
+                                const rb_report_style *style)
 {
     const int grows = r->growth.n > 0;
     const rb_report_columns columns =
-        grows
-            ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units}
-            : columns_of(r);
+        grows ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units}
+              : columns_of(r);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
     rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
     for (int k = 0; k < r->notes; k++)
@@ -75,8 +74,7 @@ static json_t *numbers(const rb_case_crack_summary *s)
     return object;
 }
 
-void rb_report_json_crack_inputs(json_t **inputs, const rb_case_crack *crack,
-                                 rb_units units)
+void rb_report_json_crack_inputs(json_t **inputs, const rb_case_crack *crack, rb_units units)
 {
     for (int k = 0; k < rb_case_crack_options_n; k++) {
         const rb_option *o = &rb_case_crack_options[k];
@@ -109,8 +107,7 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
     rb_report_json_set(root, "summary", summary);
     rb_report_json_set(root, "table", table);
     if (r->growth.n > 0) {
-        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0,
-                                          r->units};
+        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0, r->units};
         json_t *grown = json_object();
         rb_report_json_columns(&grown, r->growth.n, &growth, 0);
         rb_report_json_set(&grown, "rests", json_boolean(r->growth.rests));
@@ -129,9 +126,9 @@ static json_t *lists_of(const rb_crack_history *h, const double *values, const i
     for (size_t k = 0; k < (size_t)h->n; k++) {
         json_t *list = json_array();
         for (size_t j = 0; j < n; j++)
-            rb_report_json_append(
-                &list, zones ? json_integer(zones[k * n + j])
-                             : rb_report_json_number(values[k * 2 * n + j] / by[j]));
+            rb_report_json_append(&list,
+                                  zones ? json_integer(zones[k * n + j])
+                                        : rb_report_json_number(values[k * 2 * n + j] / by[j]));
         rb_report_json_append(&lists, list);
     }
     return lists;
@@ -161,8 +158,8 @@ void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
                            rb_report_json_numbers(h->n, h->fluid_volume));
         json_t *wheel = json_array();
         for (int k = 0; k < h->n && h->wheel; k++)
-            rb_report_json_append(
-                &wheel, rb_report_json_numbers(h->elements, h->wheel + k * h->elements));
+            rb_report_json_append(&wheel,
+                                  rb_report_json_numbers(h->elements, h->wheel + k * h->elements));
         if (h->wheel)
             rb_report_json_set(&faces, "contact_p_MPa", wheel);
         else
@@ -170,8 +167,7 @@ void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
     }
     rb_report_json_set(root, "faces", faces);
     if (r->contact.solution.n > 0)
-        rb_report_json_set(root, "contact_table",
-                           rb_report_json_table(&r->contact.solution));
+        rb_report_json_set(root, "contact_table", rb_report_json_table(&r->contact.solution));
     if (r->contact.history.n > 0) {
         json_t *history = rb_report_json_history(&r->contact.history);
         rb_report_json_set(&history, "states", rb_report_json_states(&r->states));
@@ -191,36 +187,31 @@ static void print_bar(FILE *out, const rb_case_crack_result *r, double error)
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colour)
 {
     const rb_case_crack_summary *s = &r->summary, *e = &r->errors;
-    const char *K = rb_unit_name(r->units, "MPa.mm^0.5"),
-               *mm = rb_unit_name(r->units, "mm");
+    const char *K = rb_unit_name(r->units, "MPa.mm^0.5"), *mm = rb_unit_name(r->units, "mm");
 
     for (int k = 0; k < r->notes; k++)
         rb_report_note(out, r->note[k], colour);
-    fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n",
-            r->history.n / r->passes, r->passes, r->passes > 1 ? "es" : "", r->half_width,
-            mm);
+    fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n", r->history.n / r->passes,
+            r->passes, r->passes > 1 ? "es" : "", r->half_width, mm);
     fprintf(out, "  K_I       %.5g ... %.5g", s->K_I_min, s->K_I_max);
     print_bar(out, r, e->K_I_max);
     fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,
             s->K_I_max_at, mm, s->K_II_at_K_I_max);
-    fprintf(out, "  K_II      %.5g ... %.5g, range %.5g", s->K_II_min, s->K_II_max,
-            s->delta_K_II);
+    fprintf(out, "  K_II      %.5g ... %.5g, range %.5g", s->K_II_min, s->K_II_max, s->delta_K_II);
     print_bar(out, r, e->delta_K_II);
     fprintf(out, " %s, at x = %.4g and %.4g %s\n", K, s->K_II_min_at, s->K_II_max_at, mm);
     if (!isnan(s->K_I_max_upper))
-        fprintf(out, "  upper end K_I %.5g ... %.5g, K_II %.5g ... %.5g %s\n",
-                s->K_I_min_upper, s->K_I_max_upper, s->K_II_min_upper, s->K_II_max_upper,
-                K);
+        fprintf(out, "  upper end K_I %.5g ... %.5g, K_II %.5g ... %.5g %s\n", s->K_I_min_upper,
+                s->K_I_max_upper, s->K_II_min_upper, s->K_II_max_upper, K);
     if (s->fluid_pressure_max > 0.0)
         fprintf(out, "  fluid     at most %.5g %s\n", s->fluid_pressure_max,
                 rb_unit_name(r->units, "MPa"));
     if (!isnan(s->pass_change))
-        fprintf(out, "  passes    the last one changed K by at most %.2g %s\n",
-                s->pass_change, K);
+        fprintf(out, "  passes    the last one changed K by at most %.2g %s\n", s->pass_change, K);
     if (r->growth.n > 0) {
         const int last = r->growth.n - 1;
-        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g passes%s\n",
-                r->growth.length[0], r->growth.length[last], mm, r->growth.cycles[last],
+        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g passes%s\n", r->growth.length[0],
+                r->growth.length[last], mm, r->growth.cycles[last],
                 r->growth.rests      ? ", where it rests"
                 : r->growth.surfaced ? ", then to the surface"
                                      : "");
@@ -275,8 +266,7 @@ static void write_steps(FILE *out, const rb_case_crack_result *r, double length)
 }
 
 /* A box for each run of nodes in one zone at one position: x, s, half-sizes, colour. */
-static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat,
-                        double length)
+static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat, double length)
 {
     const rb_crack_history *h = &r->history;
     const double unit = rb_unit_shown(r->units, "mm", 1.0) / length;
@@ -290,9 +280,8 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
             to += hat[j] * unit;
             if (j + 1 < h->nodes && zone[j + 1] == zone[j])
                 continue;
-            fprintf(out, "%.9g %.9g %.9g %.9g %d\n",
-                    (h->x[k] + 0.25 * (right - left)) / length, 0.5 * (from + to),
-                    0.26 * (left + right) / length, 0.5 * (to - from),
+            fprintf(out, "%.9g %.9g %.9g %.9g %d\n", (h->x[k] + 0.25 * (right - left)) / length,
+                    0.5 * (from + to), 0.26 * (left + right) / length, 0.5 * (to - from),
                     (int)strtol(colour_of(zone[j]) + 1, NULL, 16));
             from = to;
         }
@@ -304,15 +293,14 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
 {
     const rb_case_crack_result *r = v->r;
     const rb_crack_path *path = &r->shape.path;
-    const double dx = path->x[path->pieces] - path->x[0],
-                 dy = path->y[0] - path->y[path->pieces];
+    const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
     if (place.titled)
         fprintf(out,
                 "set label 1 '{/:Bold Crack}   length %.4g a, %.4g° to the surface, "
                 "friction %.3g,  a = %.4g %s' at screen 0.54, 0.972 center\n",
                 hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
-                atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
-                r->half_width, rb_unit_name(r->units, "mm"));
+                atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction, r->half_width,
+                rb_unit_name(r->units, "mm"));
 }
 
 static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
@@ -356,10 +344,9 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
           "linewidth 2.4 title 'K_{II}'",
           out);
     if (wet)
-        fputs(
-            ", $K using 1:4 axes x1y2 with lines linecolor rgb '#27ae60' dashtype (3,3) "
-            "linewidth 1.6 title 'fluid'",
-            out);
+        fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#27ae60' dashtype (3,3) "
+              "linewidth 1.6 title 'fluid'",
+              out);
     fprintf(out,
             "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
             "set ytics mirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
@@ -367,8 +354,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
             "set ytics %g\n"
             "set label 2 'along%s / a' at screen 0.03, %g center rotate\n",
-            0.16 + place.up, rb_report_round_step(along / 4.0),
-            place.titled ? " the crack" : "", 0.3 + 0.5 * place.up);
+            0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? " the crack" : "",
+            0.3 + 0.5 * place.up);
     write_zone_key(out, canvas, 1);
     fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
           "linecolor rgb variable notitle",
@@ -376,8 +363,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     fputs("\nunset multiplot\n", out);
 }
 
-rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_case_crack_result *r, rb_message *why)
+rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                  rb_message *why)
 {
     view v = {0};
     rb_status s = see(r, &v, why);
@@ -410,12 +397,11 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
             "key\n" RB_REPORT_PALETTE
             "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with "
             "points palette pointtype 7 pointsize 0.6\n",
-            0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
-            0.92 + place.up, K, K);
+            0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up, 0.92 + place.up, K, K);
 }
 
-rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas,
-                                const rb_case_crack_result *r, rb_message *why)
+rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                rb_message *why)
 {
     view v = {.r = r};
     if (r->history.n - first_of(r) < 2)
@@ -457,8 +443,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     for (int j = 0; j < n; j++)
         largest = fmax(largest, hypot(D[j], D[n + j]) / r->half_width);
     const double size = fmax(to - from, deepest);
-    const double times =
-        largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
+    const double times = largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
     for (int side = -1; side <= 1; side += 2) {
         const double factor = 0.5 * side * times / r->half_width;
         fprintf(out, "$face%d << EOD\n", (side + 1) / 2);
@@ -496,21 +481,19 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     from -= 0.5 * beside + margin;
     to += 0.5 * beside + margin;
     if (!place.titled)
-        fprintf(out,
-                "set label 9 'faces x %.3g' at graph 0.03, 0.06 font ',%.3g' front\n",
-                times, rb_report_key_font(canvas));
-    fprintf(
-        out,
-        "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-        "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
-        "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
-        "set ytics %g\n"
-        "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
-        "',%.3g'\n"
-        "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
-        "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
-        left, 0.21 + place.up, 0.21 + high + place.up, from, to, bottom, 0.6 * margin,
-        step, step, place.titled ? 0.041 : 0.085, rb_report_key_font(canvas), bottom);
+        fprintf(out, "set label 9 'faces x %.3g' at graph 0.03, 0.06 font ',%.3g' front\n", times,
+                rb_report_key_font(canvas));
+    fprintf(out,
+            "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
+            "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
+            "set ytics %g\n"
+            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
+            "',%.3g'\n"
+            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
+            "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
+            left, 0.21 + place.up, 0.21 + high + place.up, from, to, bottom, 0.6 * margin, step,
+            step, place.titled ? 0.041 : 0.085, rb_report_key_font(canvas), bottom);
     /* the contact above, where it is within the picture */
     fprintf(out,
             "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "
@@ -530,8 +513,8 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     fputc('\n', out);
 }
 
-rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas,
-                               const rb_case_crack_result *r, double at, rb_message *why)
+rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                               double at, rb_message *why)
 {
     view v = {.at = at};
     rb_status s = see(r, &v, why);

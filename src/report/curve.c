@@ -14,8 +14,8 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
     return (rb_report_columns){&rb_rolling_curve_columns, c, errors, c->units};
 }
 
-rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
-                                const char *command, const rb_report_style *style)
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
+                                const rb_report_style *style)
 {
     rb_report_cells c = rb_report_cells_begin(out, style, "");
     for (int k = 0; k < curves->n; k++) {
@@ -32,8 +32,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
             rb_report_comment_head(&c, command);
             rb_report_comment_slopes(&c, &curves->slopes[k]);
             if (curves->rc)
-                rb_report_comment_notes(&c, curves->rc,
-                                        &curves->curve[curves->n - 1].last);
+                rb_report_comment_notes(&c, curves->rc, &curves->curve[curves->n - 1].last);
         }
         for (int i = 0; i < curves->curve[k].n; i++) {
             rb_report_cell_number(&c, curves->mu[k]);
@@ -51,8 +50,7 @@ static json_t *json_errors(const rb_rolling_curve *error)
     json_t *errors = json_object();
 
     rb_report_json_columns(&errors, error->n, &columns, 0);
-    rb_report_json_set(&errors, "free_creepage",
-                       rb_report_json_number(error->free_creepage));
+    rb_report_json_set(&errors, "free_creepage", rb_report_json_number(error->free_creepage));
     return errors;
 }
 
@@ -68,10 +66,8 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         rb_report_json_columns(&curve, c->n, &columns, 0);
         if (curves->slopes[k].n > 0)
             rb_report_json_slopes(&curve, &curves->slopes[k]);
-        rb_report_json_set(&curve, "free_creepage",
-                           rb_report_json_number(c->free_creepage));
-        rb_report_json_set(&curve, "hertz_half_width",
-                           rb_report_json_number(c->half_width));
+        rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
+        rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
         rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
         rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
         if (curves->has_errors)
@@ -117,11 +113,10 @@ static void print_hysteresis(FILE *out, const rb_rolling_curve *c)
         }
     }
     if (c->n == 2 * c->rising)
-        fprintf(
-            out,
-            "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
-            "%.3g\n",
-            widest, c->creepage[most], largest(c->n, c->kappa));
+        fprintf(out,
+                "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
+                "%.3g\n",
+                widest, c->creepage[most], largest(c->n, c->kappa));
 }
 
 static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
@@ -133,10 +128,9 @@ static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
             least = i;
     }
     if (points > 0)
-        fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
-                points, points > 1 ? "s" : "", c->dissipation[least],
-                rb_unit_name(c->units, "N/mm"), c->creepage[least],
-                rb_rolling_below_zero);
+        fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n", points,
+                points > 1 ? "s" : "", c->dissipation[least], rb_unit_name(c->units, "N/mm"),
+                c->creepage[least], rb_rolling_below_zero);
 }
 
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
@@ -146,8 +140,8 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         const rb_rolling_curve *c = &curves->curve[k];
         const int speeds = c->n > 1 && c->speed[0] != c->speed[1];
         const int sliding = speeds ? -1 : full_sliding_from(c);
-        fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n",
-                curves->mu[k], c->n, c->seconds, largest(c->n, c->residual));
+        fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n", curves->mu[k], c->n,
+                c->seconds, largest(c->n, c->residual));
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
@@ -157,8 +151,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 if (c->resistance_ratio[i] > c->resistance_ratio[most])
                     most = i;
             fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
-                    c->resistance_ratio[most], c->speed[most],
-                    rb_unit_name(c->units, "mm/s"));
+                    c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
         } else if (c->branch)
             print_hysteresis(out, c);
         if (curves->has_errors && speeds)
@@ -169,16 +162,14 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from "
                     "coarser meshes)\n",
                     largest(c->n, curves->error[k].force_ratio),
-                    largest(c->n, curves->error[k].normal_load),
-                    rb_unit_name(c->units, "N/mm"));
+                    largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
         print_power_below_zero(out, c);
         if (sliding > 0 && curves->mu[k] > 0.0)
-            fprintf(
-                out,
-                "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
-                "and %.4g\n",
-                c->creepage[sliding - 1], c->creepage[sliding],
-                c->creep_ratio[sliding - 1], c->creep_ratio[sliding]);
+            fprintf(out,
+                    "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
+                    "and %.4g\n",
+                    c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
+                    c->creep_ratio[sliding]);
         else if (sliding == 0 && curves->mu[k] > 0.0)
             fprintf(out, "  full sliding at every point\n");
     }
@@ -243,8 +234,7 @@ static void write_carter(FILE *out, const view *v)
             const double t = (double)i / POINTS;
             const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
             fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
-                    -rb_closed_carter_force_ratio(s) *
-                        (v->over_load ? v->curves->mu[k] : 1.0));
+                    -rb_closed_carter_force_ratio(s) * (v->over_load ? v->curves->mu[k] : 1.0));
         }
         fputs("EOD\n", out);
     }
@@ -276,8 +266,8 @@ static void choose_corner(view *v, double line)
 /* "creepage ξ  [10^{-3}]" */
 static void write_label(FILE *out, const char *axis, const char *what, int exponent)
 {
-    fprintf(out, exponent ? "set %slabel '%s  [10^{%d}]'\n" : "set %slabel '%s'\n", axis,
-            what, exponent);
+    fprintf(out, exponent ? "set %slabel '%s  [10^{%d}]'\n" : "set %slabel '%s'\n", axis, what,
+            exponent);
 }
 
 static void write_labels(FILE *out, const view *v, int titled)
@@ -298,15 +288,13 @@ static void write_labels(FILE *out, const view *v, int titled)
         fputs("set logscale x\n", out);
         write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
     } else
-        fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
-                v->over_load ? "P" : "(μP)");
+        fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n", v->over_load ? "P" : "(μP)");
 }
 
 static void write_x_label(FILE *out, const view *v)
 {
     char label[32];
-    snprintf(label, sizeof label, "speed  [%s]",
-             rb_unit_name(v->curves->curve[0].units, "mm/s"));
+    snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(v->curves->curve[0].units, "mm/s"));
     write_label(out, "x",
                 v->over == RB_OVER_SPEED   ? label
                 : v->over == RB_OVER_CREEP ? "creepage ξ"
@@ -333,13 +321,10 @@ static void write_heat(FILE *out, const view *v, rb_report_place place)
     write_x_label(out, v);
     fputs("plot ", out);
     for (int k = 0; k < v->curves->n; k++)
-        fprintf(
-            out,
-            "%s$curve%d using 1:4 with %s linecolor rgb '%s' dashtype %s linewidth 2.6",
-            k > 0 ? ", " : "", k,
-            v->curves->curve[k].n <= FEW ? "linespoints pointtype 7 pointsize 0.7"
-                                         : "lines",
-            rb_report_colour(k), rb_report_dashes(k));
+        fprintf(out, "%s$curve%d using 1:4 with %s linecolor rgb '%s' dashtype %s linewidth 2.6",
+                k > 0 ? ", " : "", k,
+                v->curves->curve[k].n <= FEW ? "linespoints pointtype 7 pointsize 0.7" : "lines",
+                rb_report_colour(k), rb_report_dashes(k));
     fputs("\nunset multiplot\n", out);
 }
 
@@ -355,8 +340,7 @@ static int comes_back_otherwise(const view *v)
                     nearest = fabs(c->creepage[j] - c->creepage[i]);
                     there = c->force_ratio[j];
                 }
-            if (nearest <= 1e-9 * fabs(c->creepage[i]) &&
-                fabs(there - c->force_ratio[i]) > 2e-3)
+            if (nearest <= 1e-9 * fabs(c->creepage[i]) && fabs(there - c->force_ratio[i]) > 2e-3)
                 return 1;
         }
     }
@@ -372,11 +356,9 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "$curve%d << EOD\n", k);
         /* In units of y; 0 where it was not asked for. */
         for (int i = 0; i < c->n; i++)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i),
-                    y_of(v, c, i, scale_of(v, k)),
-                    v->curves->has_errors
-                        ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
-                        : 0.0,
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
+                    v->curves->has_errors ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
+                                          : 0.0,
                     has_heat(v) ? c->max_temperature[i] : 0.0);
         fputs("EOD\n", out);
     }
@@ -391,8 +373,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (has_heat(v))
         fputs("set multiplot\nset format x ''\n", out);
     fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
-            v->corner ? "left top Left reverse" : "right bottom",
-            rb_report_key_font(canvas));
+            v->corner ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     write_labels(out, v, place.titled);
     if (!has_heat(v))
@@ -408,35 +389,31 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' "
                 "dashtype %s linewidth 2.6 title 'μ %s %g'",
                 k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1,
-                v->curves->curve[k].rising <= FEW
-                    ? "linespoints pointtype 7 pointsize 0.7"
-                    : "lines",
-                rb_report_colour(k), rb_report_dashes(k),
-                v->curves->curve[k].branch ? "≤" : "=", scale_of(v, k));
+                v->curves->curve[k].rising <= FEW ? "linespoints pointtype 7 pointsize 0.7"
+                                                  : "lines",
+                rb_report_colour(k), rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
+                scale_of(v, k));
     const int back = v->over != RB_OVER_SPEED && comes_back_otherwise(v);
     for (int k = 0; k < v->curves->n && back; k++)
         if (v->curves->curve[k].branch)
-            fprintf(
-                out,
-                ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype "
-                "(2,3) linewidth 2.2 %s",
-                k, v->curves->curve[k].rising, rb_report_colour(v->curves->n + k),
-                k == 0 ? "title 'on the way back'" : "notitle");
+            fprintf(out,
+                    ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype "
+                    "(2,3) linewidth 2.2 %s",
+                    k, v->curves->curve[k].rising, rb_report_colour(v->curves->n + k),
+                    k == 0 ? "title 'on the way back'" : "notitle");
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
                 ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor "
                 "rgb '#111111' linewidth 1.1 %s",
-                k, 1.7 * rb_report_marker_scale(canvas),
-                k == 0 ? "title 'Carter'" : "notitle");
+                k, 1.7 * rb_report_marker_scale(canvas), k == 0 ? "title 'Carter'" : "notitle");
     fputs("\n", out);
     if (has_heat(v))
         write_heat(out, v, place);
 }
 
-rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_rolling_case *rc,
-                                  const rb_report_curves *curves,
-                                  rb_rolling_variable over, rb_message *why)
+rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                                  const rb_report_curves *curves, rb_rolling_variable over,
+                                  rb_message *why)
 {
     view v = {.rc = rc,
               .curves = curves,
@@ -449,8 +426,8 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
     for (int k = 0; k < v.curves->n; k++) {
         const rb_rolling_curve *c = &v.curves->curve[k];
         for (int i = 0; i < c->n; i++)
-            largest = fmax(largest, fabs(v.over == RB_OVER_SPEED ? c->resistance_ratio[i]
-                                                                 : c->creepage[i]));
+            largest = fmax(largest,
+                           fabs(v.over == RB_OVER_SPEED ? c->resistance_ratio[i] : c->creepage[i]));
     }
     v.exponent = rb_report_exponent(largest);
     v.from = INFINITY;

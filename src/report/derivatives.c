@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void add_result(const rb_rolling_result *r, int is_column,
-                       rb_report_derivatives *d)
+static void add_result(const rb_rolling_result *r, int is_column, rb_report_derivatives *d)
 {
     if (d->n < RB_REPORT_RESULTS_MAX) {
         d->is_column[d->n] = is_column;
@@ -17,8 +16,7 @@ static void add_result(const rb_rolling_result *r, int is_column,
     }
 }
 
-rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
-                                   rb_message *why)
+rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, rb_message *why)
 {
     const rb_rolling_results *all = &rb_rolling_solution_scalars;
 
@@ -39,9 +37,8 @@ rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
             for (int k = 0; k < all->n; k++)
                 if (rb_sensitivity_has(&all->row[k]))
                     rb_guess_try(&guess, all->row[k].name);
-            return rb_fail(why, RB_EINVAL,
-                           "expected a result that has derivatives, got '%s'%s", name,
-                           rb_guess_text(&guess, ""));
+            return rb_fail(why, RB_EINVAL, "expected a result that has derivatives, got '%s'%s",
+                           name, rb_guess_text(&guess, ""));
         }
         add_result(r, is_column, d);
     }
@@ -50,8 +47,8 @@ rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d,
 
 /* ---- JSON -------------------------------------------------------------------------- */
 
-static json_t *one_side(const rb_rolling_result *r, int is_column,
-                        const rb_case_derivative *of, int side)
+static json_t *one_side(const rb_rolling_result *r, int is_column, const rb_case_derivative *of,
+                        int side)
 {
     const rb_rolling_solution *value = &of->d.value[side];
 
@@ -61,8 +58,7 @@ static json_t *one_side(const rb_rolling_result *r, int is_column,
         return rb_report_json_number(rb_rolling_number(r, value));
     json_t *list = json_array();
     for (int i = 0; i < value->n; i++)
-        rb_report_json_append(&list,
-                              rb_report_json_number(rb_rolling_entry(r, value, i)));
+        rb_report_json_append(&list, rb_report_json_number(rb_rolling_entry(r, value, i)));
     return list;
 }
 
@@ -73,9 +69,8 @@ static int has_result(const rb_report_derivatives *d, int k)
         for (int side = 0; side < 2 && d->all->of[i].status == RB_OK; side++) {
             const rb_sensitivity_derivative *of = &d->all->of[i].d;
             if (of->has[side] &&
-                (d->is_column[k]
-                     ? rb_rolling_has_column(d->result[k], &of->value[side])
-                     : !isnan(rb_rolling_number(d->result[k], &of->value[side]))))
+                (d->is_column[k] ? rb_rolling_has_column(d->result[k], &of->value[side])
+                                 : !isnan(rb_rolling_number(d->result[k], &of->value[side]))))
                 return 1;
         }
     return 0;
@@ -123,8 +118,7 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
     rb_report_json_set(root, "derivatives", results);
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
-            rb_report_json_set(&without, d->all->of[i].name,
-                               json_string(d->all->of[i].why.text));
+            rb_report_json_set(&without, d->all->of[i].name, json_string(d->all->of[i].why.text));
     rb_report_json_set(root, "without_derivatives", without);
     for (int k = 0; k < RB_CASE_OVER_X_N && d->all->n_x > 0; k++) {
         json_t *both = json_object();
@@ -132,15 +126,13 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
             json_t *list = json_array();
             for (int i = 0; i < d->all->n_x; i++)
                 rb_report_json_append(
-                    &list, rb_report_json_number(
-                               d->all->over_x[(2 * k + by) * d->all->n_x + i]));
+                    &list, rb_report_json_number(d->all->over_x[(2 * k + by) * d->all->n_x + i]));
             rb_report_json_set(&both, by ? "mu" : "gap", list);
         }
         rb_report_json_set(&over_x, rb_case_over_x_names[k], both);
     }
     rb_report_json_set(root, "derivatives_over_x", over_x);
-    snprintf(text, sizeof text, "%s; [left, right] where the two sides differ",
-             elements_of(d));
+    snprintf(text, sizeof text, "%s; [left, right] where the two sides differ", elements_of(d));
     rb_report_json_set(root, "derivatives_are", json_string(text));
 }
 
@@ -151,9 +143,8 @@ void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         if (rb_sensitivity_has(r) && !isnan(rb_rolling_number(r, &d->deviation)))
-            rb_report_json_set(
-                &results, r->name,
-                rb_report_json_number(rb_rolling_number(r, &d->deviation)));
+            rb_report_json_set(&results, r->name,
+                               rb_report_json_number(rb_rolling_number(r, &d->deviation)));
     }
     rb_report_json_set(root, "tolerances", results);
 }
@@ -186,9 +177,8 @@ static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative 
         derivative r = {d->result[k], of, entry, {NAN, NAN}, NAN};
         for (int side = 0; side < 2 && of->status == RB_OK; side++)
             if (of->d.has[side])
-                r.side[side] =
-                    entry < 0 ? rb_rolling_number(r.result, &of->d.value[side])
-                              : rb_rolling_entry(r.result, &of->d.value[side], entry);
+                r.side[side] = entry < 0 ? rb_rolling_number(r.result, &of->d.value[side])
+                                         : rb_rolling_entry(r.result, &of->d.value[side], entry);
         if (of->d.sides == 1)
             r.side[1] = r.side[0];
         if (isnan(r.side[0]) && isnan(r.side[1]))
@@ -217,27 +207,23 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     char name[64];
 
     rb_report_comment_origin(&c, command);
-    rb_report_comment(&c,
-                      "derivatives %s; left, right: for a falling and a growing input",
+    rb_report_comment(&c, "derivatives %s; left, right: for a falling and a growing input",
                       elements_of(d));
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
-            rb_report_comment(&c, "none by %s: %s", d->all->of[i].name,
-                              d->all->of[i].why.text);
+            rb_report_comment(&c, "none by %s: %s", d->all->of[i].name, d->all->of[i].why.text);
     for (int k = 0; k < d->n; k++)
         for (int e = 0; has_result(d, k) && e < (d->is_column[k] ? s->n : 1); e++) {
             const int entry = d->is_column[k] ? e : -1;
             const int n = rows_of(d, k, entry, row);
-            snprintf(name, sizeof name, entry < 0 ? "%s" : "%s[%d]", d->result[k]->name,
-                     e);
+            snprintf(name, sizeof name, entry < 0 ? "%s" : "%s[%d]", d->result[k]->name, e);
             for (int i = 0; i < n; i++) {
                 rb_report_cell_text(&c, name);
                 rb_report_cell_text(&c, row[i].of->name);
                 rb_report_cell_text(&c, unit_of(d, d->result[k]->unit));
                 rb_report_cell_text(&c, unit_of(d, row[i].of->unit));
-                rb_report_cell_number(&c, entry < 0
-                                              ? rb_rolling_number(d->result[k], s)
-                                              : rb_rolling_entry(d->result[k], s, e));
+                rb_report_cell_number(&c, entry < 0 ? rb_rolling_number(d->result[k], s)
+                                                    : rb_rolling_entry(d->result[k], s, e));
                 rb_report_cell_number(&c, row[i].of->value);
                 rb_report_cell_number(&c, row[i].side[0]);
                 rb_report_cell_number(&c, row[i].side[1]);
@@ -257,19 +243,17 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
     for (int k = 0; k < d->n; k++) {
         if (d->is_column[k] || !has_result(d, k))
             continue;
-        fprintf(out, "%s = %.5g %s\n", d->result[k]->name,
-                rb_rolling_number(d->result[k], s), unit_of(d, d->result[k]->unit));
+        fprintf(out, "%s = %.5g %s\n", d->result[k]->name, rb_rolling_number(d->result[k], s),
+                unit_of(d, d->result[k]->unit));
         const int n = rows_of(d, k, -1, row);
         for (int i = 0; i < n && i < MOST && row[i].one != 0.0; i++)
-            fprintf(out, "  %-24s %12.5g  1 %% of it changes the result by %.3g\n",
-                    row[i].of->name,
+            fprintf(out, "  %-24s %12.5g  1 %% of it changes the result by %.3g\n", row[i].of->name,
                     isnan(row[i].side[1]) ? row[i].side[0] : row[i].side[1], row[i].one);
     }
     return rb_report_flush(out);
 }
 
-void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
-                          const rb_report_derivatives *d)
+void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_report_derivatives *d)
 {
     void *before = rb_locale_begin();
     fputs("standard deviations from those of --tolerance, to first order\n", out);
@@ -279,8 +263,8 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s,
         const char *unit = unit_of(d, r->unit);
         const int plain = strcmp(unit, "1") == 0;
         if (rb_sensitivity_has(r) && deviation > 0.0)
-            fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name,
-                    rb_rolling_number(r, s) + 0.0, deviation, /* + 0.0: no -0 */
+            fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name, rb_rolling_number(r, s) + 0.0,
+                    deviation, /* + 0.0: no -0 */
                     plain ? "" : " ", plain ? "" : unit);
     }
     rb_locale_end(before);
@@ -314,9 +298,8 @@ void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s)
                           s->degenerate, s->rows);
 }
 
-rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h,
-                                const rb_case_slopes *s, const char *command,
-                                const rb_report_style *style)
+rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
+                                const char *command, const rb_report_style *style)
 {
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
@@ -358,8 +341,7 @@ void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 
             for (int i = k; i < s->n; i++) {
                 json_t *list = json_array();
-                for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result;
-                     row++)
+                for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result; row++)
                     rb_report_json_append(&list, json_slope(s, row, i));
                 if (s->of[i].result == s->of[k].result)
                     rb_report_json_set(&inputs, s->of[i].input, list);

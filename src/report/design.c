@@ -26,16 +26,15 @@ static const char *unit_of_result(const rb_rolling_result *r)
     return r ? r->unit : NULL;
 }
 
-rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units,
-                                 const char *command, const rb_report_style *style)
+rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, const char *command,
+                                 const rb_report_style *style)
 {
     rb_report_cells c =
         rb_report_cells_begin(out, style, "variable unit x_of_gap start value low high");
 
     rb_report_comment_origin(&c, command);
-    rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]",
-                      d->largest ? "largest" : "least", name_of(d->result),
-                      shown(units, unit_of_result(d->result), d->value),
+    rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]", d->largest ? "largest" : "least",
+                      name_of(d->result), shown(units, unit_of_result(d->result), d->value),
                       shown(units, unit_of_result(d->result), d->start),
                       unit_of(units, unit_of_result(d->result)));
     for (int k = 0; k < d->constraints; k++) {
@@ -50,8 +49,8 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units,
         const int is_gap = j >= d->gap_from && j < d->gap_from + d->gap_n;
         rb_report_cell_text(&c, v->name);
         rb_report_cell_text(&c, unit_of(units, v->unit));
-        rb_report_cell_number(
-            &c, is_gap ? rb_unit_shown(units, "mm", d->gap_x[j - d->gap_from]) : NAN);
+        rb_report_cell_number(&c,
+                              is_gap ? rb_unit_shown(units, "mm", d->gap_x[j - d->gap_from]) : NAN);
         rb_report_cell_number(&c, shown(units, v->unit, v->start));
         rb_report_cell_number(&c, shown(units, v->unit, v->value));
         rb_report_cell_number(&c, shown(units, v->unit, v->low));
@@ -77,9 +76,8 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
     rb_report_json_set(&design, "start", number(units, unit, d->start));
     rb_report_json_set(&design, "value", number(units, unit, d->value));
     rb_report_json_set(&design, "evaluations", json_integer(d->evaluations));
-    rb_report_json_set(
-        &design, "status",
-        json_string(d->status == RB_OK ? "solved" : rb_status_text(d->status)));
+    rb_report_json_set(&design, "status",
+                       json_string(d->status == RB_OK ? "solved" : rb_status_text(d->status)));
     for (int j = 0; j < d->n; j++) {
         const rb_design_variable *v = &d->variable[j];
         json_t *one = json_object();
@@ -97,10 +95,8 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
         json_t *one = json_object();
         rb_report_json_set(&one, "result", json_string(name_of(c->result)));
         rb_report_json_set(&one, "at_least", json_boolean(c->at_least));
-        rb_report_json_set(&one, "bound",
-                           number(units, unit_of_result(c->result), c->bound));
-        rb_report_json_set(&one, "value",
-                           number(units, unit_of_result(c->result), c->value));
+        rb_report_json_set(&one, "bound", number(units, unit_of_result(c->result), c->bound));
+        rb_report_json_set(&one, "value", number(units, unit_of_result(c->result), c->value));
         rb_report_json_append(&all, one);
     }
     rb_report_json_set(&design, "constraints", all);

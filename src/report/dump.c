@@ -29,8 +29,7 @@ static char *path_of(const char *folder, const char *name)
     return rb_io_join(folder, file);
 }
 
-static rb_status write_matrix(const target *t, const char *name, rb_io_dense m,
-                              const char *comment)
+static rb_status write_matrix(const target *t, const char *name, rb_io_dense m, const char *comment)
 {
     char *path = path_of(t->folder, name);
     const rb_status s = path ? rb_io_matrix_market_write(path, m, comment, t->why)
@@ -83,18 +82,18 @@ static rb_status dump_mesh(const target *t, const char *name, const rb_bem_mesh 
         x[i + 4 * n] = mesh->condition[2 * i];
         x[i + 5 * n] = mesh->condition[2 * i + 1];
     }
-    const rb_status s = write_matrix(
-        t, name, (rb_io_dense){mesh->n, 6, x, mesh->n},
-        "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
-        "displacement, 2 contact)");
+    const rb_status s =
+        write_matrix(t, name, (rb_io_dense){mesh->n, 6, x, mesh->n},
+                     "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
+                     "displacement, 2 contact)");
     free(x);
     return s;
 }
 
 /* ---- Bodies ------------------------------------------------------------------------ */
 
-static rb_status dump_influence(const target *t, const char *suffix,
-                                const rb_bem_mesh *mesh, rb_bem_material material)
+static rb_status dump_influence(const target *t, const char *suffix, const rb_bem_mesh *mesh,
+                                rb_bem_material material)
 {
     const int n = 2 * mesh->n;
     char name[8];
@@ -104,12 +103,10 @@ static rb_status dump_influence(const target *t, const char *suffix,
         s = rb_bem_assemble(mesh, material, H, G, n, t->why);
     snprintf(name, sizeof name, "H%s", suffix);
     if (s == RB_OK)
-        s = write_matrix(t, name, (rb_io_dense){n, n, H, n},
-                         "H u = G t; rows x0, y0, x1, y1, ...");
+        s = write_matrix(t, name, (rb_io_dense){n, n, H, n}, "H u = G t; rows x0, y0, x1, y1, ...");
     name[0] = 'G';
     if (s == RB_OK)
-        s = write_matrix(t, name, (rb_io_dense){n, n, G, n},
-                         "H u = G t; rows x0, y0, x1, y1, ...");
+        s = write_matrix(t, name, (rb_io_dense){n, n, G, n}, "H u = G t; rows x0, y0, x1, y1, ...");
     free(H);
     free(G);
     return s;
@@ -167,8 +164,7 @@ static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
     const int n = lcp.size;
     s = write_matrix(t, "M", (rb_io_dense){n, n, lcp.M, n}, "scaled LCP: w = M z + b");
     if (s == RB_OK)
-        s = write_matrix(t, "b", (rb_io_dense){n, 1, lcp.b, n},
-                         "scaled LCP: w = M z + b");
+        s = write_matrix(t, "b", (rb_io_dense){n, 1, lcp.b, n}, "scaled LCP: w = M z + b");
     if (s == RB_OK)
         s = write_matrix(t, "z_scale", (rb_io_dense){n, 1, lcp.z_scale, n},
                          "physical z = z_scale z");
@@ -197,8 +193,7 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
     return s == RB_OK ? dump_lcp(t, model) : s;
 }
 
-rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
-                         rb_message *why)
+rb_status rb_report_dump(const char *folder, const rb_rolling_model *model, rb_message *why)
 {
     struct stat before;
     const target t = {folder, why};

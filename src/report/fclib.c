@@ -3,8 +3,7 @@
 
 #include <stdlib.h>
 
-rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
-                          rb_message *why)
+rb_status rb_report_fclib(const char *path, const rb_rolling_model *model, rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;

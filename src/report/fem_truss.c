@@ -15,8 +15,7 @@ static quarter make_quarter(const rb_fem_model *model)
 {
     const double *x = model->mesh.x;
     const int last = model->structure.contacts - 1;
-    return (quarter){model, 1e-3 * (x[3] - x[0]), 1e-3 * x[3 * last],
-                     1e-3 * x[3 * last + 1]};
+    return (quarter){model, 1e-3 * (x[3] - x[0]), 1e-3 * x[3 * last], 1e-3 * x[3 * last + 1]};
 }
 
 /* Increments of a step, or displacements where total. */
@@ -48,8 +47,7 @@ static void write_bars(FILE *out, const quarter *q, const char *name, int from_a
             at[k][1] = 1e-3 * (from_above ? x[1] : away * sin(rise) + x[2] * cos(rise));
         }
         if (inside)
-            fprintf(out, "%.7g %.7g\n%.7g %.7g\n\n", at[0][0], at[0][1], at[1][0],
-                    at[1][1]);
+            fprintf(out, "%.7g %.7g\n%.7g %.7g\n\n", at[0][0], at[0][1], at[1][0], at[1][1]);
     }
     fputs("EOD\n", out);
 }
@@ -79,8 +77,8 @@ static void open_panel(FILE *out, int column, int panel)
             top - tall + (column ? 0.052 : 0.065));
 }
 
-static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, int total,
-                        int column, int panel)
+static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, int total, int column,
+                        int panel)
 {
     const double scale = scale_of(q, step, total);
     /* Two blocks of data: slipping nodes with their vectors, sticking ones. */
@@ -90,11 +88,10 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
         for (int i = 0; i < q->model->structure.contacts; i++) {
             const double *x = q->model->mesh.x + 3 * i;
             const double *t = vector_of(step, total, i);
-            const int moves =
-                total ? t[0] != 0.0 || t[1] != 0.0 : step->contact[i] == RB_FEM_SLIP;
+            const int moves = total ? t[0] != 0.0 || t[1] != 0.0 : step->contact[i] == RB_FEM_SLIP;
             if (x[0] >= 0.0 && x[1] >= 0.0 && moves == slip)
-                fprintf(out, "%.9g %.9g %.9g %.9g\n", 1e-3 * x[0], 1e-3 * x[1],
-                        1e-3 * scale * t[0], 1e-3 * scale * t[1]);
+                fprintf(out, "%.9g %.9g %.9g %.9g\n", 1e-3 * x[0], 1e-3 * x[1], 1e-3 * scale * t[0],
+                        1e-3 * scale * t[1]);
         }
         fputs("EOD\n", out);
     }
@@ -106,14 +103,13 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
                 "set label 3 '{/*0.8 stick %d, slip %d}' at graph 0.5, graph 1.06 center "
                 "textcolor rgb '#555555'\n",
                 step->stick, step->slip);
-    fprintf(
-        out,
-        "plot $bars using 1:2 with lines linecolor rgb '#c8ccd0' linewidth 0.7 notitle, "
-        "$rest%d using 1:2 with points pointtype 6 pointsize 1.1 linecolor rgb "
-        "'#1f4e79' notitle, $move%d using 1:2 with points pointtype 7 pointsize 0.5 "
-        "linecolor rgb '#c0392b' notitle, $move%d using 1:2:3:4 with vectors head size "
-        "screen 0.007,20 filled linecolor rgb '#c0392b' linewidth 1.3 notitle\n",
-        panel, panel, panel);
+    fprintf(out,
+            "plot $bars using 1:2 with lines linecolor rgb '#c8ccd0' linewidth 0.7 notitle, "
+            "$rest%d using 1:2 with points pointtype 6 pointsize 1.1 linecolor rgb "
+            "'#1f4e79' notitle, $move%d using 1:2 with points pointtype 7 pointsize 0.5 "
+            "linecolor rgb '#c0392b' notitle, $move%d using 1:2:3:4 with vectors head size "
+            "screen 0.007,20 filled linecolor rgb '#c0392b' linewidth 1.3 notitle\n",
+            panel, panel, panel);
 }
 
 typedef struct {
@@ -173,8 +169,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
-                                  const rb_fem_model *model,
+rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
                                   const rb_fem_history *history, rb_message *why)
 {
     if (history->steps < 1)

@@ -69,9 +69,8 @@ enum { FRONT, FORCES, CONTACTS };
 
 static panel panel_of(int column, int which)
 {
-    static const panel beside[] = {{0.08, 0.54, 0.14, 0.85},
-                                   {0.655, 0.965, 0.53, 0.87},
-                                   {0.655, 0.965, 0.14, 0.485}};
+    static const panel beside[] = {
+        {0.08, 0.54, 0.14, 0.85}, {0.655, 0.965, 0.53, 0.87}, {0.655, 0.965, 0.14, 0.485}};
     static const panel below[] = {
         {0.18, 0.93, 0.50, 0.93}, {0.18, 0.93, 0.27, 0.41}, {0.18, 0.93, 0.09, 0.245}};
     return column ? below[which] : beside[which];
@@ -85,8 +84,7 @@ static void open_panel(FILE *out, panel at)
             at.left, at.right, at.bottom, at.top);
 }
 
-static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last,
-                       int column)
+static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last, int column)
 {
     const panel at = panel_of(column, FRONT);
     char magnify[40];
@@ -99,20 +97,19 @@ static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last,
             column ? "" : "of the upper support ", 1e3 * last->drift, column ? 0.5 : 0.31,
             at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
     open_panel(out, at);
-    fprintf(
-        out,
-        "set size ratio -1\nset xrange [%g:%g]\n"
-        "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
-        "1.5,0\nset "
-        "xtics 0, 0.1\n"
-        "set ytics 0, 0.1\n"
-        "set object rectangle from %g, %g to %g, 0 fillcolor rgb '#bdbdbd' fillstyle "
-        "solid "
-        "noborder behind\n"
-        "plot $mesh using 1:2 with lines linecolor rgb '#d9a679' linewidth 0.4 notitle, "
-        "$edge using 1:2 with lines linecolor rgb '#7b3f00' linewidth 1.3 notitle\n",
-        -0.1 * f->width, 1.35 * f->width, -0.05 * f->height, 1.08 * f->height,
-        -0.1 * f->width, -0.05 * f->height, 1.35 * f->width);
+    fprintf(out,
+            "set size ratio -1\nset xrange [%g:%g]\n"
+            "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
+            "1.5,0\nset "
+            "xtics 0, 0.1\n"
+            "set ytics 0, 0.1\n"
+            "set object rectangle from %g, %g to %g, 0 fillcolor rgb '#bdbdbd' fillstyle "
+            "solid "
+            "noborder behind\n"
+            "plot $mesh using 1:2 with lines linecolor rgb '#d9a679' linewidth 0.4 notitle, "
+            "$edge using 1:2 with lines linecolor rgb '#7b3f00' linewidth 1.3 notitle\n",
+            -0.1 * f->width, 1.35 * f->width, -0.05 * f->height, 1.08 * f->height, -0.1 * f->width,
+            -0.05 * f->height, 1.35 * f->width);
 }
 
 static void write_curves(FILE *out, int contacts, int column)
@@ -124,13 +121,12 @@ static void write_curves(FILE *out, int contacts, int column)
     if (column)
         fputs("set xtics 0.2\nset ytics 10\n", out);
     open_panel(out, panel_of(column, FORCES));
-    fputs(
-        "set ylabel 'force [kN]' offset -0.7,0\n"
-        "set key bottom right Left reverse samplen 2\n"
-        "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title "
-        "'compression', "
-        "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
-        out);
+    fputs("set ylabel 'force [kN]' offset -0.7,0\n"
+          "set key bottom right Left reverse samplen 2\n"
+          "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title "
+          "'compression', "
+          "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
+          out);
     if (column)
         fprintf(out, "set ytics %g\n", rb_report_round_step(contacts / 4.0));
     open_panel(out, panel_of(column, CONTACTS));
@@ -178,25 +174,23 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fputs("EOD\n", out);
     fputs("$step << EOD\n", out);
     for (int k = 0; k < v->steps; k++)
-        fprintf(out, "%g %.6g %.6g %d %d %d %d\n", v->step[k].time,
-                1e-3 * v->step[k].compression, 1e-3 * v->step[k].shear, v->step[k].stick,
-                v->step[k].slip, v->step[k].separated, v->step[k].iterations);
+        fprintf(out, "%g %.6g %.6g %d %d %d %d\n", v->step[k].time, 1e-3 * v->step[k].compression,
+                1e-3 * v->step[k].shear, v->step[k].stick, v->step[k].slip, v->step[k].separated,
+                v->step[k].iterations);
     fputs("EOD\n", out);
     write_wall(out, &v->f, last, column);
     write_curves(out, last->stick + last->slip + last->separated, column);
 }
 
-rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
-                                 const rb_fem_wall *wall, int steps,
-                                 const rb_fem_wall_step *step, rb_message *why)
+rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,
+                                 int steps, const rb_fem_wall_step *step, rb_message *why)
 {
     wall_view v = {.steps = steps, .step = step};
     if (steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const rb_status s =
-        open_front(wall, &v.f) == RB_OK
-            ? rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why)
-            : rb_fail(why, RB_ENOMEM, "out of memory");
+    const rb_status s = open_front(wall, &v.f) == RB_OK
+                            ? rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why)
+                            : rb_fail(why, RB_ENOMEM, "out of memory");
     free(v.f.u);
     return s;
 }

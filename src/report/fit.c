@@ -37,16 +37,14 @@ static const char *unit_name(const rb_report_fit *f, const char *unit)
 static json_t *json_of(const rb_report_fit *f, int j)
 {
     const rb_case_parameter *p = &f->fit->parameter[j];
-    json_t *object = json_object(), *interval = json_array(),
-           *correlation = json_object();
+    json_t *object = json_object(), *interval = json_array(), *correlation = json_object();
 
-    rb_report_json_set(
-        &object, "value",
-        rb_report_json_number(p->identified ? in_units(f, p->unit, p->value) : NAN));
+    rb_report_json_set(&object, "value",
+                       rb_report_json_number(p->identified ? in_units(f, p->unit, p->value) : NAN));
     for (int k = 0; k < 2; k++)
         rb_report_json_append(
-            &interval, rb_report_json_number(
-                           p->identified ? in_units(f, p->unit, p->interval[k]) : NAN));
+            &interval,
+            rb_report_json_number(p->identified ? in_units(f, p->unit, p->interval[k]) : NAN));
     rb_report_json_set(&object, "interval", interval);
     for (int i = 0; i < f->fit->n; i++)
         if (i != j)
@@ -62,14 +60,13 @@ static json_t *json_of(const rb_report_fit *f, int j)
     return object;
 }
 
-static json_t *column(const rb_report_fit *f, const double *x, const double *less,
-                      const char *unit)
+static json_t *column(const rb_report_fit *f, const double *x, const double *less, const char *unit)
 {
     json_t *list = json_array();
 
     for (int k = 0; k < f->data->n; k++)
-        rb_report_json_append(&list, rb_report_json_number(in_units(
-                                         f, unit, x[k] - (less ? less[k] : 0.0))));
+        rb_report_json_append(
+            &list, rb_report_json_number(in_units(f, unit, x[k] - (less ? less[k] : 0.0))));
     return list;
 }
 
@@ -99,9 +96,9 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
     rb_report_json_set(root, "level", json_real(fit->level));
     rb_report_json_set(root, "chi_square", rb_report_json_number(fit->chi_square));
     rb_report_json_set(root, "degrees_of_freedom", json_integer(fit->degrees_of_freedom));
-    rb_report_json_set(root, "noise",
-                       rb_report_json_number(
-                           f->data->sigma ? fit->noise : in_units(f, unit, fit->noise)));
+    rb_report_json_set(
+        root, "noise",
+        rb_report_json_number(f->data->sigma ? fit->noise : in_units(f, unit, fit->noise)));
     rb_report_json_set(root, "kappa", rb_report_json_number(fit->kappa));
     rb_report_json_set(root, "iterations", json_integer(fit->iterations));
     rb_report_json_set(&curve, f->data->is_ratio ? "creep_ratio" : "creep",
@@ -164,8 +161,7 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
         rb_report_cell_number(&c, f->data->creep[k]);
         rb_report_cell_number(&c, in_units(f, unit, f->data->force[k]));
         rb_report_cell_number(&c, in_units(f, unit, f->fit->model[k]));
-        rb_report_cell_number(&c,
-                              in_units(f, unit, f->data->force[k] - f->fit->model[k]));
+        rb_report_cell_number(&c, in_units(f, unit, f->data->force[k] - f->fit->model[k]));
         rb_report_cell_number(&c, in_units(f, unit, f->fit->band[k]));
         rb_report_cells_end_row(&c);
     }
@@ -176,21 +172,17 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
 {
     char line[200], unit[20];
 
-    fprintf(out,
-            "fit of %d points, %d steps, %d degrees of freedom, intervals of %g %%\n",
-            f->data->n, f->fit->iterations, f->fit->degrees_of_freedom,
-            100.0 * f->fit->level);
+    fprintf(out, "fit of %d points, %d steps, %d degrees of freedom, intervals of %g %%\n",
+            f->data->n, f->fit->iterations, f->fit->degrees_of_freedom, 100.0 * f->fit->level);
     for (int j = 0; j < f->fit->n; j++) {
         write_parameter(line, sizeof line, f, j);
         fprintf(out, "  %s\n", line);
     }
     if (f->data->sigma)
-        fprintf(out, "  residuals are %.3g of their standard deviations\n",
-                f->fit->noise);
+        fprintf(out, "  residuals are %.3g of their standard deviations\n", f->fit->noise);
     else
         fprintf(out, "  residuals have a standard deviation of %.3g%s\n",
-                in_units(f, force_unit(f), f->fit->noise),
-                unit_behind(f, force_unit(f), unit));
+                in_units(f, force_unit(f), f->fit->noise), unit_behind(f, force_unit(f), unit));
     fputs(f->fit->sentences, out);
 }
 
@@ -233,12 +225,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n"
             "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
             0.15 + place.right, 0.14 + place.up, 0.9 + place.up);
-    fprintf(out,
-            "set key at screen %g, %g center top horizontal samplen 2.2 font ',%.3g'\n",
-            0.55, 0.935, rb_report_key_font(canvas));
+    fprintf(out, "set key at screen %g, %g center top horizontal samplen 2.2 font ',%.3g'\n", 0.55,
+            0.935, rb_report_key_font(canvas));
     if (place.titled)
-        fputs("set label 1 '{/:Bold Fitted creep curve}' at screen 0.55, 0.965 center\n",
-              out);
+        fputs("set label 1 '{/:Bold Fitted creep curve}' at screen 0.55, 0.965 center\n", out);
     fprintf(out, "set xlabel 'creepage %s", f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ");
     if (power)
         fprintf(out, "  [10^{%d}]", power);
@@ -257,13 +247,12 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             rb_report_colour(0), 100.0 * f->fit->level, rb_report_colour(0));
 }
 
-rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas,
-                                const rb_report_fit *f, rb_message *why)
+rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
+                                rb_message *why)
 {
     for (int k = 0; k < f->data->n; k++)
         if (!isfinite(f->fit->band[k]))
-            return rb_fail(
-                why, RB_EINVAL,
-                "no band to draw: the data do not determine all of these numbers");
+            return rb_fail(why, RB_EINVAL,
+                           "no band to draw: the data do not determine all of these numbers");
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, f, why);
 }

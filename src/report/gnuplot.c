@@ -26,9 +26,8 @@ static FILE *temporary(void)
 
 static rb_status no_temporary(rb_message *why)
 {
-    return errno == ENOMEM
-               ? rb_fail(why, RB_ENOMEM, "out of memory")
-               : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
+    return errno == ENOMEM ? rb_fail(why, RB_ENOMEM, "out of memory")
+                           : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
 }
 
 /* -d: without the start-up files of the machine and of the user.  From its standard input
@@ -65,9 +64,8 @@ static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
 static rb_status missing(int e, rb_message *why)
 {
     if (e == ENOENT)
-        return rb_fail(
-            why, RB_EHELPER,
-            "gnuplot is not installed; pictures need it (package gnuplot-nox)");
+        return rb_fail(why, RB_EHELPER,
+                       "gnuplot is not installed; pictures need it (package gnuplot-nox)");
     if (e == ENOMEM)
         return rb_fail(why, RB_ENOMEM, "gnuplot does not start: out of memory");
     return rb_fail(why, RB_EHELPER, "gnuplot does not start: %s", strerror(e));
@@ -121,8 +119,7 @@ static int is_whole(FILE *picture, rb_report_picture_kind kind)
     char head[16] = "", tail[16];
     rewind(picture);
     if (fread(head, 1, strlen(whole[kind].begin), picture) == 0 ||
-        strcmp(head, whole[kind].begin) != 0 ||
-        fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
+        strcmp(head, whole[kind].begin) != 0 || fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
         fread(tail, 1, sizeof tail, picture) != sizeof tail)
         return 0;
     size_t n = sizeof tail;
@@ -132,8 +129,8 @@ static int is_whole(FILE *picture, rb_report_picture_kind kind)
     return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
 }
 
-static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds,
-                     FILE *picture, FILE *errors, rb_message *why)
+static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds, FILE *picture,
+                     FILE *errors, rb_message *why)
 {
     pid_t pid;
     if (fflush(script) != 0 || ferror(script))
@@ -147,18 +144,16 @@ static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds,
     return s;
 }
 
-rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
-                            FILE *out, rb_message *why)
+rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
+                            rb_message *why)
 {
     FILE *picture = temporary(), *errors = picture ? temporary() : NULL;
-    rb_status s =
-        errors ? run(script, kind, seconds, picture, errors, why) : no_temporary(why);
+    rb_status s = errors ? run(script, kind, seconds, picture, errors, why) : no_temporary(why);
     if (s == RB_OK) {
         char buffer[1 << 14];
         size_t n;
         rewind(picture);
-        while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 &&
-               fwrite(buffer, 1, n, out) == n)
+        while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 && fwrite(buffer, 1, n, out) == n)
             ;
         if (ferror(picture) || ferror(out))
             s = rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
@@ -172,8 +167,7 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
 
 /* ---- Kinds and shapes -------------------------------------------------------------- */
 
-rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
-                                    rb_message *why)
+rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind, rb_message *why)
 {
     static const char *const ends[] = {".png", ".svg", ".pdf"};
     const size_t n = strlen(path);
@@ -182,8 +176,7 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
             *kind = (rb_report_picture_kind)k;
             return RB_OK;
         }
-    return rb_fail(why, RB_EINVAL,
-                   "expected a name ending in .png, .svg or .pdf, got '%s'", path);
+    return rb_fail(why, RB_EINVAL, "expected a name ending in .png, .svg or .pdf, got '%s'", path);
 }
 
 enum { SHAPES = 4 };
@@ -225,10 +218,9 @@ static const struct {
 static const struct {
     double inches, letters, ratio[SHAPES];
     int alike;
-} sizes[] = {
-    [RB_REPORT_85MM] = {85 / 25.4, 1.65, {1.0, 0.82, 1.0, 0.6}, 1},
-    [RB_REPORT_170MM] = {170 / 25.4, 1.0, {0.0}, 0},
-    [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 1}};
+} sizes[] = {[RB_REPORT_85MM] = {85 / 25.4, 1.65, {1.0, 0.82, 1.0, 0.6}, 1},
+             [RB_REPORT_170MM] = {170 / 25.4, 1.0, {0.0}, 0},
+             [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 1}};
 
 typedef struct {
     double width, height, letters; /* letters: against those of the shape's own size */
@@ -269,13 +261,12 @@ double rb_report_marker_scale(rb_report_canvas canvas)
 
 const char *rb_report_zone_colour(int zone, int pale)
 {
-    static const char *const colours[][2] = {
-        [RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
-        [RB_ZONE_STICK] = {"#2c7a57", "#d9ebe2"},
-        [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
-        [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
-        [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
-        [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"}};
+    static const char *const colours[][2] = {[RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
+                                             [RB_ZONE_STICK] = {"#2c7a57", "#d9ebe2"},
+                                             [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
+                                             [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
+                                             [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
+                                             [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"}};
     return colours[zone][pale != 0];
 }
 

@@ -7,8 +7,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_history *h, int errors)
 {
-    return (rb_report_columns){&rb_rolling_history_columns, h, errors,
-                               h ? h->units : RB_UNITS_MM};
+    return (rb_report_columns){&rb_rolling_history_columns, h, errors, h ? h->units : RB_UNITS_MM};
 }
 
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
@@ -53,8 +52,8 @@ static json_t *lists_of(const rb_rolling_states *s, const double *values)
     json_t *lists = json_array();
 
     for (int k = 0; k < s->steps; k++)
-        rb_report_json_append(
-            &lists, rb_report_json_numbers(s->n, values + (size_t)k * (size_t)s->n));
+        rb_report_json_append(&lists,
+                              rb_report_json_numbers(s->n, values + (size_t)k * (size_t)s->n));
     return lists;
 }
 
@@ -96,8 +95,7 @@ static double unresolved(const rb_rolling_memory *m, const rb_rolling_history *h
     return time;
 }
 
-void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
-                               const rb_rolling_history *h)
+void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_rolling_history *h)
 {
     void *before = rb_locale_begin();
     const int last = h->n - 1;
@@ -123,9 +121,7 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
     }
     if (h->errors) {
         /* The last step's values with their errors. */
-        fputs(
-            "  error bars at the end (estimated from coarser meshes and longer steps)\n",
-            out);
+        fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n", out);
         for (int j = 0; j < rb_rolling_history_columns.n; j++) {
             const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
             if (!r->error_bar || !rb_rolling_has_column(r, h))

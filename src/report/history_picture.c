@@ -112,8 +112,8 @@ static void write_way(FILE *out, const view *v)
     char label[80];
 
     if (v->exponent)
-        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
-                 v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
+        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift", v->exponent,
+                 v->rolls ? "" : " ", v->rolls ? "" : mm);
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
@@ -156,9 +156,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), half_width(v, v->h, i),
                     load(v, v->h, i), approach(v, v->h, i));
         else if (is_shown(v, i))
-            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
-                    motion(v, v->h, i), force(v, v->h, i),
-                    contact ? (double)v->h->stick[i] / contact : 0,
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i), motion(v, v->h, i),
+                    force(v, v->h, i), contact ? (double)v->h->stick[i] / contact : 0,
                     v->h->errors ? motion(v, v->h->errors, i) : 0,
                     v->h->errors ? force(v, v->h->errors, i) : 0);
     }
@@ -177,16 +176,14 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 : v->in_time ? "Static contact in time"
                              : "Static history",
                 v->h->n, v->h->normal_load[last], unit,
-                rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]),
-                unit);
+                rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), unit);
     if (v->place.titled)
         rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
     (v->in_time ? write_time : write_way)(out, v);
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
-                                    const rb_rolling_case *rc,
+rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                                     const rb_rolling_history *history, rb_message *why)
 {
     if (history->n < 1)

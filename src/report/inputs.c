@@ -43,11 +43,10 @@ json_t *rb_report_json_inputs(const rb_case *c)
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
-            rb_report_json_set(
-                &inputs, o[i].name,
-                rb_case_is_replaced(c, &o[i])
-                    ? json_null()
-                    : rb_report_json_option(&o[i], resolved, resolved->units));
+            rb_report_json_set(&inputs, o[i].name,
+                               rb_case_is_replaced(c, &o[i])
+                                   ? json_null()
+                                   : rb_report_json_option(&o[i], resolved, resolved->units));
     return inputs;
 }
 
@@ -60,8 +59,7 @@ static int add_text(const char *text, size_t size, void *hash)
 }
 
 /* Of inputs, which are taken over, and of the files that the case names. */
-static rb_status hash_of(const rb_case *c, json_t *inputs, uint64_t *hash,
-                         rb_message *why)
+static rb_status hash_of(const rb_case *c, json_t *inputs, uint64_t *hash, rb_message *why)
 {
     *hash = RB_HASH_START;
     /* json_dumps loses pieces where its text cannot grow */

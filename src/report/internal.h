@@ -27,10 +27,8 @@ rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
                                         const char *command, int parts,
                                         const rb_report_columns *part);
 /* Write the headings, or entry i of every column, as cells of the current row. */
-void rb_report_cell_headings(rb_report_cells *c, int parts,
-                             const rb_report_columns *part);
-void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
-                            const rb_report_columns *part);
+void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part);
+void rb_report_cell_entries(rb_report_cells *c, int i, int parts, const rb_report_columns *part);
 /* The same of derivatives, where there are any; and what they are, as # lines. */
 void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row);
@@ -72,8 +70,8 @@ typedef struct {
 } rb_report_place;
 rb_report_place rb_report_place_of(rb_report_canvas canvas);
 /* The label of the picture that names the bodies, centred at screen x, y. */
-void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units,
-                            double x, double y);
+void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units, double x,
+                            double y);
 /* Thin grid lines at the tics. */
 #define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
 /* The colour of curve k of several, as gnuplot's rgb. */
@@ -111,23 +109,23 @@ const char *rb_report_large_number(double x, char text[40]);
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */
-#define RB_REPORT_PALETTE                                                                \
-    "set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', "  \
+#define RB_REPORT_PALETTE                                                                          \
+    "set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', "            \
     "0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
 
 typedef enum {
     RB_REPORT_FOUR_THIRDS,
     RB_REPORT_WIDE,   /* 12:5 */
     RB_REPORT_SCREEN, /* 16:9 */
-    RB_REPORT_PANELS /* the same, with panels side by side, which a column has no room for
-                      */
+    RB_REPORT_PANELS  /* the same, with panels side by side, which a column has no room for
+                       */
 } rb_report_shape;
 
 /* Runs gnuplot on a script, which contains data blocks and no file names.  out receives
  * the complete picture or nothing.  RB_EHELPER: gnuplot is missing, has failed, or took
  * longer than `seconds`; RB_EWRITE: the disk is full; RB_ENOMEM. */
-rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
-                            FILE *out, rb_message *why);
+rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
+                            rb_message *why);
 
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
 

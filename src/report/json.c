@@ -71,8 +71,7 @@ json_t *rb_report_json_units(rb_units units)
     json_t *object = json_object();
     rb_report_json_set(&object, "system", json_string(rb_case_word("units", (int)units)));
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        rb_report_json_set(&object, all[k].quantity,
-                           json_string(rb_unit_name(units, all[k].unit)));
+        rb_report_json_set(&object, all[k].quantity, json_string(rb_unit_name(units, all[k].unit)));
     return object;
 }
 
@@ -80,13 +79,12 @@ json_t *rb_report_json_units(rb_units units)
 
 static json_t *json_value(const rb_rolling_result *r, double x)
 {
-    return r->kind == RB_RESULT_WHOLE ? json_integer((json_int_t)x)
-                                      : rb_report_json_number(x);
+    return r->kind == RB_RESULT_WHOLE ? json_integer((json_int_t)x) : rb_report_json_number(x);
 }
 
 /* Those of time, or all the others. */
-static void set_results(json_t **object, const rb_rolling_results *table,
-                        const void *owner, int seconds)
+static void set_results(json_t **object, const rb_rolling_results *table, const void *owner,
+                        int seconds)
 {
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
@@ -115,8 +113,7 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     rb_report_json_set(&summary, "formulation",
                        json_string(rb_case_word("formulation", (int)s->formulation)));
     rb_report_json_set(&summary, "solver", json_string(rb_report_solver(s)));
-    rb_report_json_set(&summary, "flexibility",
-                       json_string(s->large ? "transforms" : "matrix"));
+    rb_report_json_set(&summary, "flexibility", json_string(s->large ? "transforms" : "matrix"));
     rb_report_json_set(&summary, "lcp_form",
                        json_string(rb_case_word("lcp-form", (int)s->lcp_form)));
     set_results(&summary, &rb_rolling_solution_scalars, s, 0);
@@ -155,16 +152,14 @@ static json_t *entries(const rb_rolling_result *r, const void *owner, int rows)
     return list;
 }
 
-void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *c,
-                            int headed)
+void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *c, int headed)
 {
     char heading[RB_ROLLING_HEADING];
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
         if ((!c->errors || r->error_bar) && rb_rolling_has_column(r, c->owner))
-            rb_report_json_set(
-                object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
-                entries(r, c->owner, rows));
+            rb_report_json_set(object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
+                               entries(r, c->owner, rows));
     }
 }
 
@@ -190,8 +185,7 @@ rb_status rb_report_json_write(FILE *out, json_t *json)
 {
     if (!json)
         return RB_ENOMEM;
-    const int failed =
-        json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0;
+    const int failed = json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0;
     json_decref(json);
     if (failed && !ferror(out))
         return RB_ENOMEM;

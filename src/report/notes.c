@@ -6,12 +6,11 @@
 
 void rb_report_note(FILE *out, const char *text, int colour)
 {
-    fprintf(out, "rollbem: %snote:%s %s\n", colour ? "\033[33m" : "",
-            colour ? "\033[0m" : "", text);
+    fprintf(out, "rollbem: %snote:%s %s\n", colour ? "\033[33m" : "", colour ? "\033[0m" : "",
+            text);
 }
 
-void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                     int colour)
+void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s, int colour)
 {
     const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
     for (int k = 0; k < list.n; k++)

@@ -44,9 +44,8 @@ static panel panel_of(const view *v, int which)
 static void open_panel(FILE *out, const view *v, int which, int lowest)
 {
     const panel at = panel_of(v, which);
-    fprintf(out,
-            "set tmargin at screen %g\nset bmargin at screen %g\nset format x '%s'\n",
-            at.top, at.bottom, lowest ? "%g" : "");
+    fprintf(out, "set tmargin at screen %g\nset bmargin at screen %g\nset format x '%s'\n", at.top,
+            at.bottom, lowest ? "%g" : "");
 }
 
 static double middle_of(const view *v, int which)
@@ -149,16 +148,15 @@ static void write_data(FILE *out, const view *v)
             fprintf(out, "%.9g 0 0 0 ? ? ?\n", (s->x[i] - s->h[i] / 2) / v->length.size);
         fprintf(out, "%.9g", s->x[i] / v->length.size);
         if (steps || has_slip(v, i))
-            fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit,
-                    s->q[i] / v->stress_unit, bound_of(v, i) / v->stress_unit);
+            fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
+                    bound_of(v, i) / v->stress_unit);
         else
             fputs(" ? ? ?", out);
         if (has_slip(v, i))
             fprintf(out, " %.9g", slip_of(v, i) / v->slip.unit);
         else
             fputs(" ?", out);
-        fprintf(out, " %.9g %.9g\n",
-                s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
+        fprintf(out, " %.9g %.9g\n", s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     }
     fputs("EOD\n", out);
@@ -181,10 +179,8 @@ static void write_zone_label(FILE *out, const view *v, const stretch *st)
     if (share < 0.025)
         return;
     const int flat = share > 0.013 * (double)strlen(name);
-    fprintf(
-        out,
-        "set label '{/*0.85 %s}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
-        name, (st->from + st->to) / 2, flat ? "0.95 center" : "0.97 right rotate by 90");
+    fprintf(out, "set label '{/*0.85 %s}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
+            name, (st->from + st->to) / 2, flat ? "0.95 center" : "0.97 right rotate by 90");
 }
 
 static void write_zones(FILE *out, const view *v, int labelled)
@@ -198,8 +194,7 @@ static void write_zones(FILE *out, const view *v, int labelled)
             ++i;
         const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
         const double to = (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size;
-        const stretch st =
-            (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
+        const stretch st = (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
         if (st.to <= st.from)
             continue;
         fprintf(out,
@@ -240,8 +235,7 @@ static void write_results(FILE *out, const view *v)
     if (!isnan(s->creep_ratio) && moves) {
         /* With the a and R of its formula where they are not those that the title shows.
          */
-        const double radius =
-            rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
+        const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
         fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
         if (other_a(v) || other_radius(v)) {
             fputs(":", out);
@@ -249,8 +243,7 @@ static void write_results(FILE *out, const view *v)
                 fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
                         other_a(v) ? "," : "");
             if (other_a(v))
-                fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size,
-                        length.name);
+                fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size, length.name);
         }
     }
     if (!isnan(s->force_ratio) && s->tangential_load != 0.0)
@@ -271,8 +264,7 @@ static void write_tractions(FILE *out, const view *v, double key_font, double ma
     const double below = fmax(1.2 * bound, 0.08 * scale);
     /* a ninth of the height is left to the names of the zones */
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
-    fprintf(out, "set yrange [%.9g:%.9g]\n", -below / v->stress_unit,
-            above / v->stress_unit);
+    fprintf(out, "set yrange [%.9g:%.9g]\n", -below / v->stress_unit, above / v->stress_unit);
     open_panel(out, v, TRACTIONS, 0);
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
             v->stress_label, middle_of(v, TRACTIONS));
@@ -334,9 +326,8 @@ static void write_bodies(FILE *out, const view *v)
     for (int k = 0; k < 2; k++) {
         const int upper = (k == 0) == (apart > 0.0);
         if (upper || room)
-            fprintf(out, "set label '%s' at first %.9g, first %.9g %s front\n",
-                    k ? "B" : "A", v->s->x[at] / v->length.size,
-                    t[k] + (upper == room ? -up : up),
+            fprintf(out, "set label '%s' at first %.9g, first %.9g %s front\n", k ? "B" : "A",
+                    v->s->x[at] / v->length.size, t[k] + (upper == room ? -up : up),
                     left ? "left offset 0.5,0" : "right offset -0.5,0");
     }
 }
@@ -382,8 +373,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
         rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
     }
-    write_tractions(out, v, rb_report_key_font(canvas),
-                    1.7 * rb_report_marker_scale(canvas));
+    write_tractions(out, v, rb_report_key_font(canvas), 1.7 * rb_report_marker_scale(canvas));
     const int lowest = !v->s->temperature;
     fputs("unset label\nunset key\nunset object\n", out);
     open_panel(out, v, SLIP, lowest);
@@ -392,9 +382,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (lowest)
         write_x_label(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
-    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V"
-                                         : "set label 3 'slip",
-          out);
+    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V" : "set label 3 'slip", out);
     write_exponent(out, v->slip.exponent, "");
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
     write_zones(out, v, 0);
@@ -413,11 +401,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
         write_zones(out, v, 0);
         write_bodies(out, v);
-        fputs(
-            "plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
-            "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
-            "1.8\n",
-            out);
+        fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
+              "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
+              "1.8\n",
+              out);
     }
     fputs("unset multiplot\n", out);
 }
@@ -440,7 +427,6 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
     const rb_report_unit unit = rb_report_axis_unit(v.s->units, "MPa", v.s->max_pressure);
     v.stress_unit = unit.size;
     v.stress_label = unit.name;
-    v.carter =
-        rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
+    v.carter = rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -4,8 +4,8 @@
 
 #include <jansson.h>
 
-void rb_report_json_result(json_t **root, const rb_case_result *r,
-                           const rb_rolling_states *states, const rb_case_slopes *slopes)
+void rb_report_json_result(json_t **root, const rb_case_result *r, const rb_rolling_states *states,
+                           const rb_case_slopes *slopes)
 {
     json_t *summary = rb_report_json_summary(&r->solution);
     if (r->has_errors)

@@ -45,8 +45,8 @@ static json_t *with_required(json_t *schema, json_t *required)
 static json_t *result(const rb_rolling_result *r)
 {
     char text[300];
-    snprintf(text, sizeof text, "%s%s%s%s", r->meaning, r->unit ? " [" : "",
-             r->unit ? r->unit : "", r->unit ? "]" : "");
+    snprintf(text, sizeof text, "%s%s%s%s", r->meaning, r->unit ? " [" : "", r->unit ? r->unit : "",
+             r->unit ? "]" : "");
     return r->kind == RB_RESULT_WHOLE ? typed("integer", text) : number(text);
 }
 
@@ -65,8 +65,7 @@ static json_t *names(const rb_rolling_results *table)
 {
     json_t *list = json_array();
     for (int k = 0; k < table->n; k++)
-        if (table->row[k].kind != RB_RESULT_SECONDS &&
-            table->row[k].condition == RB_FOR_ALL)
+        if (table->row[k].kind != RB_RESULT_SECONDS && table->row[k].condition == RB_FOR_ALL)
             rb_report_json_append(&list, json_string(table->row[k].name));
     return list;
 }
@@ -101,9 +100,8 @@ static json_t *inputs(void)
                                                                 : "string",
                                o[i].help);
         if (numeric)
-            rb_report_json_set(
-                &schema, "type",
-                json_pack("[s, s, s, s]", "number", "null", "string", "array"));
+            rb_report_json_set(&schema, "type",
+                               json_pack("[s, s, s, s]", "number", "null", "string", "array"));
         rb_report_json_set(&properties, o[i].name, schema);
     }
     return object_of(properties, "every value used, defaults included");
@@ -120,11 +118,10 @@ static json_t *summary(void)
     }
     rb_report_json_set(&properties, "seconds",
                        object_of(results(&rb_rolling_solution_scalars, 1), "time spent"));
-    rb_report_json_set(
-        &properties, "patches",
-        list_of(with_required(object_of(results(&rb_rolling_patch_scalars, 0), NULL),
-                              names(&rb_rolling_patch_scalars)),
-                "the parts of the contact, where it has several"));
+    rb_report_json_set(&properties, "patches",
+                       list_of(with_required(object_of(results(&rb_rolling_patch_scalars, 0), NULL),
+                                             names(&rb_rolling_patch_scalars)),
+                               "the parts of the contact, where it has several"));
     rb_report_json_set(&properties, "errors",
                        object_of(results(&rb_rolling_solution_scalars, 0),
                                  "estimated errors of the discretisation"));
@@ -150,64 +147,52 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "notes",
                        list_of(typed("string", NULL), "notes on how to read the result"));
     rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
-    rb_report_json_set(
-        &of, "input_hash",
-        typed("string", "of all inputs and the contents of the files they name"));
+    rb_report_json_set(&of, "input_hash",
+                       typed("string", "of all inputs and the contents of the files they name"));
     rb_report_json_set(&of, "inputs", inputs());
     rb_report_json_set(&of, "summary", summary());
-    rb_report_json_set(
-        &of, "table",
-        columns(&rb_rolling_solution_columns, 1, "an entry per contact element"));
+    rb_report_json_set(&of, "table",
+                       columns(&rb_rolling_solution_columns, 1, "an entry per contact element"));
     rb_report_json_set(
         &of, "solutions",
         list_of(typed("object", NULL), "summary and table of each, of --all-solutions"));
-    rb_report_json_set(
-        &of, "history",
-        columns(&rb_rolling_history_columns, 0,
-                "an entry per step; states: of --states, a list per step"));
+    rb_report_json_set(&of, "history",
+                       columns(&rb_rolling_history_columns, 0,
+                               "an entry per step; states: of --states, a list per step"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0, "an entry per creepage");
     rb_report_json_set(&of, "curve", curve);
-    rb_report_json_set(&of, "curves",
-                       list_of(json_incref(curve), "of several coefficients"));
+    rb_report_json_set(&of, "curves", list_of(json_incref(curve), "of several coefficients"));
     rb_report_json_set(&of, "wear",
                        columns(&rb_rolling_wear_columns, 0, "an entry per step of wear"));
-    rb_report_json_set(
-        &of, "grid",
-        columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
-    rb_report_json_set(
-        &of, "points",
-        columns(&rb_rolling_stress_scalars, 1, "the same at given points"));
+    rb_report_json_set(&of, "grid",
+                       columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
+    rb_report_json_set(&of, "points",
+                       columns(&rb_rolling_stress_scalars, 1, "the same at given points"));
     rb_report_json_set(&of, "depth", number("of grid and maxima; null: 2.5 half-widths"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
                        typed("object", "of --derivatives: of each result with respect to "
                                        "each input; [left, right] if the sides differ"));
-    rb_report_json_set(&of, "without_derivatives",
-                       typed("object", "inputs without, and why"));
-    rb_report_json_set(
-        &of, "derivatives_over_x",
-        typed("object", "of loads, approach and creepage with respect to the gap and mu "
-                        "of every element, with fixed elements"));
+    rb_report_json_set(&of, "without_derivatives", typed("object", "inputs without, and why"));
+    rb_report_json_set(&of, "derivatives_over_x",
+                       typed("object",
+                             "of loads, approach and creepage with respect to the gap and mu "
+                             "of every element, with fixed elements"));
     rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
     rb_report_json_set(&of, "tolerances",
                        typed("object", "of --tolerance: standard deviations of results"));
-    rb_report_json_set(
-        &of, "parameters",
-        typed("object", "of fit: value, interval and correlations of each"));
+    rb_report_json_set(&of, "parameters",
+                       typed("object", "of fit: value, interval and correlations of each"));
     rb_report_json_set(&of, "fit", typed("object", "points, fitted curve and its band"));
-    rb_report_json_set(&of, "residuals",
-                       list_of(number("measured less fitted"), "of fit"));
-    rb_report_json_set(
-        &of, "sentences",
-        list_of(typed("string", NULL), "of fit: what the data do not determine"));
-    rb_report_json_set(
-        &of, "problems",
-        list_of(typed("object", NULL), "of lcp and friction, one per file"));
+    rb_report_json_set(&of, "residuals", list_of(number("measured less fitted"), "of fit"));
+    rb_report_json_set(&of, "sentences",
+                       list_of(typed("string", NULL), "of fit: what the data do not determine"));
+    rb_report_json_set(&of, "problems",
+                       list_of(typed("object", NULL), "of lcp and friction, one per file"));
     rb_report_json_set(&of, "cases", list_of(typed("object", NULL), "of contact"));
     rb_report_json_set(&of, "steps", list_of(typed("object", NULL), "of example"));
 
-    json_t *schema =
-        with_required(object_of(of, "What rollbem prints with --json"), heads());
+    json_t *schema = with_required(object_of(of, "What rollbem prints with --json"), heads());
     rb_report_json_set(&schema, "$schema",
                        json_string("https://json-schema.org/draft/2020-12/schema"));
     rb_report_json_set(&schema, "title", json_string("rollbem/1"));

@@ -40,8 +40,7 @@ rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
     return c;
 }
 
-void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
-                            const rb_report_columns *part)
+void rb_report_cell_entries(rb_report_cells *c, int i, int parts, const rb_report_columns *part)
 {
     for (const rb_report_columns *of = part; of < part + parts; of++)
         for (int j = 0; j < of->columns->n; j++) {

@@ -23,38 +23,33 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (isfinite(own))
         fprintf(out, "$own << EOD\n%.9g %.9g\nEOD\n", traction, own);
     const rb_report_place place = rb_report_place_of(canvas);
-    const rb_report_unit stress =
-        rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
-    fprintf(
-        out,
-        "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
-        "0.14\nset tmargin at screen 0.92\n" RB_REPORT_GRID
-        "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n",
-        0.12 + place.right);
+    const rb_report_unit stress = rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
+    fprintf(out,
+            "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
+            "0.14\nset tmargin at screen 0.92\n" RB_REPORT_GRID
+            "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n",
+            0.12 + place.right);
     fprintf(out, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", most,
             fmax(5.0, isfinite(own) ? 1.1 * own : 0.0));
     if (place.titled)
-        fprintf(
-            out,
-            "set label 1 '{/:Bold Shakedown}   p_0 = %.5g %s,  p_0 ≤ %.4g k shakes down' "
-            "at screen 0.54, 0.955 center\n",
-            s->s->max_pressure / stress.size, stress.name, limit);
-    fprintf(out, "set key right top samplen 2 font ',%.3g'\n",
-            rb_report_key_font(canvas));
+        fprintf(out,
+                "set label 1 '{/:Bold Shakedown}   p_0 = %.5g %s,  p_0 ≤ %.4g k shakes down' "
+                "at screen 0.54, 0.955 center\n",
+                s->s->max_pressure / stress.size, stress.name, limit);
+    fprintf(out, "set key right top samplen 2 font ',%.3g'\n", rb_report_key_font(canvas));
     fputs("plot $limit using 1:2 with lines linecolor rgb '#1f4e79' linewidth 2.4 title "
           "'limit, full sliding (Johnson)', $case using 1:2 with points pointtype 7 "
           "pointsize 1.6 linecolor rgb '#c0392b' title 'limit of this case'",
           out);
     if (isfinite(own))
-        fputs(
-            ", $own using 1:2 with points pointtype 2 pointsize 2 linewidth 2 linecolor "
-            "rgb '#111111' title 'p_0 of this case'",
-            out);
+        fputs(", $own using 1:2 with points pointtype 2 pointsize 2 linewidth 2 linecolor "
+              "rgb '#111111' title 'p_0 of this case'",
+              out);
     fputs("\n", out);
 }
 
-rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas,
-                                  const rb_report_stress *s, rb_message *why)
+rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas, const rb_report_stress *s,
+                                  rb_message *why)
 {
     if (!s->shakedown || !(s->s->normal_load > 0.0))
         return rb_fail(why, RB_EINVAL, "no contact to draw");

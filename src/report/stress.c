@@ -14,8 +14,7 @@ int rb_report_stress_is_inside(const rb_report_stress *s, int k)
 /* The k-th of the largest values, in the first of its three rows; NULL: no more. */
 static const rb_rolling_result *maximum(int k)
 {
-    return 3 * k < rb_rolling_maxima_scalars.n ? &rb_rolling_maxima_scalars.row[3 * k]
-                                               : NULL;
+    return 3 * k < rb_rolling_maxima_scalars.n ? &rb_rolling_maxima_scalars.row[3 * k] : NULL;
 }
 
 static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
@@ -26,12 +25,11 @@ static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
 }
 
 /* "value +- error" with so many digits; 0 where it is below rounding. */
-static const char *quantity(double value, double rounding, int digits,
-                            const double *error, char text[48])
+static const char *quantity(double value, double rounding, int digits, const double *error,
+                            char text[48])
 {
     const int known = error && isfinite(*error);
-    const int n =
-        snprintf(text, 48, "%.*g", digits, fabs(value) < rounding ? 0.0 : value);
+    const int n = snprintf(text, 48, "%.*g", digits, fabs(value) < rounding ? 0.0 : value);
     if (known)
         snprintf(text + n, 48 - (size_t)n, " +- %.2g", *error);
     return text;
@@ -45,12 +43,11 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     /* a place is searched for until it is known to about a millionth of the half-width */
     const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
     char value[48], x[48], y[48];
-    snprintf(
-        line, size, "%-24s %s %s at x = %s, y = %s %s; %.5g p0", maximum(k)->meaning,
-        quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
-        rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
-        quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
-        fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
+    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s; %.5g p0", maximum(k)->meaning,
+             quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
+             rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
+             quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
+             fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
     return line;
 }
 
@@ -60,10 +57,9 @@ static const char *shakedown_text(const rb_report_stress *s, char *line, size_t 
     const rb_rolling_shakedown *d = s->shakedown;
     const double limit = s->s->max_pressure / d->shear_yield;
     const double own = s->s->max_pressure / s->yield_shear;
-    const int n =
-        snprintf(line, size, "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s",
-                 "shakedown", limit, d->x, rb_unit_name(s->s->units, "mm"), d->y,
-                 rb_unit_name(s->s->units, "mm"));
+    const int n = snprintf(line, size, "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s",
+                           "shakedown", limit, d->x, rb_unit_name(s->s->units, "mm"), d->y,
+                           rb_unit_name(s->s->units, "mm"));
     if (isfinite(own))
         snprintf(line + n, size - (size_t)n, "; here p0 = %.5g k: %s", own,
                  own <= limit ? "shakes down" : "does not shake down");
@@ -75,8 +71,7 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
     void *before = rb_locale_begin();
     char line[400];
     fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
-            rb_unit_name(s->s->units, "MPa"), s->s->half_width,
-            rb_unit_name(s->s->units, "mm"));
+            rb_unit_name(s->s->units, "MPa"), s->s->half_width, rb_unit_name(s->s->units, "mm"));
     for (int k = 0; maximum(k); k++)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
@@ -86,21 +81,19 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 
 /* ---- Table ------------------------------------------------------------------------- */
 
-rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
-                                 const char *command, const rb_report_style *style)
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,
+                                 const rb_report_style *style)
 {
     const rb_rolling_results *columns = &rb_rolling_stress_scalars;
     char heading[RB_ROLLING_HEADING], line[400];
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
     for (int j = 0; j < columns->n; j++)
-        rb_report_cell_text(&c,
-                            rb_rolling_heading(&columns->row[j], s->s->units, heading));
+        rb_report_cell_text(&c, rb_rolling_heading(&columns->row[j], s->s->units, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_head(&c, command);
     rb_report_comment_notes(&c, s->rc, s->s);
-    rb_report_comment(&c,
-                      "tension positive; y > 0 inside A; the grid follows A's surface");
+    rb_report_comment(&c, "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; maximum(k); k++)
         rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
@@ -129,8 +122,7 @@ static json_t *json_extremum(rb_rolling_extremum m)
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     json_t *points = json_object();
-    rb_report_json_set(root, "depth",
-                       rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
+    rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
     for (int k = 0; maximum(k); k++) {
         json_t *one = json_extremum(extremum(s->maxima, k));
@@ -160,8 +152,7 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
         char heading[RB_ROLLING_HEADING];
         json_t *list = json_array();
         for (int k = 0; k < s->n; k++)
-            rb_report_json_append(&list,
-                                  rb_report_json_number(rb_rolling_number(r, &s->at[k])));
+            rb_report_json_append(&list, rb_report_json_number(rb_rolling_number(r, &s->at[k])));
         rb_report_json_set(&points, rb_rolling_heading(r, s->s->units, heading), list);
     }
     rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);

@@ -16,8 +16,7 @@ typedef struct {
 
 static view make_view(const rb_report_stress *s)
 {
-    const rb_report_unit stress =
-        rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
+    const rb_report_unit stress = rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
     view v = {.s = s,
               .length = rb_report_length_axis(s->s->units, s->s->half_width),
               .stress_unit = stress.size,
@@ -62,8 +61,7 @@ static void write_x_label(FILE *out, const view *v)
 {
     fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length.label,
             v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
-            (shown_aspect(v) == v->depth / (v->to - v->from)) ? ""
-                                                              : "   (y not to scale)");
+            (shown_aspect(v) == v->depth / (v->to - v->from)) ? "" : "   (y not to scale)");
 }
 
 static void write_axes(FILE *out, const view *v)
@@ -71,8 +69,7 @@ static void write_axes(FILE *out, const view *v)
     fputs("set view map\nset tics scale 0.6\nunset key\n"
           "set pm3d map corners2color mean\n",
           out);
-    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
-            v->depth);
+    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to, v->depth);
     write_x_label(out, v);
     fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
     /* Where A touches: one line for each zone, drawn below the surface. */
@@ -88,30 +85,27 @@ static void write_axes(FILE *out, const view *v)
                 "linewidth %d linecolor rgb '%s' front\n",
                 (s->x[first] - s->h[first] / 2) / v->length.size,
                 (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size,
-                s->zone[first] == RB_ZONE_STICK ? 2 : 6,
-                rb_report_zone_colour(s->zone[first], 0));
+                s->zone[first] == RB_ZONE_STICK ? 2 : 6, rb_report_zone_colour(s->zone[first], 0));
     }
 }
 
 /* line: from one line of the title to the next. */
-static void write_subtitle(FILE *out, const view *v, const char *title, double y,
-                           double line)
+static void write_subtitle(FILE *out, const view *v, const char *title, double y, double line)
 {
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
     const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
-    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %.5g %s,  a = %.4g %s",
-            title, kinds[s->formulation], s->mu ? "≤" : "=",
-            rb_rolling_largest_mu(v->s->rc), s->max_pressure / v->stress_unit,
-            v->stress_label, s->half_width / length.size, length.name);
+    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %.5g %s,  a = %.4g %s", title,
+            kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->s->rc),
+            s->max_pressure / v->stress_unit, v->stress_label, s->half_width / length.size,
+            length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
-    fprintf(
-        out,
-        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, "
-        "thick "
-        "orange and purple slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
-        y);
+    fprintf(out,
+            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, "
+            "thick "
+            "orange and purple slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
+            y);
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
 
@@ -143,35 +137,33 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n",
             at.left, at.left + at.width, bottom, top);
-    fprintf(
-        out, "set xtics %.9g\nset ytics %.9g\n",
-        rb_report_round_step((v->to - v->from) /
-                             rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width)),
-        rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height))));
+    fprintf(out, "set xtics %.9g\nset ytics %.9g\n",
+            rb_report_round_step((v->to - v->from) /
+                                 rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width)),
+            rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height))));
     /* the value of the maximum stands in the title, where it covers no contour's */
-    fprintf(
-        out,
-        "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
-        "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
-        "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
-        "linewidth 1.6 "
-        "linecolor rgb '#111111' front\n",
-        rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
-        at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
-        m->value / v->stress_unit, at.left + at.width / 2,
-        top + (v->column ? 0.03 : 0.05), m->x / v->length.size, m->y / v->length.size);
+    fprintf(out,
+            "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
+            "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
+            "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
+            "linewidth 1.6 "
+            "linecolor rgb '#111111' front\n",
+            rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
+            at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
+            m->value / v->stress_unit, at.left + at.width / 2, top + (v->column ? 0.03 : 0.05),
+            m->x / v->length.size, m->y / v->length.size);
     /* the line of the contact would cover half of a value at the surface: these contours
      * are cut off there, and so both sorts need the same levels */
-    const double step = rb_report_round_step(
-        m->value / v->stress_unit / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
+    const double step = rb_report_round_step(m->value / v->stress_unit /
+                                             fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
     fprintf(out, "set cbrange [0:%.9g]\n", step * ceil(m->value / v->stress_unit / step));
     fprintf(out,
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
             "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:($2 > %.3g "
             "? $%d : NaN) with labels boxed nosurface\n",
-            step, step, m->value / v->stress_unit, column, column,
-            0.02 * v->depth / at.height, column);
+            step, step, m->value / v->stress_unit, column, column, 0.02 * v->depth / at.height,
+            column);
 }
 
 static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
@@ -180,17 +172,16 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     const panel first = panel_of(v, 0);
     write_grid(out, v);
     write_axes(out, v);
-    fprintf(
-        out,
-        "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font "
-        "',%.3g'\n",
-        0.6 * rb_report_key_font(canvas));
+    fprintf(out,
+            "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font "
+            "',%.3g'\n",
+            0.6 * rb_report_key_font(canvas));
     fputs(RB_REPORT_PALETTE
           "set multiplot\n"
           "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
           out);
-    write_subtitle(out, v, "Stress below the surface of A",
-                   first.middle + first.height / 2 + 0.18, 0.06);
+    write_subtitle(out, v, "Stress below the surface of A", first.middle + first.height / 2 + 0.18,
+                   0.06);
     if (v->column) /* its caption says the rest; the lower panel has the x axis of both */
         fputs("unset label 1\nunset label 9\nset xlabel\n", out);
     write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
@@ -205,13 +196,12 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
 
 static rb_status check_grid(const rb_report_stress *s, rb_message *why)
 {
-    return s->nx > 1 && s->ny > 1
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "a picture of the stress needs a grid");
+    return s->nx > 1 && s->ny > 1 ? RB_OK
+                                  : rb_fail(why, RB_EINVAL, "a picture of the stress needs a grid");
 }
 
-rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
-                                   const rb_report_stress *s, rb_message *why)
+rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas, const rb_report_stress *s,
+                                   rb_message *why)
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;

@@ -54,8 +54,8 @@ static rb_status check_places(const rb_report_study *s, const spot *at, rb_messa
             return rb_fail(why, RB_EINVAL,
                            "cases %d and %d have the same %s%s%s: more options vary than "
                            "the picture shows",
-                           at[i - 1].k + 1, at[i].k + 1, s->x.name,
-                           s->y.value ? " and " : "", s->y.value ? s->y.name : "");
+                           at[i - 1].k + 1, at[i].k + 1, s->x.name, s->y.value ? " and " : "",
+                           s->y.value ? s->y.name : "");
     return RB_OK;
 }
 
@@ -65,15 +65,14 @@ static rb_status check_curves(const rb_report_study *s, const spot *at, rb_messa
     for (int i = 0; i < s->n; i += length_of_group(s, at, i))
         groups++;
     if (groups > RB_REPORT_CURVES)
-        return rb_fail(why, RB_EINVAL, "%d values of %s: at most %d curves are drawn",
-                       groups, s->y.name, RB_REPORT_CURVES);
+        return rb_fail(why, RB_EINVAL, "%d values of %s: at most %d curves are drawn", groups,
+                       s->y.name, RB_REPORT_CURVES);
     for (int i = 0; i < s->n; i += length_of_group(s, at, i))
         if (length_of_group(s, at, i) < 2)
-            return s->y.value ? rb_fail(why, RB_EINVAL,
-                                        "a curve needs two values of %s; %s = %g has one",
-                                        s->x.name, s->y.name, at[i].y)
-                              : rb_fail(why, RB_EINVAL, "a curve needs two values of %s",
-                                        s->x.name);
+            return s->y.value
+                       ? rb_fail(why, RB_EINVAL, "a curve needs two values of %s; %s = %g has one",
+                                 s->x.name, s->y.name, at[i].y)
+                       : rb_fail(why, RB_EINVAL, "a curve needs two values of %s", s->x.name);
     return RB_OK;
 }
 
@@ -89,8 +88,7 @@ static rb_status check_map(const rb_report_study *s, const spot *at, rb_message 
                 return rb_fail(why, RB_EINVAL,
                                "a map needs a case for every pair of %s and %s; those "
                                "with %s = %g are others than those with %s = %g",
-                               s->x.name, s->y.name, s->y.name, at[i].y, s->y.name,
-                               at[0].y);
+                               s->x.name, s->y.name, s->y.name, at[i].y, s->y.name, at[0].y);
     return RB_OK;
 }
 
@@ -157,8 +155,7 @@ static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
     }
     const double largest = fmax(fabs(a.from), fabs(a.to));
     a.logarithmic = may_be_logarithmic && q->value && is_logarithmic(n, q->value);
-    if (!a.logarithmic && isfinite(largest) && largest > 0.0 &&
-        (largest < 0.1 || largest >= 1e5))
+    if (!a.logarithmic && isfinite(largest) && largest > 0.0 && (largest < 0.1 || largest >= 1e5))
         a.exponent = (int)floor(log10(largest));
     a.unit = pow(10.0, a.exponent);
     a.from /= a.unit;
@@ -192,8 +189,7 @@ static const char *plain(const char *name, char buffer[64])
     while (*name)
         if (strncmp(name, "K_", 2) == 0) {
             const size_t n = strspn(name + 2, "I");
-            rb_append(buffer, 64, "K_{%.*s}", n ? (int)n : (int)strlen("θ"),
-                      n ? name + 2 : "θ");
+            rb_append(buffer, 64, "K_{%.*s}", n ? (int)n : (int)strlen("θ"), n ? name + 2 : "θ");
             name += 2 + (n ? n : strlen("theta"));
         } else {
             rb_append(buffer, 64, "%c", *name == '_' || *name == '-' ? ' ' : *name);
@@ -203,8 +199,7 @@ static const char *plain(const char *name, char buffer[64])
 }
 
 /* "max pressure  [10^{9} Pa]" */
-static void write_label(FILE *out, const char *label, const rb_report_quantity *q,
-                        const axis *a)
+static void write_label(FILE *out, const char *label, const rb_report_quantity *q, const axis *a)
 {
     char name[64], unit[40];
     fprintf(out, "set %s '%s", label, plain(q->name, name));
@@ -212,8 +207,7 @@ static void write_label(FILE *out, const char *label, const rb_report_quantity *
         fputs("  [", out);
     if (a->exponent)
         fprintf(out, "10^{%d}%s", a->exponent, q->unit[0] ? " " : "");
-    fprintf(out, "%s%s'\n", rb_report_raised(q->unit, unit),
-            a->exponent || q->unit[0] ? "]" : "");
+    fprintf(out, "%s%s'\n", rb_report_raised(q->unit, unit), a->exponent || q->unit[0] ? "]" : "");
 }
 
 static void write_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a,
@@ -226,8 +220,7 @@ static void write_axis(FILE *out, char letter, const rb_report_quantity *q, cons
     if (a->logarithmic)
         fprintf(out, "set logscale %c\n", letter);
     else
-        fprintf(out, "set %ctics %.9g\n", letter,
-                rb_report_round_step((a->to - a->from) / labels));
+        fprintf(out, "set %ctics %.9g\n", letter, rb_report_round_step((a->to - a->from) / labels));
 }
 
 /* As many numbers below the picture as a column and a page of print take. */
@@ -262,8 +255,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     for (int i = 0; i < s->n; curves++) {
         fprintf(out, "$curve%d << EOD\n", curves);
         for (const int end = i + length_of_group(s, v->at, i); i < end; i++)
-            fprintf(out, "%.9g %.9g\n", v->at[i].x / v->x.unit,
-                    v->at[i].value / v->shown.unit);
+            fprintf(out, "%.9g %.9g\n", v->at[i].x / v->x.unit, v->at[i].value / v->shown.unit);
         fputs("EOD\n", out);
     }
     fprintf(out,
@@ -277,11 +269,9 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     if (v->shown.flat)
         fprintf(out, "set yrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
     if (s->y.value)
-        fprintf(
-            out,
-            "set key outside right center samplen 2 font ',%.3g' title \"%s%s%s%s\"\n",
-            rb_report_key_font(canvas), plain(s->y.name, name),
-            s->y.unit[0] ? "\\n[" : "", s->y.unit, s->y.unit[0] ? "]" : "");
+        fprintf(out, "set key outside right center samplen 2 font ',%.3g' title \"%s%s%s%s\"\n",
+                rb_report_key_font(canvas), plain(s->y.name, name), s->y.unit[0] ? "\\n[" : "",
+                s->y.unit, s->y.unit[0] ? "]" : "");
     else
         fputs("unset key\n", out);
     for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
@@ -318,13 +308,13 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
             "EOD\nset view map\nset pm3d map corners2color mean interpolate %d,%d\n"
             "unset key\nset lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_PALETTE,
-            steps_between(v->row), steps_between(s->n / v->row), left, left + width,
-            bottom, bottom + height);
+            steps_between(v->row), steps_between(s->n / v->row), left, left + width, bottom,
+            bottom + height);
     write_title(out, v, place);
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_axis(out, 'y', &s->y, &v->y, 8);
-    fprintf(out, "set colorbox user origin %g, %g size 0.022, %g\n", left + width + 0.02,
-            bottom, height);
+    fprintf(out, "set colorbox user origin %g, %g size 0.022, %g\n", left + width + 0.02, bottom,
+            height);
     char label[96];
     snprintf(label, sizeof label, "label 2 at screen 0.968, %g center rotate",
              bottom + height / 2.0);
@@ -334,32 +324,29 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     else {
         /* Contours at the numbers of the scale, but for its ends. */
         const double least = v->shown.from, most = v->shown.to;
-        const double step =
-            rb_report_round_step((most - least) / rb_report_labels_in(height));
+        const double step = rb_report_round_step((most - least) / rb_report_labels_in(height));
         const double first = step * (floor(least / step + 1e-6) + 1.0);
         /* A contour has about as many points as it crosses lines of cases; its label
          * stands near the middle. */
         const int lines = v->row + v->study->n / v->row;
-        fprintf(
-            out,
-            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
-            "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
-            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
-            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, (lines < 12 ? 3 : lines / 4), rb_report_key_font(canvas),
-            first, step, most - 1e-6 * (most - least));
+        fprintf(out,
+                "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
+                "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
+                "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
+                "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+                least, most, step, (lines < 12 ? 3 : lines / 4), rb_report_key_font(canvas), first,
+                step, most - 1e-6 * (most - least));
     }
     fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
-            v->shown.flat
-                ? ""
-                : ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
-                  "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface");
+            v->shown.flat ? ""
+                          : ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
+                            "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface");
 }
 
 /* ---- Draw -------------------------------------------------------------------------- */
 
-rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
-                                  const rb_report_study *s, int map, rb_message *why)
+rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_report_study *s,
+                                  int map, rb_message *why)
 {
     rb_status status = rb_report_study_check(s, map, why);
     spot *at = status == RB_OK ? sort_cases(s) : NULL;

@@ -78,11 +78,9 @@ double rb_report_tidy(double x, double size)
 static void print_motion(FILE *out, const rb_rolling_solution *s)
 {
     const char *load = rb_unit_name(s->units, "N/mm");
-    const int moves =
-        !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
+    const int moves = !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
     if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
-        fprintf(out, "  shift     %.6g %s\n", s->tangential_shift,
-                rb_unit_name(s->units, "mm"));
+        fprintf(out, "  shift     %.6g %s\n", s->tangential_shift, rb_unit_name(s->units, "mm"));
     if (!moves)
         return;
     fprintf(out, "  creepage  xi = %.6g", s->creepage);
@@ -106,8 +104,8 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
                 s->hysteresis, load);
     if (s->hysteresis > 0.0) {
         const double lever = s->normal_load * s->half_width;
-        fprintf(out, "  torque    %.5g %s on A's axle",
-                rb_report_tidy(s->torque_a, lever), rb_unit_name(s->units, "N"));
+        fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),
+                rb_unit_name(s->units, "N"));
         if (!isnan(s->torque_b))
             fprintf(out, ", %.5g %s on B's", rb_report_tidy(s->torque_b, lever),
                     rb_unit_name(s->units, "N"));
@@ -127,8 +125,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "Newton%s, %d steps", s->large ? " with Fourier transforms" : "",
                 s->iterations);
     else
-        fprintf(out, "Lemke (%s form), %d pivots",
-                rb_case_word("lcp-form", (int)s->lcp_form), s->iterations);
+        fprintf(out, "Lemke (%s form), %d pivots", rb_case_word("lcp-form", (int)s->lcp_form),
+                s->iterations);
     fprintf(out, ", residual %.2g\n", s->residual);
     const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
                *stress = rb_unit_name(s->units, "MPa");
@@ -139,8 +137,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     fputc('\n', out);
     if (s->contact > 0)
         fprintf(out, "  contact   %.5g ... %.5g %s, p0 = %.6g %s, approach %.5g %s\n",
-                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach,
-                mm);
+                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach, mm);
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
                 s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
@@ -148,8 +145,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     print_motion(out, s);
     if (!isnan(s->max_temperature))
         fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
-                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"),
-                s->peclet);
+                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"), s->peclet);
     enum { LONGEST = 200 };
     char strip[LONGEST + 1];
     const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
@@ -161,8 +157,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         const double between = s->stick_to - s->stick_from;
 
         const double least = 1e-12 * between; /* below it an end is rounding about 0 */
-        fprintf(out, "; stick %.5g ... %.5g %s",
-                fabs(s->stick_from) > least ? s->stick_from : 0.0,
+        fprintf(out, "; stick %.5g ... %.5g %s", fabs(s->stick_from) > least ? s->stick_from : 0.0,
                 fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
         if (s->stick_length < (1.0 - 1e-9) * between)
             fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);

@@ -190,8 +190,7 @@ static void print_item(list *l, const char *item)
 }
 
 /* What the rows above do not say. */
-static void print_rest(FILE *out, const grid *g, const column *all, const choice *rows,
-                       int width)
+static void print_rest(FILE *out, const grid *g, const column *all, const choice *rows, int width)
 {
     char text[WIDTH], item[3 * WIDTH];
     list same = {out, "in every row:", width, 0}, missing = {out, "not shown:", width, 0};
@@ -199,8 +198,7 @@ static void print_rest(FILE *out, const grid *g, const column *all, const choice
         const column *c = &all[j];
         if (!c->is_constant || strcmp(shown(g, 1, j, c, text), "-") == 0 || !*text)
             continue;
-        snprintf(item, sizeof item, "%s = %s%s%s", c->name, text, c->unit[0] ? " " : "",
-                 c->unit);
+        snprintf(item, sizeof item, "%s = %s%s%s", c->name, text, c->unit[0] ? " " : "", c->unit);
         print_item(&same, item);
     }
     fputs(same.at ? "\n" : "", out);
@@ -215,8 +213,7 @@ static void print_rest(FILE *out, const grid *g, const column *all, const choice
         if (!all[j].is_shown && !all[j].is_constant)
             print_item(&missing, all[j].name);
     if (missing.at)
-        fprintf(out, "%s all: rollbem ... > FILE\n",
-                missing.at + 26 > width ? ";\n " : ";");
+        fprintf(out, "%s all: rollbem ... > FILE\n", missing.at + 26 > width ? ";\n " : ";");
 }
 
 /* A single row that is wider than the window: a line for each column. */
@@ -262,8 +259,7 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
             char word[WIDTH + 2];
             snprintf(word, sizeof word, " %s ", c->name);
             const int minor = window->minor && strstr(window->minor, word) && !all_fit;
-            c->is_shown =
-                !c->is_constant && !minor && used + GAP + c->width <= window->columns;
+            c->is_shown = !c->is_constant && !minor && used + GAP + c->width <= window->columns;
             used += c->is_shown ? GAP + c->width : 0;
         }
         for (int j = 0; j < g.columns; j++)
@@ -278,8 +274,7 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
                 fputs(window->colour ? "\033[1m" : "", out);
                 for (int j = 0; j < g.columns; j++)
                     if (all[j].is_shown)
-                        fprintf(out, "%*s", GAP + all[j].width,
-                                line ? all[j].unit : all[j].name);
+                        fprintf(out, "%*s", GAP + all[j].width, line ? all[j].unit : all[j].name);
                 fputs(window->colour ? "\033[0m\n" : "\n", out);
             }
             for (int i = 1; i < g.rows; i = next_row(&g, i, &rows)) {
@@ -321,10 +316,9 @@ int rb_report_wrapped(FILE *out, const char *text, int width)
          * further than its start. */
         enum { LABEL = 12 };
         const size_t blanks = strspn(text, " ");
-        const int indent =
-            blanks == 2 && n > LABEL && text[LABEL - 1] == ' ' && text[LABEL] != ' '
-                ? LABEL
-                : (int)blanks + 2;
+        const int indent = blanks == 2 && n > LABEL && text[LABEL - 1] == ' ' && text[LABEL] != ' '
+                               ? LABEL
+                               : (int)blanks + 2;
         const char *end = text + n;
         size_t gap = strspn(text, " ");
         int at = 0;

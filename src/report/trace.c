@@ -31,8 +31,7 @@ void rb_report_remove_tableaux(const char *folder)
 {
     int removed = 1;
     for (int k = 1; removed; k++) {
-        char *tableau = path_of(folder, tableau_name, k),
-             *basis = path_of(folder, basis_name, k);
+        char *tableau = path_of(folder, tableau_name, k), *basis = path_of(folder, basis_name, k);
         removed = tableau && unlink(tableau) == 0;
         removed |= basis && unlink(basis) == 0;
         free(tableau);
@@ -40,8 +39,8 @@ void rb_report_remove_tableaux(const char *folder)
     }
 }
 
-static void write_variables(FILE *file, const trace *t, const char *what,
-                            const int *variable, int n)
+static void write_variables(FILE *file, const trace *t, const char *what, const int *variable,
+                            int n)
 {
     char name[RB_CONTACT_VARIABLE];
     fprintf(file, "%s", what);
@@ -58,18 +57,16 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
     char entering[RB_CONTACT_VARIABLE], leaving[RB_CONTACT_VARIABLE];
     rb_contact_lcp_variable(t->lcp, t->n, p->entering, entering);
     rb_contact_lcp_variable(t->lcp, t->n, p->leaving, leaving);
-    fprintf(t->out,
-            "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
+    fprintf(t->out, "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
             p->pivot + 1, p->row + 1, entering, leaving, p->ratio, p->z0);
     if (t->folder && t->status == RB_OK) {
         char *path = path_of(t->folder, tableau_name, p->pivot + 1);
-        t->status =
-            path ? rb_io_matrix_market_write(
-                       path, (rb_io_dense){p->n, p->n + 2, p->tableau, p->n},
-                       "basic = last column + columns times nonbasic; their names: "
-                       "basis_*.txt",
-                       t->why)
-                 : rb_fail(t->why, RB_ENOMEM, "out of memory");
+        t->status = path ? rb_io_matrix_market_write(
+                               path, (rb_io_dense){p->n, p->n + 2, p->tableau, p->n},
+                               "basic = last column + columns times nonbasic; their names: "
+                               "basis_*.txt",
+                               t->why)
+                         : rb_fail(t->why, RB_ENOMEM, "out of memory");
         free(path);
     }
     if (t->folder && t->status == RB_OK) {
@@ -103,8 +100,7 @@ static rb_status follow(trace *t, const rb_contact_lcp *lcp)
     if (s < 0)
         return rb_fail(t->why, s, "%s", info.msg.text);
     if (s != RB_OK)
-        fprintf(t->out, "Lemke's method ends here without a solution: %s\n",
-                rb_status_text(s));
+        fprintf(t->out, "Lemke's method ends here without a solution: %s\n", rb_status_text(s));
     return t->status;
 }
 
@@ -117,8 +113,7 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
     if (s != RB_OK)
         return s;
     if (state->solver != RB_SOLVER_LEMKE)
-        fputs("the case was solved by another method; Lemke's on the same problem:\n",
-              out);
+        fputs("the case was solved by another method; Lemke's on the same problem:\n", out);
     trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
     s = follow(&t, &lcp);
     if (s != RB_OK && folder)

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind,
-                                rb_message *why)
+rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind, rb_message *why)
 {
     const char *end = strrchr(path, '.');
     if (end && strcmp(end, ".vti") == 0)
@@ -16,13 +15,11 @@ rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind,
     else if (end && strcmp(end, ".vtu") == 0)
         *kind = RB_REPORT_VTU;
     else
-        return rb_fail(why, RB_EINVAL, "expected a name ending in .vti or .vtu, got '%s'",
-                       path);
+        return rb_fail(why, RB_EINVAL, "expected a name ending in .vti or .vtu, got '%s'", path);
     return RB_OK;
 }
 
-rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s,
-                              rb_message *why)
+rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s, rb_message *why)
 {
     if (kind == RB_REPORT_VTI && s->nx == 0)
         return rb_fail(why, RB_EINVAL, ".vti holds regular grids; for points use .vtu");
@@ -37,8 +34,7 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
 
 static void write_base64(FILE *out, size_t n, const unsigned char *bytes)
 {
-    static const char digits[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < n; i += 3) {
         const size_t left = n - i;
         const unsigned long word = (unsigned long)bytes[i] << 16 |
@@ -51,8 +47,8 @@ static void write_base64(FILE *out, size_t n, const unsigned char *bytes)
     }
 }
 
-static void write_array(FILE *out, const char *type, const char *name, int components,
-                        size_t bytes, const void *data)
+static void write_array(FILE *out, const char *type, const char *name, int components, size_t bytes,
+                        const void *data)
 {
     const uint64_t size = bytes;
     fprintf(out,
@@ -94,8 +90,8 @@ static void make_cells(selection *v)
     for (int j = 0; j + 1 < s->ny; j++)
         for (int i = 0; i + 1 < s->nx; i++) {
             const int k = i + j * s->nx;
-            const int corner[] = {v->number[k], v->number[k + 1],
-                                  v->number[k + s->nx + 1], v->number[k + s->nx]};
+            const int corner[] = {v->number[k], v->number[k + 1], v->number[k + s->nx + 1],
+                                  v->number[k + s->nx]};
             if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
                 continue;
             for (int c = 0; c < 4; c++)
@@ -181,10 +177,8 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
         write_image(out, &v);
     else if (status == RB_OK) {
         write_head(out, "UnstructuredGrid");
-        fprintf(
-            out,
-            "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
-            v.n, v.cells);
+        fprintf(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
+                v.n, v.cells);
         write_point_data(out, &v);
         double *to = v.work;
         for (int k = 0; k < v.s->n; k++)
@@ -194,8 +188,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
                 *to++ = 0.0;
             }
         fputs("<Points>\n", out);
-        write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v.n,
-                    v.work);
+        write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v.n, v.work);
         fputs("</Points>\n", out);
         enum { VERTEX = 1, QUADRILATERAL = 9 };
         const size_t n = (size_t)v.cells;
@@ -208,8 +201,8 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
         }
         if (status == RB_OK) {
             fputs("<Cells>\n", out);
-            write_array(out, "Int32", "connectivity", 1,
-                        sizeof *v.cell * n * (size_t)v.per_cell, v.cell);
+            write_array(out, "Int32", "connectivity", 1, sizeof *v.cell * n * (size_t)v.per_cell,
+                        v.cell);
             write_array(out, "Int32", "offsets", 1, sizeof *offset * n, offset);
             write_array(out, "UInt8", "types", 1, n, type);
             fputs("</Cells>\n", out);

@@ -59,18 +59,16 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
     const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
 
     fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], words_of(h).way);
-    fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n",
-            h->worn[last], mm, mm, h->max_depth[last], mm);
+    fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n", h->worn[last], mm,
+            mm, h->max_depth[last], mm);
     if (h->worn_b)
-        fprintf(out, "  worn of B %.6g %s3 per %s of width, %s %.5g %s deep\n",
-                h->worn_b[last], mm, mm,
-                h->slides || (h->rolls && !h->radius_b) ? "in one passage" : "at most",
+        fprintf(out, "  worn of B %.6g %s3 per %s of width, %s %.5g %s deep\n", h->worn_b[last], mm,
+                mm, h->slides || (h->rolls && !h->radius_b) ? "in one passage" : "at most",
                 h->max_depth_b[last], mm);
-    fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n",
-            h->contact_from[last], h->contact_to[last], mm, h->contact_from[0],
-            h->contact_to[0], mm);
-    fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n",
-            h->max_pressure[last], MPa, h->max_pressure[0], MPa, h->residual[last]);
+    fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n", h->contact_from[last],
+            h->contact_to[last], mm, h->contact_from[0], h->contact_to[0], mm);
+    fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n", h->max_pressure[last], MPa,
+            h->max_pressure[0], MPa, h->residual[last]);
     rb_locale_end(before);
 }
 
@@ -94,8 +92,7 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 
     if ((step > 0 && part == before) || w->profiles == RB_REPORT_WEAR_PROFILES)
         return RB_OK;
-    const double way =
-        h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
+    const double way = h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
     const double depth = rb_unit_shown(s->units, "mm", h->max_depth[step]);
     rb_report_wear_profile *p = &w->profile[w->profiles++];
     const size_t n = (size_t)s->n;
@@ -170,8 +167,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out,
                 "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %s "
                 "%s' at screen 0.54, 0.955 center\n",
-                h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm,
-                mm, rb_report_large_number(h->way[last], way), words.way);
+                h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm, mm,
+                rb_report_large_number(h->way[last], way), words.way);
     fprintf(out,
             "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
             "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center "
@@ -188,8 +185,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,
-                                 const rb_report_wear *w, rb_message *why)
+rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas, const rb_report_wear *w,
+                                 rb_message *why)
 {
     if (w->profiles < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");

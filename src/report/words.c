@@ -16,6 +16,5 @@ const char *const rb_report_conventions[] = {
 
 const char *rb_report_solver(const rb_rolling_solution *s)
 {
-    return s->solver == RB_SOLVER_CONE ? s->cone_solver
-                                       : rb_case_word("solver", (int)s->solver);
+    return s->solver == RB_SOLVER_CONE ? s->cone_solver : rb_case_word("solver", (int)s->solver);
 }

@@ -48,8 +48,7 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
     /* in a bore a wide arc is little strain, and a part of a circle instead of a plane */
     const int bore = rc->b.radius < 0.0;
     const double width =
-        widest /
-        (bore ? rb_unit_shown(s->units, "mm", rb_rolling_derive(rc).radius) : radius);
+        widest / (bore ? rb_unit_shown(s->units, "mm", rb_rolling_derive(rc).radius) : radius);
     if (bore && widest > inaccurate_width * radius)
         add(list,
             "The contact spans %.3g degrees of the journal. Half-planes hold for small "
@@ -83,8 +82,7 @@ static void note_thin(rb_rolling_note_list *list, const rb_rolling_case *rc,
             "linear elasticity is inaccurate there",
             100.0 * s->max_strain);
     for (int b = 0; b < 1 + rc->elastic_b; b++)
-        if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 &&
-            isfinite(bodies[b]->radius) &&
+        if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 && isfinite(bodies[b]->radius) &&
             bodies[b]->layer >= thick * fabs(bodies[b]->radius))
             add(list,
                 "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a "
@@ -119,11 +117,10 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
     static const double much = 0.8;
     const int rolls = rc->formulation == RB_TRANSIENT;
 
-    if (rc->formulation == RB_STEADY || !rb_rolling_relaxes(rc) ||
-        !isnan(s->load_error) || s->n == 0)
+    if (rc->formulation == RB_STEADY || !rb_rolling_relaxes(rc) || !isnan(s->load_error) ||
+        s->n == 0)
         return;
-    const double step =
-        rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
+    const double step = rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
     const double overshoot = step > 0.0 ? overshoot_of_step(rc, step) : 0.0;
     if (overshoot > much)
         add(list,
@@ -146,11 +143,10 @@ static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
             longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
     if (!(longest > 0.0))
         return;
-    const double rise =
-        rb_unit_shown(s->units, "MPa",
-                      rb_rolling_rise_at_corners(
-                          rc, rb_unit_stored(s->units, "mm", s->contact_from),
-                          rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
+    const double rise = rb_unit_shown(
+        s->units, "MPa",
+        rb_rolling_rise_at_corners(rc, rb_unit_stored(s->units, "mm", s->contact_from),
+                                   rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
     if (rise > much * s->max_pressure)
         add(list,
             "The worn table has corners in the contact, where the pressure is infinite: "
@@ -159,8 +155,7 @@ static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
             rise, rb_unit_name(s->units, "MPa"));
 }
 
-rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
-                                           const rb_rolling_solution *s)
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     rb_rolling_note_list list = {.n = 0};
     note_strain(&list, rc, s);
@@ -170,9 +165,8 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
     const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (rc->formulation == RB_STATIC && creeps)
-        add(&list,
-            "In a static case --creep does not change the tractions; use --formulation "
-            "steady to roll.");
+        add(&list, "In a static case --creep does not change the tractions; use --formulation "
+                   "steady to roll.");
     if (rc->formulation == RB_STEADY && !creeps && !forced)
         add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the "
                    "wheel rolls "
@@ -189,9 +183,8 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
             rc->a.arc, rc->a.arc);
     /* Beyond full sliding the force does not change: it does not tell the creepage. */
     const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
-    if (s->formulation != RB_STATIC && force && s->stick == 0 &&
-        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
-        !rb_rolling_law_depends_on_state(rc))
+    if (s->formulation != RB_STATIC && force && s->stick == 0 && rb_rolling_largest_mu(rc) > 0.0 &&
+        s->contact > 0 && !rb_rolling_law_depends_on_state(rc))
         add(&list, "The whole contact slides: the creepage is not unique, every larger "
                    "one gives "
                    "the same force.");
@@ -209,19 +202,16 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
                    "column shift "
                    "is slip and yielding together, plastic is the yielded part.");
     if (s->equal_instead)
-        add(&list,
-            "Fitting the mesh to the contact edges did not converge; equal elements were "
-            "used.");
+        add(&list, "Fitting the mesh to the contact edges did not converge; equal elements were "
+                   "used.");
     if (s->edges_bounded && s->contact > 0)
-        add(&list,
-            "The pressure ends abruptly at one edge; its position is uncertain by one "
-            "element.");
+        add(&list, "The pressure ends abruptly at one edge; its position is uncertain by one "
+                   "element.");
     /* Slip between two midpoints that the mean of their tractions does not oppose. */
     if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
         add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
             rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
-    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
-        s->slip_violations > 0)
+    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0)
         add(&list,
             "In %d of %d elements the slip computed afterwards points along the "
             "friction, "

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OF(owner, name_, member, ...)                                                    \
-    {                                                                                    \
-        .name = name_, .offset = offsetof(owner, member), __VA_ARGS__                    \
+#define OF(owner, name_, member, ...)                                                              \
+    {                                                                                              \
+        .name = name_, .offset = offsetof(owner, member), __VA_ARGS__                              \
     }
 #define RESULT(name, member, ...) OF(rb_rolling_solution, name, member, __VA_ARGS__)
 #define PATCH(name, member, ...) OF(rb_rolling_patch, name, member, __VA_ARGS__)
@@ -32,62 +32,52 @@ static const rb_rolling_result scalars[] = {
     RESULT("support_balance", support_balance, .no_derivative = 1,
            .meaning = "(reaction at the support + P)/P; not of half-planes and "
                       "covers"),
-    RESULT("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_LOAD,
-           .study = 1, .meaning = "P, the sum of the pressure"),
-    RESULT("tangential_load", tangential_load, .unit = "N/mm",
-           .error_bar = RB_SCALE_FRICTION, .study = 2,
-           .meaning = "Q, the sum of the friction on A"),
+    RESULT("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_LOAD, .study = 1,
+           .meaning = "P, the sum of the pressure"),
+    RESULT("tangential_load", tangential_load, .unit = "N/mm", .error_bar = RB_SCALE_FRICTION,
+           .study = 2, .meaning = "Q, the sum of the friction on A"),
     RESULT("force_ratio", force_ratio, .error_bar = RB_SCALE_ONE, .study = 3,
            .meaning = "Q/(mu P)"),
     RESULT("approach", approach, .unit = "mm", .error_bar = RB_SCALE_APPROACH, .study = 4,
            .meaning = "delta: how far A moved towards B"),
-    RESULT("tangential_shift", tangential_shift, .unit = "mm",
-           .error_bar = RB_SCALE_SHIFT, .meaning = "rigid shift of A; static contact"),
-    RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5,
-           .meaning = "xi"),
+    RESULT("tangential_shift", tangential_shift, .unit = "mm", .error_bar = RB_SCALE_SHIFT,
+           .meaning = "rigid shift of A; static contact"),
+    RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5, .meaning = "xi"),
     RESULT("creep_ratio", creep_ratio, .study = 6,
            .meaning = "xi R/(mu a), a the Hertz half-width"),
     RESULT("free_creepage", free_creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 7,
            .meaning = "xi where Q = 0; steady rolling"),
     RESULT("hertz_half_width", hertz_half_width, .unit = "mm",
            .meaning = "a of P and the combined radius: scale of the ratios"),
-    RESULT("half_width", half_width, .unit = "mm", .error_bar = RB_SCALE_WIDTH,
-           .study = 8, .meaning = "of the contact, where p^2 extrapolates to zero"),
+    RESULT("half_width", half_width, .unit = "mm", .error_bar = RB_SCALE_WIDTH, .study = 8,
+           .meaning = "of the contact, where p^2 extrapolates to zero"),
     RESULT("contact_from", contact_from, .unit = "mm", .meaning = "its trailing edge"),
     RESULT("contact_to", contact_to, .unit = "mm", .meaning = "its leading edge"),
     RESULT("nip_width", nip_width, .unit = "mm",
-           .meaning =
-               "from the trailing edge to the leading one, 2a of a single contact"),
-    RESULT("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_PRESSURE,
-           .study = 9, .meaning = "p0"),
+           .meaning = "from the trailing edge to the leading one, 2a of a single contact"),
+    RESULT("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_PRESSURE, .study = 9,
+           .meaning = "p0"),
     RESULT("contact", contact, .kind = RB_RESULT_WHOLE, .study = 10,
            .meaning = "elements in contact"),
-    RESULT("stick", stick, .kind = RB_RESULT_WHOLE, .study = 11,
-           .meaning = "elements that stick"),
-    RESULT("slip", slipping, .kind = RB_RESULT_WHOLE, .study = 12,
-           .meaning = "elements that slip"),
-    RESULT("yield", yielding, .kind = RB_RESULT_WHOLE, .study = 22,
-           .condition = RB_FOR_YIELD,
+    RESULT("stick", stick, .kind = RB_RESULT_WHOLE, .study = 11, .meaning = "elements that stick"),
+    RESULT("slip", slipping, .kind = RB_RESULT_WHOLE, .study = 12, .meaning = "elements that slip"),
+    RESULT("yield", yielding, .kind = RB_RESULT_WHOLE, .study = 22, .condition = RB_FOR_YIELD,
            .meaning = "elements whose interface yields, part of those that slip"),
     RESULT("stick_from", stick_from, .no_derivative = 1, .unit = "mm",
-           .error_bar = RB_SCALE_ELEMENT,
-           .meaning = "first end of the elements that stick"),
-    RESULT("stick_to", stick_to, .no_derivative = 1, .unit = "mm",
-           .error_bar = RB_SCALE_ELEMENT,
+           .error_bar = RB_SCALE_ELEMENT, .meaning = "first end of the elements that stick"),
+    RESULT("stick_to", stick_to, .no_derivative = 1, .unit = "mm", .error_bar = RB_SCALE_ELEMENT,
            .meaning = "last end of the elements that stick"),
     RESULT("stick_length", stick_length, .no_derivative = 1, .unit = "mm",
            .error_bar = RB_SCALE_ELEMENT, .meaning = "length of all elements that stick"),
     RESULT("slip_violations", slip_violations, .kind = RB_RESULT_WHOLE,
            .meaning = "elements whose slip does not oppose the friction"),
-    RESULT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_POWER,
-           .study = 13, .meaning = "friction power per unit speed"),
-    RESULT("resistance_moment", resistance_moment, .unit = "N",
-           .error_bar = RB_SCALE_MOMENT, .study = 16,
-           .meaning = "M = int x p dx; > 0: the load acts ahead of x = 0"),
-    RESULT("resistance_ratio", resistance_ratio, .error_bar = RB_SCALE_STRAIN,
-           .study = 17, .meaning = "M/(P R), the coefficient of rolling resistance"),
-    RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK,
-           .study = 18,
+    RESULT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_POWER, .study = 13,
+           .meaning = "friction power per unit speed"),
+    RESULT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_MOMENT,
+           .study = 16, .meaning = "M = int x p dx; > 0: the load acts ahead of x = 0"),
+    RESULT("resistance_ratio", resistance_ratio, .error_bar = RB_SCALE_STRAIN, .study = 17,
+           .meaning = "M/(P R), the coefficient of rolling resistance"),
+    RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK, .study = 18,
            .meaning = "power per unit speed that bodies which relax lose; steady"),
     RESULT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 24,
            .meaning = "M + Q R_A: torque that turns A's axle the way A rolls; < 0 "
@@ -95,15 +85,13 @@ static const rb_rolling_result scalars[] = {
     RESULT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 25,
            .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B: the same of B's axle"),
     RESULT("strain_energy", strain_energy, .no_derivative = 1, .unit = "N",
-           .meaning =
-               "elastic energy of both bodies per width, half the work of p and q on "
-               "un and ut; of half-planes it depends on datum"),
+           .meaning = "elastic energy of both bodies per width, half the work of p and q on "
+                      "un and ut; of half-planes it depends on datum"),
     RESULT("max_strain", max_strain, .study = 26,
            .meaning = "largest compression of a layer, cover or rim over its thickness; "
                       "without one a/(2R)"),
-    RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT,
-           .study = 19, .condition = RB_FOR_HEAT,
-           .meaning = "highest temperature of the surfaces in contact"),
+    RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT, .study = 19,
+           .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
     RESULT("max_temperature_at", max_temperature_at, .no_derivative = 1, .unit = "mm",
            .error_bar = RB_SCALE_ELEMENT, .study = 20, .condition = RB_FOR_HEAT,
            .meaning = "its place"),
@@ -112,18 +100,15 @@ static const rb_rolling_result scalars[] = {
     RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
-    RESULT("datum", datum, .unit = "mm",
-           .meaning = "depth of zero displacement in A; half-planes"),
+    RESULT("datum", datum, .unit = "mm", .meaning = "depth of zero displacement in A; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
            .meaning = "of both bodies"),
     RESULT("assembly", seconds_assembly, .kind = RB_RESULT_SECONDS,
            .meaning = "boundary-element matrices"),
-    RESULT("factor", seconds_factor, .kind = RB_RESULT_SECONDS,
-           .meaning = "their factorisation"),
+    RESULT("factor", seconds_factor, .kind = RB_RESULT_SECONDS, .meaning = "their factorisation"),
     RESULT("condense", seconds_condense, .kind = RB_RESULT_SECONDS,
            .meaning = "flexibility of the contact"),
-    RESULT("lcp", seconds_lcp, .kind = RB_RESULT_SECONDS,
-           .meaning = "complementarity problem"),
+    RESULT("lcp", seconds_lcp, .kind = RB_RESULT_SECONDS, .meaning = "complementarity problem"),
     RESULT("total", seconds_total, .kind = RB_RESULT_SECONDS, .meaning = "everything"),
 };
 
@@ -138,9 +123,8 @@ static const rb_rolling_result columns[] = {
     RESULT("shift", shift, .unit = "mm", .meaning = "slip displacement; 0 in stick"),
     RESULT("slip", slip, .unit = "1", .meaning = "relative slip velocity"),
     RESULT("zone", zone, .kind = RB_RESULT_WHOLE,
-           .meaning =
-               "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p; 4, 5 "
-               "the interface yields, q < 0, q > 0"),
+           .meaning = "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p; 4, 5 "
+                      "the interface yields, q < 0, q > 0"),
     RESULT("temperature", temperature, .unit = "K", .condition = RB_FOR_HEAT,
            .meaning = "of A's surface"),
     RESULT("temperature_b", temperature_b, .unit = "K", .condition = RB_FOR_HEAT,
@@ -161,14 +145,11 @@ static const rb_rolling_result steps[] = {
          .meaning = "xi; 0 at rest"),
     STEP("shift", shift, .unit = "mm", .error_bar = RB_SCALE_ONE,
          .meaning = "rigid shift of A so far, in static steps"),
-    STEP("approach", approach, .unit = "mm", .error_bar = RB_SCALE_ONE,
-         .meaning = "delta"),
-    STEP("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
-         .meaning = "P"),
+    STEP("approach", approach, .unit = "mm", .error_bar = RB_SCALE_ONE, .meaning = "delta"),
+    STEP("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_ONE, .meaning = "P"),
     STEP("tangential_load", tangential_load, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
          .meaning = "Q"),
-    STEP("force_ratio", force_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
-         .meaning = "Q/(mu P)"),
+    STEP("force_ratio", force_ratio, .unit = "1", .error_bar = RB_SCALE_ONE, .meaning = "Q/(mu P)"),
     STEP("stick", stick, .unit = "elements", .kind = RB_RESULT_WHOLE,
          .meaning = "elements that stick"),
     STEP("slip", slipping, .unit = "elements", .kind = RB_RESULT_WHOLE,
@@ -181,17 +162,15 @@ static const rb_rolling_result steps[] = {
          .meaning = "trailing edge"),
     STEP("contact_to", contact_to, .unit = "mm", .error_bar = RB_SCALE_ONE,
          .meaning = "leading edge"),
-    STEP("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
-         .is_mean = 1, .meaning = "friction power per unit speed; 0 at rest"),
+    STEP("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE, .is_mean = 1,
+         .meaning = "friction power per unit speed; 0 at rest"),
     STEP("moment", moment, .unit = "N", .error_bar = RB_SCALE_ONE,
          .meaning = "int x p dx; > 0: the load acts ahead of x = 0"),
     STEP("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
-         .condition = RB_FOR_HEAT,
-         .meaning = "highest temperature of the surfaces in contact"),
+         .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
     STEP("time", time, .no_derivative = 1, .unit = "s", .condition = RB_FOR_MEMORY,
          .meaning = "at the end of the step, of bodies that relax"),
-    STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE,
-         .condition = RB_FOR_MEMORY,
+    STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE, .condition = RB_FOR_MEMORY,
          .meaning = "work that bodies which relax have lost so far"),
     STEP("mu", mu, .unit = "1", .condition = RB_FOR_WAY,
          .meaning = "coefficient of friction at the end of the step"),
@@ -208,14 +187,13 @@ static const rb_rolling_result points[] = {
           .meaning = "Q/(mu P)"),
     POINT("tangential_load", tangential_load, .symbol = "Q", .unit = "N/mm",
           .error_bar = RB_SCALE_ONE, .meaning = "Q"),
-    POINT("normal_load", normal_load, .symbol = "P", .unit = "N/mm",
-          .error_bar = RB_SCALE_ONE, .meaning = "P"),
+    POINT("normal_load", normal_load, .symbol = "P", .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+          .meaning = "P"),
     POINT("stick_ratio", stick_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
           .meaning = "length that sticks / length in contact"),
     POINT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
           .meaning = "friction power per unit speed"),
-    POINT("residual", residual, .unit = "1",
-          .meaning = "natural residual of the scaled problem"),
+    POINT("residual", residual, .unit = "1", .meaning = "natural residual of the scaled problem"),
     POINT("speed", speed, .unit = "mm/s", .meaning = "of rolling, of bodies that relax"),
     POINT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_ONE,
           .meaning = "M = int x p dx"),
@@ -224,18 +202,15 @@ static const rb_rolling_result points[] = {
     POINT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
           .meaning = "power per unit speed that bodies which relax lose"),
     POINT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
-          .condition = RB_FOR_HEAT,
-          .meaning = "highest temperature of the surfaces in contact"),
+          .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
     POINT("branch", branch, .kind = RB_RESULT_WHOLE, .condition = RB_FOR_MOVING_LAW,
           .meaning = "1: on the way from --from to --to, 2: on the way back"),
     POINT("kappa", kappa, .unit = "1", .condition = RB_FOR_MOVING_LAW,
-          .meaning =
-              "uniqueness of friction that falls: above 1 the branches may differ"),
+          .meaning = "uniqueness of friction that falls: above 1 the branches may differ"),
     POINT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
           .meaning = "M + Q R_A, on A's axle, > 0 the way A rolls"),
     POINT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
-          .condition = RB_FOR_CYLINDER_B,
-          .meaning = "M - Q R_B, on B's axle, > 0 the way B rolls"),
+          .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B, on B's axle, > 0 the way B rolls"),
 };
 
 static const rb_rolling_result wears[] = {
@@ -247,8 +222,7 @@ static const rb_rolling_result wears[] = {
     WEAR("max_depth_b", max_depth_b, .unit = "mm",
          .meaning = "largest worn depth of B; of a track, in one passage"),
     WEAR("radius_b", radius_b, .unit = "mm", .meaning = "of B; < 0 of a bore"),
-    WEAR("work", work,
-         .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
+    WEAR("work", work, .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
     WEAR("approach", approach, .unit = "mm", .meaning = "delta"),
     WEAR("normal_load", normal_load, .unit = "N/mm", .meaning = "P"),
     WEAR("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
@@ -285,12 +259,12 @@ static const rb_rolling_result stresses[] = {
     STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
 };
 
-#define LARGEST(name, member, words)                                                     \
-    OF(rb_rolling_stress_maxima, name, member.value, .unit = "MPa",                      \
-       .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                \
-        OF(rb_rolling_stress_maxima, name "_x", member.x, .unit = "mm",                  \
-           .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),       \
-        OF(rb_rolling_stress_maxima, name "_y", member.y, .unit = "mm",                  \
+#define LARGEST(name, member, words)                                                               \
+    OF(rb_rolling_stress_maxima, name, member.value, .unit = "MPa",                                \
+       .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                          \
+        OF(rb_rolling_stress_maxima, name "_x", member.x, .unit = "mm",                            \
+           .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),                 \
+        OF(rb_rolling_stress_maxima, name "_y", member.y, .unit = "mm",                            \
            .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
 
 static const rb_rolling_result maxima[] = {
@@ -300,9 +274,9 @@ static const rb_rolling_result maxima[] = {
     LARGEST("tension", tension, "largest principal stress"),
 };
 
-#define TABLE(rows)                                                                      \
-    {                                                                                    \
-        sizeof(rows) / sizeof *(rows), rows                                              \
+#define TABLE(rows)                                                                                \
+    {                                                                                              \
+        sizeof(rows) / sizeof *(rows), rows                                                        \
     }
 const rb_rolling_results rb_rolling_solution_scalars = TABLE(scalars);
 const rb_rolling_results rb_rolling_solution_columns = TABLE(columns);
@@ -387,8 +361,7 @@ double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
 double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
 {
     const void *column = column_of(r, owner);
-    return r->kind == RB_RESULT_WHOLE ? ((const int *)column)[i]
-                                      : ((const double *)column)[i];
+    return r->kind == RB_RESULT_WHOLE ? ((const int *)column)[i] : ((const double *)column)[i];
 }
 
 const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
@@ -421,8 +394,7 @@ static void convert_scalars(const rb_rolling_results *t, void *owner, rb_units u
     }
 }
 
-static void convert_columns(const rb_rolling_results *t, int rows, void *owner,
-                            rb_units units)
+static void convert_columns(const rb_rolling_results *t, int rows, void *owner, rb_units units)
 {
     for (int k = 0; k < t->n; k++) {
         const rb_rolling_result *r = &t->row[k];
@@ -482,8 +454,8 @@ void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
     c->half_width = rb_unit_shown(units, "mm", c->half_width);
 }
 
-void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
-                               rb_rolling_stress_maxima *largest, rb_units units)
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *largest,
+                               rb_units units)
 {
     for (int k = 0; k < n && units != RB_UNITS_MM; k++)
         convert_scalars(&rb_rolling_stress_scalars, &at[k], units);
@@ -534,8 +506,8 @@ rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
     return s;
 }
 
-rb_status rb_rolling_columns_alloc(const rb_rolling_results *table,
-                                   const rb_rolling_case *rc, int rows, void *owner)
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
+                                   int rows, void *owner)
 {
     rb_status s = RB_OK;
     for (int k = 0; k < table->n; k++) {

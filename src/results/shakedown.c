@@ -93,8 +93,8 @@ static rb_status search_depth(row *r, double low, double high, rb_rolling_shaked
     return s;
 }
 
-rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
-                                    rb_rolling_shakedown *shakedown, rb_message *why)
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                    rb_message *why)
 {
     const rb_rolling_shakedown none = {0};
     row *r = calloc(1, sizeof *r);
@@ -104,8 +104,7 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     rb_status s = !r ? RB_ENOMEM : rb_rolling_stress_check(model->rc, why);
     if (s == RB_OK && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
-        s = rb_fail(why, RB_EINVAL,
-                    "shakedown: of a half-plane, whose every place sees the same");
+        s = rb_fail(why, RB_EINVAL, "shakedown: of a half-plane, whose every place sees the same");
     if (s == RB_OK && model->rc->a.layer > 0.0)
         s = rb_fail(why, RB_EINVAL,
                     "shakedown: of one material; a layer and its base yield differently");
@@ -121,21 +120,19 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
                 *shakedown = here;
         }
         if (s == RB_OK)
-            s = search_depth(r, fmax(0.0, shakedown->y - step), shakedown->y + step,
-                             shakedown);
+            s = search_depth(r, fmax(0.0, shakedown->y - step), shakedown->y + step, shakedown);
     }
     free(r);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
 }
 
-rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
-                                  rb_rolling_shakedown *shakedown, rb_message *why)
+rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                  rb_message *why)
 {
     const double xy[] = {shakedown->x, shakedown->y};
     rb_rolling_stress at;
     const rb_status s = rb_rolling_stress_at(model, 1, xy, &at, why);
     if (s == RB_OK)
-        shakedown->shear_yield =
-            shear_with(&at, 0.5 * shakedown->residual, model->rc->plane);
+        shakedown->shear_yield = shear_with(&at, 0.5 * shakedown->residual, model->rc->plane);
     return s;
 }

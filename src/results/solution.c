@@ -71,8 +71,7 @@ static rb_status boundary_values(const rb_rolling_model *model, double *u, doubl
 
 /* Vertical reaction of the support against the load, from the tractions that hold the
  * body; NAN for a half-plane. */
-static rb_status support_balance(const rb_rolling_model *model, double load,
-                                 double *balance)
+static rb_status support_balance(const rb_rolling_model *model, double load, double *balance)
 {
     *balance = NAN;
     if (!model->bodies.system_a || !(load > 0.0))
@@ -108,10 +107,9 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
         return RB_OK;
     s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
                                        1e-14 * s->normal_load * model->half_width);
-    s->resistance_ratio =
-        s->normal_load > 0.0
-            ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))
-            : NAN;
+    s->resistance_ratio = s->normal_load > 0.0 ? s->resistance_moment /
+                                                     (s->normal_load * rb_rolling_radius(model->rc))
+                                               : NAN;
     rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
                        &s->torque_b);
     return rb_rolling_hysteresis(model, &s->hysteresis);
@@ -243,13 +241,13 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
     return status;
 }
 
-rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
-                                      rb_rolling_solution *s, rb_message *why)
+rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                      rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
-    rb_status status = rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc,
-                                                model->mesh.n, s);
+    rb_status status =
+        rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc, model->mesh.n, s);
 
     if (status == RB_OK) {
         s->formulation = model->rc->formulation;
@@ -266,8 +264,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
         status = rb_rolling_set_patches(model, s);
     if (status != RB_OK) {
         rb_rolling_solution_free(s);
-        return rb_fail(why, status, "out of memory for a solution of %d elements",
-                       model->mesh.n);
+        return rb_fail(why, status, "out of memory for a solution of %d elements", model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
     s->nip_width = s->contact_to - s->contact_from;
@@ -297,19 +294,18 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model,
     for (int i = 0; i < s->n; i++) {
         const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
         const int zone = s->zone[i];
-        violations +=
-            zone == RB_ZONE_STICK ? slip != 0.0
-            : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
-            : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
-                                                                              : 0;
+        violations += zone == RB_ZONE_STICK ? slip != 0.0
+                      : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
+                      : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
+                                                                                        : 0;
     }
     s->slip_violations = violations;
-    s->dissipation = rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h,
-                                                 model->problem.e_T);
+    s->dissipation =
+        rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h, model->problem.e_T);
     if (s->formulation != RB_STATIC)
-        s->dissipation = unless_tiny(
-            s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
-                                s->half_width / rb_rolling_radius(model->rc));
+        s->dissipation =
+            unless_tiny(s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
+                                            s->half_width / rb_rolling_radius(model->rc));
     if (status == RB_OK)
         status = set_temperature(model, s, why);
     if (status != RB_OK)
@@ -332,8 +328,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     s->residual_friction = violation.friction;
     if (status != RB_OK) {
         rb_rolling_solution_free(s);
-        rb_fail(why, status, "out of memory for the residuals of %d elements",
-                model->mesh.n);
+        rb_fail(why, status, "out of memory for the residuals of %d elements", model->mesh.n);
     }
     return status;
 }

@@ -7,14 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    GRID_X = 64,
-    GRID_Y = 40,
-    SURFACE_X = 512,
-    SEARCH_STEPS = 100,
-    STARTS = 4,
-    CLIMBS = 3
-};
+enum { GRID_X = 64, GRID_Y = 40, SURFACE_X = 512, SEARCH_STEPS = 100, STARTS = 4, CLIMBS = 3 };
 static const double SIZES[CLIMBS] = {0.05, 0.01, 0.002}; /* of simplices, half-widths */
 static const double CONVERGED = 1e-6;                    /* size of their last one */
 
@@ -26,9 +19,7 @@ static double deepest(const rb_rolling_case *rc)
 
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
 {
-    return rb_rolling_body_can(&rc->a, RB_BODY_FLAT)
-               ? 0.0
-               : rb_bem_circle_height(rc->a.radius, x);
+    return rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? 0.0 : rb_bem_circle_height(rc->a.radius, x);
 }
 
 /* ---- The field of a solved model --------------------------------------------------- */
@@ -58,10 +49,9 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
     /* given tractions make the same stress in a body that relaxes everywhere alike */
     return rc->a.memory.n == 0 || !rb_rolling_has_elastic_core(&rc->a)
                ? RB_OK
-               : rb_fail(
-                     why, RB_EINVAL,
-                     "stress: in a cover that relaxes on an elastic core it depends on "
-                     "the past; take a rigid core, or a half-plane with a layer");
+               : rb_fail(why, RB_EINVAL,
+                         "stress: in a cover that relaxes on an elastic core it depends on "
+                         "the past; take a rigid core, or a half-plane with a layer");
 }
 
 /* Constant strips jump in q, which makes sxx infinite at their ends: tractions linear
@@ -97,8 +87,7 @@ static rb_status field_create(const rb_rolling_model *model, field *f, rb_messag
     if (s == RB_OK && rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
         s = set_nodes(f);
     if (s == RB_OK && model->rc->a.layer > 0.0) {
-        const rb_bem_surface surface =
-            rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
+        const rb_bem_surface surface = rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
         s = rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why);
     }
     if (s != RB_OK || rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
@@ -140,27 +129,22 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
 }
 
 /* sxx, syy, sxy at each point. */
-static rb_status evaluate(const field *f, int n, const double *xy, double *sigma,
-                          rb_message *why)
+static rb_status evaluate(const field *f, int n, const double *xy, double *sigma, rb_message *why)
 {
     if (!f->wheel) {
         for (int k = 0; k < n; k++)
             if (!(xy[2 * k + 1] >= 0.0))
-                return rb_fail(why, RB_EINVAL,
-                               "point %d at (%g, %g) lies outside the body", k, xy[2 * k],
-                               xy[2 * k + 1]);
+                return rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", k,
+                               xy[2 * k], xy[2 * k + 1]);
         /* Far away the strips keep more digits. */
         const rb_rolling_model *model = f->model;
         const double *ends = model->mesh.ends;
         const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
-        const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p,
-                                       model->state.q};
-        rb_status s =
-            rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
+        const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p, model->state.q};
+        rb_status s = rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
         for (int k = 0; k < n && s == RB_OK; k++)
             if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
-                s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k},
-                                            sigma + 3 * k);
+                s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k}, sigma + 3 * k);
         return s == RB_OK && f->layer
                    ? rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why)
                    : s;
@@ -170,8 +154,7 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
         return RB_ENOMEM;
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
     lift_onto_polygon(rb_bem_system_mesh(system_of(f)), n, moved);
-    const rb_status s =
-        rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
+    const rb_status s = rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
     free(moved);
     return s;
 }
@@ -179,8 +162,7 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
 /* szz = lateral (sxx + syy): nu in plane strain, 0 in plane stress. */
 static rb_rolling_stress derive(double x, double y, const double *sigma, double lateral)
 {
-    rb_rolling_stress s = {
-        .x = x, .y = y, .sxx = sigma[0], .syy = sigma[1], .sxy = sigma[2]};
+    rb_rolling_stress s = {.x = x, .y = y, .sxx = sigma[0], .syy = sigma[1], .sxy = sigma[2]};
     const double mean = 0.5 * (s.sxx + s.syy);
 
     s.szz = lateral * (s.sxx + s.syy);
@@ -188,14 +170,14 @@ static rb_rolling_stress derive(double x, double y, const double *sigma, double 
     s.principal_1 = mean + s.max_shear;
     s.principal_2 = mean - s.max_shear;
     s.hydrostatic = (s.sxx + s.syy + s.szz) / 3.0;
-    s.von_mises = sqrt(0.5 * (gsl_pow_2(s.sxx - s.syy) + gsl_pow_2(s.syy - s.szz) +
-                              gsl_pow_2(s.szz - s.sxx)) +
-                       3.0 * gsl_pow_2(s.sxy));
+    s.von_mises = sqrt(
+        0.5 * (gsl_pow_2(s.sxx - s.syy) + gsl_pow_2(s.syy - s.szz) + gsl_pow_2(s.szz - s.sxx)) +
+        3.0 * gsl_pow_2(s.sxy));
     return s;
 }
 
-static rb_status stress_of_field(const field *f, int n, const double *xy,
-                                 rb_rolling_stress *stress, rb_message *why)
+static rb_status stress_of_field(const field *f, int n, const double *xy, rb_rolling_stress *stress,
+                                 rb_message *why)
 {
     const rb_rolling_case *rc = f->model->rc;
     double *sigma = rb_alloc((size_t)n, 3);
@@ -218,17 +200,15 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
                                rb_rolling_stress *stress, rb_message *why)
 {
     field f;
-    rb_status s = n < 1 ? rb_fail(why, RB_EINVAL, "stress: %d points", n)
-                        : field_create(model, &f, why);
+    rb_status s =
+        n < 1 ? rb_fail(why, RB_EINVAL, "stress: %d points", n) : field_create(model, &f, why);
 
     if (n < 1)
         return s;
     if (s == RB_OK)
         s = stress_of_field(&f, n, xy, stress, why);
     field_free(&f);
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the stress at %d points", n)
-               : s;
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the stress at %d points", n) : s;
 }
 
 /* ---- Maxima ------------------------------------------------------------------------ */
@@ -265,8 +245,7 @@ typedef struct {
     rb_status status; /* of the evaluations so far */
 } search;
 
-static rb_status stress_below(const search *s, double x, double depth,
-                              rb_rolling_stress *at)
+static rb_status stress_below(const search *s, double x, double depth, rb_rolling_stress *at)
 {
     const double xy[] = {x, rb_rolling_surface(s->f->model->rc, x) + depth};
     return stress_of_field(s->f, 1, xy, at, NULL);
@@ -295,8 +274,7 @@ static double search_value(const gsl_vector *place, void *context)
 {
     search *s = context;
     rb_rolling_stress at;
-    const rb_status status =
-        stress_below(s, place_x(s, place), place_depth(s, place), &at);
+    const rb_status status = stress_below(s, place_x(s, place), place_depth(s, place), &at);
 
     if (status == RB_OK)
         return -s->of(&at);
@@ -307,15 +285,14 @@ static double search_value(const gsl_vector *place, void *context)
 
 /* Climbs from a place to the top; the simplex points away from the middle, so that mirror
  * images of a stress have mirror images of searches. */
-static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m,
-                       gsl_vector *place, gsl_vector *step, rb_rolling_extremum *best)
+static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m, gsl_vector *place,
+                       gsl_vector *step, rb_rolling_extremum *best)
 {
     gsl_multimin_function function = {search_value, 2, s};
     rb_rolling_stress at;
 
     gsl_vector_set(place, 0, best->x / s->scale);
-    gsl_vector_set(place, 1,
-                   (best->y - rb_rolling_surface(s->f->model->rc, best->x)) / s->scale);
+    gsl_vector_set(place, 1, (best->y - rb_rolling_surface(s->f->model->rc, best->x)) / s->scale);
     gsl_vector_set(step, 0, best->x < 0.5 * (s->from + s->to) ? -size : size);
     gsl_vector_set(step, 1, size);
     gsl_multimin_fminimizer_set(m, &function, place, step);
@@ -323,11 +300,10 @@ static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m,
         gsl_multimin_fminimizer_iterate(m);
     const double depth = place_depth(s, m->x);
     const rb_status status =
-        s->status == RB_OK
-            ? stress_below(s, place_x(s, m->x),
-                           /* on the surface, as far as the search can tell */
-                           depth < 10.0 * CONVERGED * s->scale ? 0.0 : depth, &at)
-            : s->status;
+        s->status == RB_OK ? stress_below(s, place_x(s, m->x),
+                                          /* on the surface, as far as the search can tell */
+                                          depth < 10.0 * CONVERGED * s->scale ? 0.0 : depth, &at)
+                           : s->status;
     if (status == RB_OK && s->of(&at) > best->value)
         *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
     return status;
@@ -342,8 +318,8 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
     gsl_vector *place = gsl_vector_alloc(2), *step = gsl_vector_alloc(2);
     rb_status status = m && place && step ? RB_OK : RB_ENOMEM;
 
-    for (int k = 0; k < CLIMBS && status == RB_OK &&
-                    (k == 0 || gsl_multimin_fminimizer_size(m) > CONVERGED);
+    for (int k = 0;
+         k < CLIMBS && status == RB_OK && (k == 0 || gsl_multimin_fminimizer_size(m) > CONVERGED);
          k++)
         status = climb(s, SIZES[k], m, place, step, best);
     gsl_multimin_fminimizer_free(m);
@@ -365,8 +341,7 @@ static int is_peak(const search *s, const rb_rolling_stress_grid *grid, int k)
 
 /* Several peaks may be nearly as high, and the highest one of the grid need not have the
  * highest top.  best: of the places looked at before. */
-static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
-                         rb_rolling_extremum *best)
+static rb_status maximum(search *s, const rb_rolling_stress_grid *grid, rb_rolling_extremum *best)
 {
     rb_status status = RB_OK;
     int peak = -1;
@@ -393,8 +368,7 @@ static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
 }
 
 /* The box that is looked at under a contact, or a patch of it, between two edges. */
-static search box_under(const rb_rolling_model *model, double from, double to,
-                        double depth)
+static search box_under(const rb_rolling_model *model, double from, double to, double depth)
 {
     const double a = 0.5 * (to - from);
     search box = {.scale = a,
@@ -402,8 +376,7 @@ static search box_under(const rb_rolling_model *model, double from, double to,
                   .to = to + a,
                   .depth = depth > 0.0 ? depth : fmin(2.5 * a, deepest(model->rc))};
 
-    if (!rb_rolling_body_can(&model->rc->a,
-                             RB_BODY_FLAT)) { /* stay below its own equator */
+    if (!rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) { /* stay below its own equator */
         const double widest = 0.9 * model->rc->a.radius;
         box.from = fmax(box.from, -widest);
         box.to = fmin(box.to, widest);
@@ -434,8 +407,7 @@ static int encloses(const rb_bem_mesh *mesh, double x, double y)
     return odd;
 }
 
-rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
-                            int *inside)
+rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy, int *inside)
 {
     if (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
@@ -452,8 +424,8 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
         lift_onto_polygon(&mesh, n, moved);
     }
     for (int k = 0; k < n && s == RB_OK; k++)
-        inside[k] = moved[2 * k + 1] != xy[2 * k + 1] ||
-                    encloses(&mesh, moved[2 * k], moved[2 * k + 1]);
+        inside[k] =
+            moved[2 * k + 1] != xy[2 * k + 1] || encloses(&mesh, moved[2 * k], moved[2 * k + 1]);
     free(moved);
     rb_bem_mesh_free(&mesh);
     return s;
@@ -470,9 +442,8 @@ static rb_status fill_grid(const field *f, const search *box, int power,
 
     for (int k = 0; k < n && s == RB_OK; k++) {
         xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
-        xy[2 * k + 1] =
-            rb_rolling_surface(f->model->rc, xy[2 * k]) +
-            box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
+        xy[2 * k + 1] = rb_rolling_surface(f->model->rc, xy[2 * k]) +
+                        box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
     }
     if (s == RB_OK)
         s = rb_rolling_inside(f->model, n, xy, grid->inside);
@@ -492,9 +463,8 @@ static rb_status fill_grid(const field *f, const search *box, int power,
             if (grid->inside[k])
                 grid->at[k] = at[m++];
             else
-                grid->at[k] =
-                    (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
-                                        NAN,       NAN,           NAN, NAN, NAN};
+                grid->at[k] = (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
+                                                  NAN,       NAN,           NAN, NAN, NAN};
     }
     free(xy);
     free(kept);
@@ -509,8 +479,7 @@ static rb_status make_grid(const field *f, const search *box, int power,
     const int nx = grid->nx, ny = grid->ny;
     grid->at = calloc((size_t)nx * (size_t)ny, sizeof *grid->at);
     grid->inside = rb_alloc_int((size_t)nx * (size_t)ny);
-    const rb_status s =
-        grid->at && grid->inside ? fill_grid(f, box, power, grid, why) : RB_ENOMEM;
+    const rb_status s = grid->at && grid->inside ? fill_grid(f, box, power, grid, why) : RB_ENOMEM;
     if (s != RB_OK)
         rb_rolling_stress_grid_free(grid);
     return s == RB_ENOMEM
@@ -518,16 +487,14 @@ static rb_status make_grid(const field *f, const search *box, int power,
                : s;
 }
 
-rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
-                                    double depth, rb_rolling_stress_grid *grid,
-                                    rb_message *why)
+rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
+                                    rb_rolling_stress_grid *grid, rb_message *why)
 {
     double from, to;
 
     memset(grid, 0, sizeof *grid);
     if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
-        return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d",
-                       nx, ny);
+        return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d", nx, ny);
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
@@ -547,20 +514,18 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
 /* ---- All maxima -------------------------------------------------------------------- */
 
 enum { MEASURES = 4 };
-static measure *const measures[MEASURES] = {max_shear, von_mises, orthogonal_shear,
-                                            tension};
+static measure *const measures[MEASURES] = {max_shear, von_mises, orthogonal_shear, tension};
 
 static rb_rolling_extremum *of_measure(rb_rolling_stress_maxima *m, int k)
 {
-    rb_rolling_extremum *const all[MEASURES] = {&m->max_shear, &m->von_mises,
-                                                &m->orthogonal_shear, &m->tension};
+    rb_rolling_extremum *const all[MEASURES] = {&m->max_shear, &m->von_mises, &m->orthogonal_shear,
+                                                &m->tension};
     return all[k];
 }
 
 /* From a grid that is finer where the stress changes faster, and from two rows at the
  * surface, where friction that changes from element to element makes narrow peaks. */
-static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima,
-                                  rb_message *why)
+static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima, rb_message *why)
 {
     const double first_row = s->depth / gsl_pow_2(GRID_Y - 1.0);
     const double depth[] = {s->depth, first_row}, nearly[] = {0.05, 0.002};
@@ -595,8 +560,8 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     int patches = 0;
 
     *maxima = (rb_rolling_stress_maxima){none, none, none, none};
-    while (s == RB_OK && rb_rolling_next_patch(model->rc, &model->mesh, &model->state,
-                                               run.last + 1, &run)) {
+    while (s == RB_OK &&
+           rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
         search box = box_under(model, run.from, run.to, depth);
         box.f = &f;
         box.depth = fmin(box.depth, deepest(model->rc));
@@ -604,9 +569,7 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
         patches++;
     }
     field_free(&f);
-    return s == RB_OK && patches == 0
-               ? rb_fail(why, RB_NO_CONTACT, "no contact, no stress")
-               : s;
+    return s == RB_OK && patches == 0 ? rb_fail(why, RB_NO_CONTACT, "no contact, no stress") : s;
 }
 
 rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,

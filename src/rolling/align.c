@@ -21,36 +21,34 @@ static const double MISSED = 0.25;
 
 /* The edges of the only patch.  RB_EINVAL: there are several; *known: 0 where it has too
  * few elements to tell. */
-static rb_status find_edges(const rb_rolling_model *model, double *from, double *to,
-                            int *known, rb_message *why)
+static rb_status find_edges(const rb_rolling_model *model, double *from, double *to, int *known,
+                            rb_message *why)
 {
     rb_rolling_run run = {.last = -1}, other;
 
     rb_rolling_next_patch(model->rc, &model->mesh, &model->state, 0, &run);
     *known = run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
-    if (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
-                              &other) &&
+    if (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &other) &&
         !rb_rolling_is_convex(model->rc))
-        return rb_fail(
-            why, RB_EINVAL,
-            "mesh aligned: the contact has several patches, and equal elements "
-            "cannot end at all their edges; use mesh fitted or uniform");
+        return rb_fail(why, RB_EINVAL,
+                       "mesh aligned: the contact has several patches, and equal elements "
+                       "cannot end at all their edges; use mesh fitted or uniform");
     *from = run.from;
     *to = run.to;
     return RB_OK;
 }
 
 /* `across` elements between the edges and some beyond them. */
-static rb_status solve_on(rb_rolling_model *model, int across, int beyond, double from,
-                          double to, rb_message *why)
+static rb_status solve_on(rb_rolling_model *model, int across, int beyond, double from, double to,
+                          rb_message *why)
 {
     const double h = (to - from) / across;
     rb_rolling_plan plan = model->plan;
     rb_rolling_mesh mesh;
 
     plan.elements = across + 2 * beyond;
-    const rb_status s = rb_rolling_mesh_uniform(model->rc, &plan, from - beyond * h,
-                                                to + beyond * h, &mesh, why);
+    const rb_status s =
+        rb_rolling_mesh_uniform(model->rc, &plan, from - beyond * h, to + beyond * h, &mesh, why);
     return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
 }
 
@@ -94,16 +92,14 @@ static double refine(edge *e, double found, double h)
         e->at = e->outer;
         return rests ? 0.0 : moved;
     }
-    e->at = jumps || found < e->inner || found > e->outer ? 0.5 * (e->inner + e->outer)
-                                                          : found;
+    e->at = jumps || found < e->inner || found > e->outer ? 0.5 * (e->inner + e->outer) : found;
     return moved;
 }
 
 /* From the edges that the model has now, known to `*off`, a length; afterwards what the
  * last round moved them by.  *rest: 0 where they did not come to rest, or no solution was
  * found. */
-static rb_status align(rb_rolling_model *model, int rounds, double *off, int *rest,
-                       rb_message *why)
+static rb_status align(rb_rolling_model *model, int rounds, double *off, int *rest, rb_message *why)
 {
     const int across = model->plan.elements;
     double from, to, moved = INFINITY, before = INFINITY;
@@ -112,8 +108,8 @@ static rb_status align(rb_rolling_model *model, int rounds, double *off, int *re
     int beyond = BEYOND + (int)fmin(*off * across / (to - from), 0.25 * across);
     edge left = edge_at(-from), right = edge_at(to);
 
-    for (int round = 0;
-         round < rounds && known && s == RB_OK && moved > AT_REST && !drifts; round++) {
+    for (int round = 0; round < rounds && known && s == RB_OK && moved > AT_REST && !drifts;
+         round++) {
         const double h = (right.at + left.at) / across;
         s = solve_on(model, across, beyond, -left.at, right.at, why);
         const int filled = s == RB_ZONE && round + 1 < rounds;

@@ -39,27 +39,25 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
         compliance[n + i] = rc->interlayer_tangential;
     }
     const rb_status s =
-        compliance ? rb_bem_flexibility_add_compliance(f, compliance, compliance + n)
-                   : RB_ENOMEM;
+        compliance ? rb_bem_flexibility_add_compliance(f, compliance, compliance + n) : RB_ENOMEM;
     free(compliance);
     return s;
 }
 
 static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                  const rb_rolling_body *body,
-                                  const rb_rolling_mesh *mesh, int transforms,
-                                  rb_rolling_body_flexibility *one_body, rb_message *why)
+                                  const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                  int transforms, rb_rolling_body_flexibility *one_body,
+                                  rb_message *why)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh,
-                                                               one_body, why);
+    return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh, one_body, why);
 }
 
 /* f: that of both bodies together; one_body: what else they have made. */
 static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_mesh *mesh, int transforms,
-                             rb_rolling_body_flexibility one_body[2],
-                             rb_bem_flexibility *f, rb_message *why)
+                             rb_rolling_body_flexibility one_body[2], rb_bem_flexibility *f,
+                             rb_message *why)
 {
     /* hysteresis is made of it, because what turns with a wheel costs nothing;
      * half-planes move straight on (theory.md V4) */
@@ -90,8 +88,7 @@ static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh
 
     if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
         return RB_OK;
-    const rb_status s =
-        join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
+    const rb_status s = join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
 }
 
@@ -106,21 +103,18 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
     rb_status s = check_memory(rc, mesh, why);
 
     if (s == RB_OK && rb_rolling_relaxes(rc) && rc->formulation != RB_STEADY)
-        s = rb_fail(
-            why, RB_EINVAL,
-            "relaxation: bodies that relax and do not roll steadily need a history "
-            "of steps in time");
+        s = rb_fail(why, RB_EINVAL,
+                    "relaxation: bodies that relax and do not roll steadily need a history "
+                    "of steps in time");
     if (s == RB_OK)
         s = join_bodies(rc, plan ? plan : &own, mesh, large, one_body, &bodies->f, why);
     bodies->system_a = one_body[0].system;
     bodies->system_b = one_body[1].system;
     bodies->memory[0] = one_body[0].memory;
     bodies->memory[1] = one_body[1].memory;
-    bodies->seconds_assembly =
-        one_body[0].seconds_assembly + one_body[1].seconds_assembly;
+    bodies->seconds_assembly = one_body[0].seconds_assembly + one_body[1].seconds_assembly;
     bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;
-    bodies->seconds_condense =
-        one_body[0].seconds_condense + one_body[1].seconds_condense;
+    bodies->seconds_condense = one_body[0].seconds_condense + one_body[1].seconds_condense;
     if (s == RB_OK && !large)
         s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)
@@ -132,13 +126,11 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
     return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements",
-                         mesh->n)
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
                : s;
 }
 
-rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
-                                       const rb_rolling_mesh *mesh,
+rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                        rb_rolling_bodies *bodies, rb_message *why)
 {
     rb_status s = check_memory(rc, mesh, why);
@@ -150,13 +142,12 @@ rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
         s = add_transforms(rc, mesh, bodies, why);
     }
     return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements",
-                         mesh->n)
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
                : s;
 }
 
-rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
-                                  const double *q, double *w)
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
+                                  double *w)
 {
     const int n = bodies->f.n;
     double *r = rb_alloc(2 * (size_t)n, 1);

@@ -74,8 +74,7 @@ double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
     return kind->datum ? kind->datum(rc, body) : NAN;
 }
 
-rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
-                                     const rb_rolling_body *body,
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS])
 {
     return rb_rolling_kind_of(body)->surface(rc, body, length);
@@ -89,22 +88,19 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
 
     const int bore = plane_allowed && b->radius < 0.0;
     if (b->radius == 0.0)
-        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0",
-                       which);
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0", which);
     if (!rb_rolling_kind_of(b))
-        return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which,
-                       (int)b->support);
+        return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which, (int)b->support);
     if (bore && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "support%s: a bore has no wheel's boundary, only the support "
                        "halfplane",
                        which);
     if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL,
-                       "support%s: a plane has the support halfplane only", which);
+        return rb_fail(why, RB_EINVAL, "support%s: a plane has the support halfplane only", which);
     s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
-    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
-         *kind && s == RB_OK; kind++)
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind && s == RB_OK;
+         kind++)
         if ((*kind)->check && ((*kind)->holds || (*kind)->support == b->support))
             s = (*kind)->check(rc, b, which, why);
     return s;

@@ -17,8 +17,7 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
         length[k] = rc->speed * body->memory.time[k];
 }
 
-rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
-                                            const rb_rolling_body *body,
+rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS])
 {
     rb_rolling_memory_lengths(rc, body, length);
@@ -63,20 +62,18 @@ static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_bo
     return s;
 }
 
-static rb_status
-halfplane_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                      rb_rolling_body_flexibility *one_body, rb_message *why)
+static rb_status halfplane_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                       const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                       rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
     return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
 }
 
 /* Equal elements beside a wheel A are equal arcs of the wheel. */
-static rb_status
-halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                     const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                     rb_rolling_body_flexibility *one_body, rb_message *why)
+static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                      rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
     return make(rc->a.support == RB_BEM_HALFPLANE ? rb_bem_flexibility_toeplitz
@@ -108,15 +105,15 @@ static const rb_rolling_parameter halfplane_parameters[] = {
     {"datum", not_on_rigid_base, "on a rigid base the displacement is absolute"},
     {.option = NULL}};
 
-const rb_rolling_body_kind rb_rolling_halfplane = {
-    .name = "half-plane",
-    .support = RB_BEM_HALFPLANE,
-    .can = HALFPLANE | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC | RB_BODY_STRESS,
-    .parameters = halfplane_parameters,
-    .flexibility = halfplane_flexibility,
-    .transforms = halfplane_transforms,
-    .surface = rb_rolling_halfplane_surface,
-    .datum = datum};
+const rb_rolling_body_kind rb_rolling_halfplane = {.name = "half-plane",
+                                                   .support = RB_BEM_HALFPLANE,
+                                                   .can = HALFPLANE | RB_BODY_HOMOGENEOUS |
+                                                          RB_BODY_ELASTIC | RB_BODY_STRESS,
+                                                   .parameters = halfplane_parameters,
+                                                   .flexibility = halfplane_flexibility,
+                                                   .transforms = halfplane_transforms,
+                                                   .surface = rb_rolling_halfplane_surface,
+                                                   .datum = datum};
 
 /* ---- With a layer ------------------------------------------------------------------ */
 
@@ -125,13 +122,12 @@ static int has_layer(const rb_rolling_body *body)
     return body->layer > 0.0;
 }
 
-static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b,
-                             const char *which, rb_message *why)
+static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
+                             rb_message *why)
 {
     if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
         return rb_fail(why, RB_EINVAL,
-                       "layer thickness%s: for the support halfplane only, got a wheel",
-                       which);
+                       "layer thickness%s: for the support halfplane only, got a wheel", which);
     return has_layer(b) && b->base_young > 0.0
                ? rb_rolling_check_poisson(rc, "base", b->base_poisson, which, why)
                : RB_OK;
@@ -145,8 +141,7 @@ static const rb_rolling_parameter layer_parameters[] = {
 const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
                                                .support = RB_BEM_HALFPLANE,
                                                .holds = has_layer,
-                                               .can = HALFPLANE | RB_BODY_ELASTIC |
-                                                      RB_BODY_STRESS,
+                                               .can = HALFPLANE | RB_BODY_ELASTIC | RB_BODY_STRESS,
                                                .parameters = layer_parameters,
                                                .check = check_layer};
 
@@ -159,9 +154,9 @@ static int has_memory(const rb_rolling_body *body)
 
 static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
 
-const rb_rolling_body_kind rb_rolling_relaxation = {
-    .name = "relaxation",
-    .support = RB_BEM_HALFPLANE,
-    .holds = has_memory,
-    .can = RB_BODY_FLAT | RB_BODY_TURNS | RB_BODY_BOUNDARY | RB_BODY_STRESS,
-    .parameters = relaxation_parameters};
+const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
+                                                    .support = RB_BEM_HALFPLANE,
+                                                    .holds = has_memory,
+                                                    .can = RB_BODY_FLAT | RB_BODY_TURNS |
+                                                           RB_BODY_BOUNDARY | RB_BODY_STRESS,
+                                                    .parameters = relaxation_parameters};

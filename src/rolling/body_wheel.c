@@ -45,8 +45,7 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *
         s = rb_bem_mesh_core(&cylinder, &boundary, &core, why);
         if (s == RB_OK)
             s = rb_bem_system_create_bonded(&boundary, material, &core,
-                                            rb_rolling_base_material(rc, body), system,
-                                            why);
+                                            rb_rolling_base_material(rc, body), system, why);
     } else if (s == RB_OK) {
         s = rb_bem_system_create(&boundary, material, system, why);
     }
@@ -55,23 +54,21 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *
     return s;
 }
 
-rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b,
-                                   rb_bem_mesh *boundary, rb_message *why)
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_bem_mesh *boundary,
+                                   rb_message *why)
 {
     rb_bem_cylinder cylinder;
     const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
     *boundary = (rb_bem_mesh){0};
     return body->support == RB_BEM_HALFPLANE || (of_b && !model->rc->elastic_b)
                ? RB_OK
-               : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary,
-                               why);
+               : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary, why);
 }
 
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model,
-                                     rb_bem_system **system, rb_message *why)
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
+                                     rb_message *why)
 {
-    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system,
-                        why);
+    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system, why);
 }
 
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
@@ -96,29 +93,26 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
 /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
  * flexibility of a body with memory. */
 static rb_status add_memory(const rb_rolling_case *rc, const rb_bem_wheel *wheel,
-                            const rb_rolling_mesh *mesh,
-                            rb_rolling_body_flexibility *one_body, rb_message *why)
+                            const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
+                            rb_message *why)
 {
     rb_status s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
     if (s == RB_OK)
-        s = rb_bem_flexibility_add_memory(wheel, rc->normals, mesh->ends, &one_body->f,
-                                          why);
+        s = rb_bem_flexibility_add_memory(wheel, rc->normals, mesh->ends, &one_body->f, why);
     if (s == RB_OK)
         rb_rolling_memory_after(&one_body->f, one_body->memory);
     return s;
 }
 
-static rb_status
-by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                     const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                     rb_rolling_body_flexibility *one_body, rb_message *why)
+static rb_status by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                      rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     rb_status s = wheel_system(rc, plan, body, mesh, &one_body->system, why);
 
     if (s != RB_OK)
         return s;
-    rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
-                          &one_body->seconds_factor);
+    rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly, &one_body->seconds_factor);
     return ((plan->near_field == RB_NEAR_FIELD_AUTO
                  ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
                  : plan->near_field == RB_NEAR_FIELD_EXACT)
@@ -127,17 +121,16 @@ by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
 }
 
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                   const rb_rolling_body *body,
-                                   const rb_rolling_mesh *mesh,
+                                   const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     double length[RB_ROLLING_TERMS];
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     const double start = rb_seconds();
-    rb_status s = goes_by_waves(rc, body)
-                      ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
-                                                 &one_body->f, why)
-                      : by_boundary_elements(rc, plan, body, mesh, one_body, why);
+    rb_status s =
+        goes_by_waves(rc, body)
+            ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f, why)
+            : by_boundary_elements(rc, plan, body, mesh, one_body, why);
 
     if (s == RB_OK && body->memory.n > 0)
         s = add_memory(rc, &wheel, mesh, one_body, why);
@@ -149,28 +142,26 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
 /* Hysteresis of pairs with a wheel is made of the matrix. */
 static int wheel_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
-    return goes_by_waves(rc, body) && rc->formulation == RB_STEADY &&
-           rc->a.memory.n == 0 && !(rc->elastic_b && rc->b.memory.n > 0);
+    return goes_by_waves(rc, body) && rc->formulation == RB_STEADY && rc->a.memory.n == 0 &&
+           !(rc->elastic_b && rc->b.memory.n > 0);
 }
 
 static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                  const rb_rolling_body *body,
-                                  const rb_rolling_mesh *mesh,
+                                  const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                   rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     double length[RB_ROLLING_TERMS];
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     (void)plan;
-    return rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals,
-                                             &one_body->f, why);
+    return rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f,
+                                             why);
 }
 
 enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
 /* ---- A clamped arc ----------------------------------------------------------------- */
 
-static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"},
-                                                      {.option = NULL}};
+static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"}, {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
                                              .support = RB_BEM_ARC,
@@ -193,8 +184,7 @@ static const rb_rolling_parameter hub_parameters[] = {
 
 const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .support = RB_BEM_HUB,
-                                             .can = WHEEL | RB_BODY_HOMOGENEOUS |
-                                                    RB_BODY_TURNS,
+                                             .can = WHEEL | RB_BODY_HOMOGENEOUS | RB_BODY_TURNS,
                                              .parameters = hub_parameters,
                                              .flexibility = wheel_flexibility,
                                              .transformed = wheel_transformed,
@@ -208,13 +198,13 @@ static int has_cover(const rb_rolling_body *body)
     return body->cover > 0.0;
 }
 
-static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b,
-                             const char *which, rb_message *why)
+static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
+                             rb_message *why)
 {
     if (b->cover != 0.0 && b->support != RB_BEM_HUB)
         return rb_fail(why, RB_EINVAL,
-                       "cover thickness%s: its core holds the wheel, add --support%s hub",
-                       which, which[0] ? "-b" : "");
+                       "cover thickness%s: its core holds the wheel, add --support%s hub", which,
+                       which[0] ? "-b" : "");
     if (!(b->cover < fabs(b->radius)))
         return rb_fail(why, RB_EINVAL,
                        "cover thickness%s: expected less than the radius, %g mm, got %g "

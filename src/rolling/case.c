@@ -114,8 +114,8 @@ double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pres
             continue;
         for (int k = 0; k < body->memory.n; k++)
             slow += body->memory.ratio[k];
-        const double strain = fmin(approach * glassy * modulus(rc) / thickness,
-                                   2.0 * pressure * slow / body->young);
+        const double strain =
+            fmin(approach * glassy * modulus(rc) / thickness, 2.0 * pressure * slow / body->young);
         if (isnan(most) || strain > most) {
             most = strain;
             if (what)
@@ -192,16 +192,15 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
     const int two_datums =
         rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
     return RB_TRANSFORMS && !two_datums &&
-           (rc->contact.solver == RB_SOLVER_AUTO ||
-            rc->contact.solver == RB_SOLVER_NEWTON) &&
+           (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
            (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    const int least = rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS
-                                                   : RB_ROLLING_TRANSFORMS_STEPS;
+    const int least =
+        rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS : RB_ROLLING_TRANSFORMS_STEPS;
 
     return mesh->n >= least && rb_rolling_has_transforms(rc);
 }
@@ -209,12 +208,10 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
     return rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0 &&
-           rc->friction.law == RB_FRICTION_constant &&
-           !rb_rolling_law_depends_on_state(rc) && rc->interlayer_normal == 0.0 &&
-           rc->interlayer_tangential == 0.0 && rc->yield_stress == 0.0 &&
-           rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
-           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 &&
-           fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
+           rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_depends_on_state(rc) &&
+           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
+           rc->yield_stress == 0.0 && rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
+           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
 
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
@@ -241,8 +238,8 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan)
 /* Steady rolling averages over what a particle has passed, which must be alike everywhere
  * for that.  Step by step a body has one compliance, so that nothing may be under it that
  * does not relax. */
-static rb_status check_relaxing_body(const rb_rolling_case *rc,
-                                     const rb_rolling_body *body, rb_message *why)
+static rb_status check_relaxing_body(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                     rb_message *why)
 {
     const int steps = rc->formulation != RB_STEADY;
 
@@ -258,8 +255,8 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
                        "relaxation: in transient rolling for the support halfplane only, "
                        "because the state of a wheel or cover extends over its whole "
                        "circumference; use --formulation steady");
-    if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
-                  rb_rolling_has_elastic_core(body)))
+    if (steps &&
+        ((body->layer > 0.0 && body->base_young > 0.0) || rb_rolling_has_elastic_core(body)))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: in a computation with steps the base or core of a "
                        "viscoelastic body must be rigid, got an elastic one");
@@ -297,8 +294,7 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     if (s != RB_OK || terms == 0)
         return s;
     if (rc->formulation != RB_STATIC && rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: needs the speed of rolling, add --speed");
+        return rb_fail(why, RB_EINVAL, "relaxation: needs the speed of rolling, add --speed");
     if (rc->formulation != RB_STEADY &&
         (rc->gap == RB_GAP_TABLE || rc->irregularity.n > 0 || rc->worn.n > 0))
         return rb_fail(why, RB_EINVAL,
@@ -323,30 +319,27 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
                        "conductivity: friction heats bodies that roll, add --formulation "
                        "steady or transient");
     if (rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "conductivity: needs the speed of rolling, add --speed");
+        return rb_fail(why, RB_EINVAL, "conductivity: needs the speed of rolling, add --speed");
     /* A layer or a cover. */
     if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
-        return rb_fail(
-            why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
-            (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
-             (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
-                ? "the flash temperature is computed for homogeneous bodies only, and a "
-                  "layer or cover conducts differently"
-                : "a viscoelastic body is also heated inside, which is not computed");
+        return rb_fail(why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
+                       (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
+                        (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
+                           ? "the flash temperature is computed for homogeneous bodies only, and a "
+                             "layer or cover conducts differently"
+                           : "a viscoelastic body is also heated inside, which is not computed");
     if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
         return rb_fail(why, RB_EINVAL,
                        "temperature-b: in transient rolling both bodies must have the "
                        "same temperature");
-    const int unlike = b->conductivity > 0.0 && (a->conductivity != b->conductivity ||
-                                                 a->heat_capacity != b->heat_capacity ||
-                                                 a->temperature != b->temperature);
+    const int unlike = b->conductivity > 0.0 &&
+                       (a->conductivity != b->conductivity ||
+                        a->heat_capacity != b->heat_capacity || a->temperature != b->temperature);
     const int most = unlike ? MOST_UNLIKE : MOST;
     if (rc->contact_elements > most)
         return rb_fail(why, RB_EINVAL,
-                       "conductivity: expected at most %d contact elements%s, got %d",
-                       most, unlike ? " of bodies that conduct differently" : "",
-                       rc->contact_elements);
+                       "conductivity: expected at most %d contact elements%s, got %d", most,
+                       unlike ? " of bodies that conduct differently" : "", rc->contact_elements);
     return RB_OK;
 }
 
@@ -363,8 +356,7 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
     const double normal[] = {rc->approach, rc->load, rc->half_width};
 
     if (count_given(3, normal) > 1)
-        return rb_fail(why, RB_EINVAL,
-                       "approach, load and half-width exclude each other");
+        return rb_fail(why, RB_EINVAL, "approach, load and half-width exclude each other");
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
         return rb_fail(why, RB_EINVAL,
@@ -376,21 +368,18 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
 
 static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 {
-    const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force,
-                          rc->force_ratio};
+    const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force, rc->force_ratio};
     const double load[] = {rc->shift, rc->force, rc->force_ratio};
 
     if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
         return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
     if (rb_rolling_largest_mu(rc) == 0.0 && !isnan(rc->creep_ratio))
-        return rb_fail(why, RB_EINVAL,
-                       "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
+        return rb_fail(why, RB_EINVAL, "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
     if (rc->formulation == RB_STATIC && count_given(3, load) > 1)
         return rb_fail(why, RB_EINVAL, "shift, force and force-ratio exclude each other");
     if (rc->formulation != RB_STATIC && !isnan(rc->shift))
-        return rb_fail(
-            why, RB_EINVAL,
-            "shift: rolling is driven by creep, creep-ratio, force or force-ratio");
+        return rb_fail(why, RB_EINVAL,
+                       "shift: rolling is driven by creep, creep-ratio, force or force-ratio");
     if (rc->formulation != RB_STATIC && count_given(4, all + 1) > 1)
         return rb_fail(why, RB_EINVAL,
                        "creep, creep-ratio, force and force-ratio exclude each other");
@@ -401,22 +390,17 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (rc->free_axle && rc->formulation != RB_STEADY)
         return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "free axle: only friction turns it, expected mu > 0");
+        return rb_fail(why, RB_EINVAL, "free axle: only friction turns it, expected mu > 0");
     /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
     if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
-        return rb_fail(why, RB_EINVAL,
-                       "force ratio Q/(mu P) = %g: friction carries at most 1",
+        return rb_fail(why, RB_EINVAL, "force ratio Q/(mu P) = %g: friction carries at most 1",
                        rc->force_ratio);
-    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 &&
-        rc->force_ratio != 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "force ratio %g: Q/(mu P) has no meaning at mu = 0",
+    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 && rc->force_ratio != 0.0)
+        return rb_fail(why, RB_EINVAL, "force ratio %g: Q/(mu P) has no meaning at mu = 0",
                        rc->force_ratio);
     const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
     if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
+        return rb_fail(why, RB_EINVAL, "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
                        rc->force, mu * P);
     return RB_OK;
 }
@@ -424,9 +408,8 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
-        return rb_fail(
-            why, RB_EINVAL,
-            "hardening: only for an interface that yields, add --yield-stress");
+        return rb_fail(why, RB_EINVAL,
+                       "hardening: only for an interface that yields, add --yield-stress");
     if (rc->yield_stress > 0.0 &&
         (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
         return rb_fail(why, RB_EINVAL,
@@ -470,13 +453,13 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "irregularity: only for transient rolling, in which it moves "
                        "through the contact");
-    const rb_status s = rb_rolling_points_check("irregularity", n, rc->irregularity.x,
-                                                rc->irregularity.y, why);
+    const rb_status s =
+        rb_rolling_points_check("irregularity", n, rc->irregularity.x, rc->irregularity.y, why);
     for (int i = 0; s == RB_OK && i < n; i += n - 1)
         if (rc->irregularity.y[i] != 0.0)
             return rb_fail(why, RB_EINVAL,
-                           "irregularity: row %d: expected gap 0 where it ends, got %g",
-                           i + 1, rc->irregularity.y[i]);
+                           "irregularity: row %d: expected gap 0 where it ends, got %g", i + 1,
+                           rc->irregularity.y[i]);
     return s;
 }
 
@@ -485,8 +468,8 @@ static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
     for (int i = 0; i < rc->worn.n; i++)
         if (!isfinite(rc->worn.x[i]) || !isfinite(rc->worn.y[i]) ||
             (i > 0 && !(rc->worn.x[i] > rc->worn.x[i - 1])))
-            return rb_fail(why, RB_EINVAL,
-                           "worn: row %d: expected finite numbers, x increasing", i + 1);
+            return rb_fail(why, RB_EINVAL, "worn: row %d: expected finite numbers, x increasing",
+                           i + 1);
     return RB_OK;
 }
 
@@ -506,34 +489,30 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     if (rc->slip_operator == RB_SLIP_SECOND && rc->mesh == RB_MESH_FITTED)
         return rb_fail(why, RB_EINVAL, "slip operator second: only for equal elements");
     if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
-        return rb_fail(why, RB_EINVAL,
-                       "mesh aligned: expected 12 contact elements or more, got %d",
+        return rb_fail(why, RB_EINVAL, "mesh aligned: expected 12 contact elements or more, got %d",
                        rc->contact_elements);
     if (rc->contact_elements > 1 << 24)
-        return rb_fail(why, RB_EINVAL, "contact elements: expected at most %d, got %d",
-                       1 << 24, rc->contact_elements);
+        return rb_fail(why, RB_EINVAL, "contact elements: expected at most %d, got %d", 1 << 24,
+                       rc->contact_elements);
     if (rc->outer_elements > 1 << 20)
-        return rb_fail(why, RB_EINVAL, "outer elements: expected at most %d, got %d",
-                       1 << 20, rc->outer_elements);
+        return rb_fail(why, RB_EINVAL, "outer elements: expected at most %d, got %d", 1 << 20,
+                       rc->outer_elements);
     if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
         return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
                        rc->outer_refinement);
     if (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius))
-        return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm",
-                       rc->zone, fmin(rc->a.radius, fabs(rc->b.radius)));
-    if (rc->normals == RB_BEM_NORMALS_SURFACE &&
-        rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL,
-                       "normals surface: a half-plane has the obstacle's");
+        return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm", rc->zone,
+                       fmin(rc->a.radius, fabs(rc->b.radius)));
+    if (rc->normals == RB_BEM_NORMALS_SURFACE && rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL, "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
     if (rc->contact.solver == RB_SOLVER_CONE &&
         !(rc->contact.cone_solvers && rc->contact.cone_solver &&
           rc->contact.cone_solvers->knows(rc->contact.cone_solver)))
-        return rb_fail(
-            why, RB_EINVAL,
-            "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
-            rc->contact.cone_solver ? rc->contact.cone_solver : "");
+        return rb_fail(why, RB_EINVAL,
+                       "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
+                       rc->contact.cone_solver ? rc->contact.cone_solver : "");
     return RB_OK;
 }
 
@@ -544,8 +523,8 @@ static rb_status check_size(const char *what, double value, rb_message *why)
     const double size = fabs(value);
 
     if (isfinite(size) && (size < least || size > most))
-        return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g", what,
-                       least, most, value);
+        return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g", what, least, most,
+                       value);
     return RB_OK;
 }
 
@@ -594,6 +573,5 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 
 int rb_rolling_has_steps(const rb_rolling_case *rc)
 {
-    return rc->formulation == RB_TRANSIENT ||
-           (rc->formulation == RB_STATIC && rc->increments > 1);
+    return rc->formulation == RB_TRANSIENT || (rc->formulation == RB_STATIC && rc->increments > 1);
 }

@@ -66,8 +66,8 @@ double rb_closed_carter_creep_ratio(double force_ratio)
     return opposing(force_ratio) * size / (1.0 + sqrt(1.0 - size));
 }
 
-double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
-                                 double s, double x)
+double rb_closed_carter_traction(double mu, double max_pressure, double half_width, double s,
+                                 double x)
 {
     const double stick = half_width * (1.0 - fmin(fabs(s), 1.0));
     double q = ellipse(x / half_width);
@@ -110,8 +110,7 @@ double rb_closed_bentall_johnson_slip(double beta, double half_width, double rad
     return 2.0 * fabs(beta) * half_width / radius * ellipse(x) / 2.0;
 }
 
-rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
-                                                          double hertz_half_width,
+rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta, double hertz_half_width,
                                                           double radius, double modulus)
 {
     rb_closed_bentall_johnson b;
@@ -122,8 +121,7 @@ rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
     return b;
 }
 
-double rb_closed_flash_temperature(double heat, double half_width, double speed,
-                                   double effusivity)
+double rb_closed_flash_temperature(double heat, double half_width, double speed, double effusivity)
 {
     return 2.1883067 * heat * sqrt(half_width) / (effusivity * sqrt(M_PI * speed));
 }
@@ -135,8 +133,7 @@ static double shear_below(double friction, double x, double y)
     const double m = sqrt(0.5 * (d + c)), n = copysign(sqrt(fmax(0.0, 0.5 * (d - c))), x);
     const double r = m * m + n * n;
 
-    return -n * (m * m - y * y) / r -
-           friction * (m * (1.0 + (y * y + n * n) / r) - 2.0 * y);
+    return -n * (m * m - y * y) / r - friction * (m * (1.0 + (y * y + n * n) / r) - 2.0 * y);
 }
 
 double rb_closed_shakedown_limit(double friction)

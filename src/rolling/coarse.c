@@ -12,8 +12,7 @@ int rb_rolling_coarse_elements(int n)
 }
 
 /* Value at x of tractions at the coarse midpoints, linear in between. */
-static double interpolated(const rb_rolling_mesh *mesh, const double *value, double x,
-                           int j)
+static double interpolated(const rb_rolling_mesh *mesh, const double *value, double x, int j)
 {
     const double here = 0.5 * (mesh->ends[j] + mesh->ends[j + 1]);
     const int other = x < here ? j - 1 : j + 1;
@@ -59,8 +58,8 @@ void rb_rolling_follow_friction(const rb_rolling_mesh *mesh, const double *bound
 }
 
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                           const rb_contact_state *coarse,
-                           const rb_rolling_mesh *fine_mesh, rb_contact_state *fine)
+                           const rb_contact_state *coarse, const rb_rolling_mesh *fine_mesh,
+                           rb_contact_state *fine)
 {
     double from, to;
     int j = 0;
@@ -83,8 +82,7 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
                 fine->zone[i] = zone;
             else {
                 const int left = j > 0 ? coarse->zone[j - 1] : RB_ZONE_SEPARATED;
-                const int right =
-                    j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
+                const int right = j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
                 fine->zone[i] = left != RB_ZONE_SEPARATED ? left : right;
             }
         }

@@ -52,8 +52,7 @@ rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc)
 
 /* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  The model
  * is kept for derivatives. */
-static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage,
-                                  rb_message *why)
+static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage, rb_message *why)
 {
     const rb_rolling_case rc = rb_rolling_without_force(model->rc);
 
@@ -70,8 +69,7 @@ static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage,
 }
 
 /* On the same equal elements without a matrix: starts on fewer of them. */
-static rb_status roll_freely_large(const rb_rolling_model *model, double *creepage,
-                                   rb_message *why)
+static rb_status roll_freely_large(const rb_rolling_model *model, double *creepage, rb_message *why)
 {
     const double *ends = model->mesh.ends;
     const rb_rolling_case rc = rb_rolling_without_force(model->rc);
@@ -92,8 +90,7 @@ static rb_status roll_freely_large(const rb_rolling_model *model, double *creepa
 }
 
 /* On the same elements with the model's matrix, from its zones. */
-static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
-                                   rb_message *why)
+static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage, rb_message *why)
 {
     rb_contact_problem problem = model->problem; /* arrays stay the model's */
     rb_contact_state state;
@@ -113,8 +110,7 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
     return s;
 }
 
-rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
-                                   rb_message *why)
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why)
 {
     /* Similar bodies without a history roll freely at no creepage. */
     *creepage = (!rb_contact_operator_response(model->problem.op).coupled &&
@@ -127,8 +123,7 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
         return roll_freely_anew(model, creepage, why);
     const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
                                         : roll_freely_large(model, creepage, why);
-    return s == RB_ZONE && model->rc->zone == 0.0 ? roll_freely_anew(model, creepage, why)
-                                                  : s;
+    return s == RB_ZONE && model->rc->zone == 0.0 ? roll_freely_anew(model, creepage, why) : s;
 }
 
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,

@@ -28,8 +28,8 @@ static double length_of(const rb_rolling_mesh *mesh, int i)
 
 /* An edge is known to the distance of the two midpoints around it; where no open element
  * stands beyond it, to a part of the patch. */
-static double margin_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run,
-                            int outer, int open)
+static double margin_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run, int outer,
+                            int open)
 {
     if (open < 0 || open >= mesh->n)
         return 0.1 * (run->to - run->from);
@@ -73,8 +73,8 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     int complete = 1;
 
     found->count = 0;
-    while (complete && rb_rolling_next_merged_patch(model->rc, mesh, &model->state,
-                                                    run.last + 1, &run)) {
+    while (complete &&
+           rb_rolling_next_merged_patch(model->rc, mesh, &model->state, run.last + 1, &run)) {
         const rb_rolling_span span = {
             .from = run.from,
             .to = run.to,
@@ -88,8 +88,7 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
         s = rb_rolling_find_overlap(model, &model->state, &overlap);
     for (int k = 0; complete && k < overlap.count; k++) {
         const double room = 0.1 * (overlap.to[k] - overlap.from[k]);
-        const rb_rolling_span span = {
-            overlap.from[k], overlap.to[k], room, room, room, room};
+        const rb_rolling_span span = {overlap.from[k], overlap.to[k], room, room, room, room};
         complete = add_patch(&span, found);
     }
     found->count = complete ? found->count : 0;
@@ -158,24 +157,22 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
     *rest = 0;
     forget(known);
     for (int round = 0;
-         round < ROUNDS && !*rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
-         round++) {
+         round < ROUNDS && !*rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE); round++) {
         /* On a mesh that ends somewhere a corner of a punch can be a solution as well.
          * Where the solver finds that one, the zones of the solution that the mesh was
          * fitted to lead to the other one. */
         rb_rolling_mesh mesh, old_mesh = model->mesh;
         rb_contact_state old = model->state;
         const int was_enclosed = old.status == RB_OK;
-        s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count,
-                                  fitted.span, &mesh, why);
+        s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
+                                  why);
 
         if (s == RB_OK) {
             memset(&model->mesh, 0, sizeof model->mesh);
             memset(&model->state, 0, sizeof model->state);
             s = rb_rolling_model_build(model, &mesh, why);
             if (s == RB_ZONE && was_enclosed) {
-                rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh,
-                                      &model->state);
+                rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
                 s = rb_rolling_model_resolve(model, 1, why);
             }
             rb_rolling_mesh_free(&old_mesh);
@@ -192,10 +189,8 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
                 const rb_rolling_span *now = &found.span[k];
                 rb_rolling_span *span = &fitted.span[k];
                 double left = -span->from;
-                moved =
-                    fmax(moved, refine(-now->from, now->h_left, &left, &known[k].left));
-                moved = fmax(moved,
-                             refine(now->to, now->h_right, &span->to, &known[k].right));
+                moved = fmax(moved, refine(-now->from, now->h_left, &left, &known[k].left));
+                moved = fmax(moved, refine(now->to, now->h_right, &span->to, &known[k].right));
                 span->from = -left;
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;

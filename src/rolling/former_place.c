@@ -31,16 +31,16 @@ static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body 
     if (status == RB_OK)
         status = rb_bem_surface_displacement(&surface, n, ends, of->places, of->s, W);
     for (size_t j = 0; j < columns && status == RB_OK; j++)
-        cblas_daxpy(of->places, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows,
-                    1, sum + j * rows, 1);
+        cblas_daxpy(of->places, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows, 1,
+                    sum + j * rows, 1);
     free(ends);
     free(W);
     return status;
 }
 
 /* Of all elastic bodies, at places from `first` on, h apart; sum: overwritten. */
-static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int places,
-                            double first, double *sum)
+static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int places, double first,
+                            double *sum)
 {
     const line of = {n, h, places, rb_alloc((size_t)places, 1)};
     rb_status status = of.s ? RB_OK : RB_ENOMEM;
@@ -69,8 +69,7 @@ static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies 
     if (s == RB_OK) {
         for (size_t j = 0; j < 2 * (size_t)n; j++)
             for (size_t i = 0; i < (size_t)m; i++)
-                rest[i + j * m] =
-                    bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
+                rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
         /* What the bodies have over half-planes is smooth along the surface: linear in
          * between, at `ahead` elements from each of the m = n + 1 midpoints, the last
          * one's line going on.
@@ -89,9 +88,8 @@ static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies 
     return s;
 }
 
-rb_status rb_rolling_former_place_create(const rb_rolling_case *rc,
-                                         const rb_rolling_bodies *bodies, double step,
-                                         rb_rolling_former_place *ahead)
+rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                                         double step, rb_rolling_former_place *ahead)
 {
     const int n = bodies->f.n;
     const double h = bodies->f.h[n / 2];
@@ -123,8 +121,7 @@ void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
     for (int j = 0; j < n; j++) {
         const size_t at = (size_t)j * (size_t)n;
         const double *of_p = ahead->W_T ? ahead->W_T + at : ahead->response + n - 1 - j;
-        const double *of_q =
-            of_p + (ahead->W_T ? (size_t)n * (size_t)n : 2 * (size_t)n - 1);
+        const double *of_q = of_p + (ahead->W_T ? (size_t)n * (size_t)n : 2 * (size_t)n - 1);
         if (p[j] != 0.0)
             cblas_daxpy(n, p[j], of_p, 1, w_T, 1);
         if (q[j] != 0.0)

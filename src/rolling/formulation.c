@@ -42,8 +42,7 @@ static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodie
     A->stencil[3] = (1.0 + t) / 4.0;
     memcpy(A->local, backward, sizeof A->local);
     A->outside = rb_alloc(2, 2 * (size_t)A->n);
-    return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside)
-                      : RB_ENOMEM;
+    return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside) : RB_ENOMEM;
 }
 
 /* Row i of A w for the displacement w of the n elements and the one upstream; outside: of
@@ -61,9 +60,8 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
 /* ---- Its two operators ------------------------------------------------------------- */
 
 /* S = A [F_TN F_TT] (K2). */
-static rb_status dense_operator(const rb_rolling_case *rc,
-                                const rb_rolling_bodies *bodies, const kinematic *A,
-                                rb_contact_operator **op)
+static rb_status dense_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                                const kinematic *A, rb_contact_operator **op)
 {
     const int n = A->n, m = n + 1;
     const double none[2] = {0.0, 0.0};
@@ -92,8 +90,8 @@ static rb_status dense_operator(const rb_rolling_case *rc,
 typedef struct {
     rb_bem_flexibility f; /* its arrays borrowed from the bodies */
     kinematic A;          /* owned, as the rest */
-    double local[4]; /* what is added to A q for the interlayer: zeros where there is none
-                      */
+    double local[4];      /* what is added to A q for the interlayer: zeros where there is none
+                           */
     rb_bem_circulant *inverse;
     double *w;    /* 2m: displacements of one product */
     double *slip; /* n: A w_T */
@@ -141,8 +139,7 @@ static void transforms_precondition(void *context, int tangential, double *line)
         rb_bem_circulant_apply(t->inverse, line, line);
 }
 
-static void transforms_precondition_yielding(void *context, double hardening,
-                                             double *line)
+static void transforms_precondition_yielding(void *context, double hardening, double *line)
 {
     const transforms *t = context;
 
@@ -150,8 +147,8 @@ static void transforms_precondition_yielding(void *context, double hardening,
 }
 
 /* A: taken over, also on failure. */
-static rb_status transform_operator(const rb_bem_flexibility *f, double compliance,
-                                    kinematic *A, rb_contact_operator **op)
+static rb_status transform_operator(const rb_bem_flexibility *f, double compliance, kinematic *A,
+                                    rb_contact_operator **op)
 {
     transforms *t = calloc(1, sizeof *t);
 
@@ -164,15 +161,15 @@ static rb_status transform_operator(const rb_bem_flexibility *f, double complian
         t->local[k] = compliance * (A->local[k] - A->stencil[k]);
     t->w = rb_alloc(2 * (size_t)f->m, 1);
     t->slip = rb_alloc((size_t)A->n, 1);
-    const rb_status s = t->w && t->slip ? rb_bem_circulant_create(&t->f, t->A.stencil,
-                                                                  t->A.local, &t->inverse)
-                                        : RB_ENOMEM;
+    const rb_status s = t->w && t->slip
+                            ? rb_bem_circulant_create(&t->f, t->A.stencil, t->A.local, &t->inverse)
+                            : RB_ENOMEM;
     if (s != RB_OK) {
         transforms_free(t);
         return s;
     }
-    const rb_contact_products by = {transforms_apply, transforms_precondition,
-                                    transforms_free, t, transforms_precondition_yielding};
+    const rb_contact_products by = {transforms_apply, transforms_precondition, transforms_free, t,
+                                    transforms_precondition_yielding};
     return rb_contact_operator_products(A->n, &by, op);
 }
 
@@ -189,8 +186,7 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
     /* another matrix than that of the bodies, as of a worn surface, has no products */
     if (s == RB_OK && bodies->transforms.n > 0 &&
         bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
-        s = transform_operator(&bodies->transforms, rc->interlayer_tangential, A,
-                               &products);
+        s = transform_operator(&bodies->transforms, rc->interlayer_tangential, A, &products);
         if (s == RB_OK)
             rb_contact_operator_add_products(*op, products);
     }
@@ -212,8 +208,7 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
             p->d_T[i] -= past->w_T[i];
         if (p->yield)
             p->yield[i] =
-                rc->yield_stress +
-                rc->hardening * (past && past->yielded ? past->yielded[i] : 0.0);
+                rc->yield_stress + rc->hardening * (past && past->yielded ? past->yielded[i] : 0.0);
         p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
                     : rc->formulation == RB_TRANSIENT ? past ? past->step : 0.0
                                                       : 1.0;
@@ -251,8 +246,8 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         return;
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
-    else if (p->force_given && p->load_given &&
-             rc->friction.law == RB_FRICTION_constant && rc->friction.heat == 0.0)
+    else if (p->force_given && p->load_given && rc->friction.law == RB_FRICTION_constant &&
+             rc->friction.heat == 0.0)
         p->force_ratio = rc->force / (p->mu * d.load);
     else if (p->force_given)
         p->force = rc->force;
@@ -282,13 +277,12 @@ static rb_status set_yield(const rb_rolling_case *rc, rb_contact_problem *p)
 
 /* p: allocated. */
 static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                              const rb_rolling_bodies *bodies,
-                              const rb_rolling_past *past, rb_contact_problem *p,
-                              rb_message *why)
+                              const rb_rolling_bodies *bodies, const rb_rolling_past *past,
+                              rb_contact_problem *p, rb_message *why)
 {
     if (set_yield(rc, p) != RB_OK)
-        return rb_fail(why, RB_ENOMEM,
-                       "out of memory for a contact problem of %d elements", mesh->n);
+        return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
+                       mesh->n);
     rb_rolling_start_bounds(rc, bodies, p);
     p->differences = rc->formulation == RB_STEADY;
     rb_rolling_set_gap(mesh, bodies, p);
@@ -333,23 +327,19 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
 }
 
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                   const rb_rolling_bodies *bodies,
-                                   rb_contact_operator *op, rb_contact_problem *p,
-                                   rb_message *why)
+                                   const rb_rolling_bodies *bodies, rb_contact_operator *op,
+                                   rb_contact_problem *p, rb_message *why)
 {
     const rb_status s = rb_contact_problem_borrow(op, p);
 
     return s == RB_OK
                ? fill_problem(rc, mesh, bodies, NULL, p, why)
-               : rb_fail(why, s, "out of memory for a contact problem of %d elements",
-                         mesh->n);
+               : rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
 }
 
-rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
-                                    const rb_rolling_mesh *mesh,
-                                    const rb_rolling_bodies *bodies,
-                                    const rb_rolling_past *past, rb_contact_problem *p,
-                                    rb_message *why)
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies, const rb_rolling_past *past,
+                                    rb_contact_problem *p, rb_message *why)
 {
     kinematic A;
     rb_contact_operator *op = NULL;
@@ -362,14 +352,13 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, p);
     if (s != RB_OK)
-        return rb_fail(why, s, "out of memory for a contact problem of %d elements",
-                       mesh->n);
+        return rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
     return fill_problem(rc, mesh, bodies, past, p, why);
 }
 
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
-                                            const rb_rolling_bodies *bodies,
-                                            rb_contact_problem *p, rb_message *why)
+                                            const rb_rolling_bodies *bodies, rb_contact_problem *p,
+                                            rb_message *why)
 {
     kinematic A;
     rb_status s = set_kinematic(rc, bodies, &A);
@@ -380,10 +369,8 @@ rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
         s = make_operator(rc, bodies, &A, &p->op);
     free(A.outside);
     p->rounding = 0.0; /* of products */
-    return s == RB_OK
-               ? s
-               : rb_fail(why, s, "out of memory for a contact problem of %d elements",
-                         p->n);
+    return s == RB_OK ? s
+                      : rb_fail(why, s, "out of memory for a contact problem of %d elements", p->n);
 }
 
 /* ---- What a state carries ---------------------------------------------------------- */
@@ -436,8 +423,7 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }
 
-static rb_contact_options options_of(const rb_rolling_case *rc,
-                                     const rb_contact_problem *p)
+static rb_contact_options options_of(const rb_rolling_case *rc, const rb_contact_problem *p)
 {
     rb_contact_options options = rc->contact;
 
@@ -446,15 +432,14 @@ static rb_contact_options options_of(const rb_rolling_case *rc,
     return options;
 }
 
-rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,
-                                   int warm, rb_contact_state *state, rb_message *why)
+rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
+                                   rb_contact_state *state, rb_message *why)
 {
     const rb_contact_options options = options_of(rc, problem);
     return rb_contact_solve(problem, &options, warm, state, why);
 }
 
-rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
-                               rb_message *why)
+rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why)
 {
     const rb_contact_options options = options_of(model->rc, &model->problem);
     return rb_contact_lcp_first(&model->problem, &options, &model->state, lcp, why);

@@ -21,8 +21,7 @@ static double diffusivity(const rb_rolling_heat *body)
 
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width)
 {
-    return body->conductivity > 0.0 ? speed * half_width / (2.0 * diffusivity(body))
-                                    : INFINITY;
+    return body->conductivity > 0.0 ? speed * half_width / (2.0 * diffusivity(body)) : INFINITY;
 }
 
 /* ---- One body (T1) ----------------------------------------------------------------- */
@@ -36,10 +35,10 @@ static double moving_source(double z)
         return 0.0;
     if (z > 0.0)
         return r * (gsl_sf_bessel_K0_scaled(r) + gsl_sf_bessel_K1_scaled(r)) - 1.0;
-    return r > 400.0 ? -1.0
-                     : r * exp(-2.0 * r) *
-                               (gsl_sf_bessel_K1_scaled(r) - gsl_sf_bessel_K0_scaled(r)) -
-                           1.0;
+    return r > 400.0
+               ? -1.0
+               : r * exp(-2.0 * r) * (gsl_sf_bessel_K1_scaled(r) - gsl_sf_bessel_K0_scaled(r)) -
+                     1.0;
 }
 
 /* Rise at the origin from a unit heat per area and time between 0 and x. */
@@ -50,8 +49,7 @@ static double rise_from_origin(const rb_rolling_heat *body, double speed, double
     return moving_source(P * x) / (M_PI * body->conductivity * P);
 }
 
-double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
-                                double to)
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to)
 {
     return rise_from_origin(body, speed, to) - rise_from_origin(body, speed, from);
 }
@@ -92,11 +90,9 @@ static void conductor_row(const conductor *c, int i, double *row)
         memcpy(row, &c->response[c->n - 1 - i], (size_t)c->n * sizeof *row);
         return;
     }
-    double before =
-        rise_from_origin(c->body, c->speed, c->x[0] - 0.5 * c->h[0] - c->x[i]);
+    double before = rise_from_origin(c->body, c->speed, c->x[0] - 0.5 * c->h[0] - c->x[i]);
     for (int j = 0; j < c->n; j++) {
-        const double to =
-            rise_from_origin(c->body, c->speed, c->x[j] + 0.5 * c->h[j] - c->x[i]);
+        const double to = rise_from_origin(c->body, c->speed, c->x[j] + 0.5 * c->h[j] - c->x[i]);
         row[j] = to - before;
         before = to;
     }
@@ -179,9 +175,8 @@ static int is_one_contact(const rb_rolling_solution *s)
 
 /* In contact both surfaces are equally warm: (K_A + K_B) H_A = K_B H + T_B - T_A gives
  * the part H_A of the heat H that enters A. */
-static rb_status share_heat(const conductor *a, const conductor *b,
-                            const rb_rolling_solution *s, const double *heat,
-                            double *heat_a)
+static rb_status share_heat(const conductor *a, const conductor *b, const rb_rolling_solution *s,
+                            const double *heat, double *heat_a)
 {
     const int n = s->n;
     double *rhs = rb_alloc((size_t)n, 1);
@@ -232,9 +227,9 @@ static rb_status share_heat(const conductor *a, const conductor *b,
     return status;
 }
 
-rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
-                                        const rb_rolling_solution *s, const double *power,
-                                        double *t_a, double *t_b, rb_message *why)
+rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                        const double *power, double *t_a, double *t_b,
+                                        rb_message *why)
 {
     const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0;
     double *heat = rb_alloc((size_t)n, 2), *heat_a = heat ? heat + n : NULL;
@@ -276,9 +271,8 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
     free(heat);
     free(a.response);
     free(b.response);
-    return status == RB_OK
-               ? RB_OK
-               : rb_fail(why, status, "temperature: %s", rb_status_text(status));
+    return status == RB_OK ? RB_OK
+                           : rb_fail(why, status, "temperature: %s", rb_status_text(status));
 }
 
 /* The parabola through the warmest element in contact and its neighbours there. */
@@ -322,15 +316,13 @@ rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_wi
     track->heat = NULL;
     track->rows = track->newest = track->known = 0;
     if (peclet < LEAST_PECLET)
-        return rb_fail(
-            why, RB_EINVAL,
-            "temperature: in transient rolling heat conduction is computed along the "
-            "depth only, which needs V a/(2 diffusivity) >= %g, got %.3g",
-            LEAST_PECLET, peclet);
-    const double rows =
-        track->step > 0.0 ? ceil(track->n * track->h / track->step) + 1.0 : 1.0;
-    const rb_status s = rb_memory_check(sizeof(double) * rows * track->n,
-                                        "temperature: the heat of steps", why);
+        return rb_fail(why, RB_EINVAL,
+                       "temperature: in transient rolling heat conduction is computed along the "
+                       "depth only, which needs V a/(2 diffusivity) >= %g, got %.3g",
+                       LEAST_PECLET, peclet);
+    const double rows = track->step > 0.0 ? ceil(track->n * track->h / track->step) + 1.0 : 1.0;
+    const rb_status s =
+        rb_memory_check(sizeof(double) * rows * track->n, "temperature: the heat of steps", why);
     if (s != RB_OK)
         return s;
     track->rows = (int)rows;
@@ -351,9 +343,8 @@ void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
 }
 
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
-void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
-                                const double *lambda, rb_rolling_heat_track *t,
-                                double *temperature)
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q, const double *lambda,
+                                rb_rolling_heat_track *t, double *temperature)
 {
     const double effusivity = sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity) +
                               sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity);
@@ -372,12 +363,11 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
         const double *heat = t->heat + (size_t)row * (size_t)t->n;
         const double shift = k * t->step / t->h, whole = floor(shift);
         const double part = shift - whole > 1e-9 ? shift - whole : 0.0;
-        const int last =
-            t->n - 1 - (int)whole; /* its left neighbour is the last element */
+        const int last = t->n - 1 - (int)whole; /* its left neighbour is the last element */
 
         for (int i = 0; i < last; i++)
-            temperature[i] += weight * ((1.0 - part) * heat[i + (int)whole] +
-                                        part * heat[i + (int)whole + 1]);
+            temperature[i] +=
+                weight * ((1.0 - part) * heat[i + (int)whole] + part * heat[i + (int)whole + 1]);
         if (last >= 0)
             temperature[last] += weight * (1.0 - part) * heat[t->n - 1];
     }

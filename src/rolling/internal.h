@@ -25,8 +25,8 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc);
 
 /* Checks the numbers of a case: RB_EINVAL "young: expected a number > 0, got -1".  What
  * has its default is not given. */
-rb_status rb_rolling_check_ranges(const rb_rolling_case *rc,
-                                  const rb_rolling_case *defaults, rb_message *why);
+rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
+                                  rb_message *why);
 /* Checks a number against the range of this option. */
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
 
@@ -36,14 +36,14 @@ rb_status rb_rolling_check_number(const char *option, double value, rb_message *
 int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
 /* Checks for three or more finite points with increasing x: RB_EINVAL "<what>: row
  * ...". */
-rb_status rb_rolling_points_check(const char *what, int n, const double *x,
-                                  const double *gap, rb_message *why);
+rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
+                                  rb_message *why);
 
 /* ---- body_wheel.c ------------------------------------------------------------------ */
 
 /* Factorises the boundary elements of A, a wheel, again; owned by the caller. */
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model,
-                                     rb_bem_system **system, rb_message *why);
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
+                                     rb_message *why);
 /* A wheel on a hub or a cover; borrows length and the body. */
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                  double length[RB_ROLLING_TERMS]);
@@ -55,8 +55,8 @@ typedef struct {
     rb_bem_flexibility f;  /* owned */
     rb_bem_system *system; /* NULL without boundary elements; owned */
     int keeps_memory;      /* 1: compute `memory` for a half-plane, too */
-    double *memory; /* 2m x 2n: viscoelastic part of f, for pairs with a wheel in steady
-                       rolling; otherwise NULL; owned */
+    double *memory;        /* 2m x 2n: viscoelastic part of f, for pairs with a wheel in steady
+                              rolling; otherwise NULL; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_body_flexibility;
 
@@ -69,8 +69,8 @@ struct rb_rolling_body_kind {
     const rb_rolling_parameter *parameters;
     /* Checks ranges of the parameters; for an addition it is called for every body, with
      * or without the addition.  which: "", or " of body B".  NULL: nothing to check. */
-    rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                       const char *which, rb_message *why);
+    rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body, const char *which,
+                       rb_message *why);
 
     /* Of the support only: */
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -97,10 +97,8 @@ extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 /* 1: a cover with an elastic core. */
 int rb_rolling_has_elastic_core(const rb_rolling_body *body);
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
-extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
-    rb_rolling_relaxation;
-rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
-                                            const rb_rolling_body *body,
+extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer, rb_rolling_relaxation;
+rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS]);
 /* L = V tau of each term. */
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
@@ -109,8 +107,8 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
 
 /* Checks that nu is in the range of plane stress, if that is the problem; what: "base" or
  * "core", NULL for the body itself. */
-rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
-                                   double poisson, const char *which, rb_message *why);
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what, double poisson,
+                                   const char *which, rb_message *why);
 
 /* ---- body.c ------------------------------------------------------------------------ */
 
@@ -123,8 +121,7 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
 /* The half-plane or layer that answers like the body close to a load.  length: array for
  * the lengths V tau, which the surface borrows, like the ratios of the body. */
-rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
-                                     const rb_rolling_body *body,
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
 
 /* ---- body_memory.c
@@ -138,8 +135,7 @@ void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 /* ---- bodies.c ---------------------------------------------------------------------- */
 
 /* Computes and stores the matrix of bodies that have none yet. */
-rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc,
-                                       const rb_rolling_mesh *mesh,
+rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                        rb_rolling_bodies *bodies, rb_message *why);
 
 /* ---- mesh.c ------------------------------------------------------------------------ */
@@ -161,9 +157,8 @@ typedef struct {
 } rb_rolling_former_place;
 
 /* ahead: overwritten. */
-rb_status rb_rolling_former_place_create(const rb_rolling_case *rc,
-                                         const rb_rolling_bodies *bodies, double step,
-                                         rb_rolling_former_place *ahead);
+rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                                         double step, rb_rolling_former_place *ahead);
 /* w_T: n, overwritten. */
 void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
                                    const rb_rolling_bodies *bodies, const double *p,
@@ -187,14 +182,13 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
 /* Another operator of the same bodies, after these have got a matrix.  RB_ENOMEM: the
  * problem has none. */
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
-                                            const rb_rolling_bodies *bodies,
-                                            rb_contact_problem *p, rb_message *why);
+                                            const rb_rolling_bodies *bodies, rb_contact_problem *p,
+                                            rb_message *why);
 /* The problem of bodies and an operator that belong to another one, which stays their
  * owner: p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                   const rb_rolling_bodies *bodies,
-                                   rb_contact_operator *op, rb_contact_problem *p,
-                                   rb_message *why);
+                                   const rb_rolling_bodies *bodies, rb_contact_operator *op,
+                                   rb_contact_problem *p, rb_message *why);
 /* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
 double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 /* d_N, from the gaps of the mesh. */
@@ -211,8 +205,7 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 double rb_rolling_friction_at(const rb_rolling_table *table, double x);
 /* 1 if the law depends on the slip velocity. */
 int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
-double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
-                         double temperature);
+double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature);
 /* The coefficient at rest and without heating. */
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
 /* Largest -dmu/dv, or an upper bound if two terms have different slip scales. */
@@ -221,23 +214,20 @@ double rb_rolling_law_steepest(const rb_rolling_case *rc);
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              rb_contact_problem *p);
 /* The coefficients (n) of the law for the state. */
-rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
-                                      rb_message *why);
+rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu, rb_message *why);
 /* Sets first bounds: coefficients of fast sliding up to x, and those at rest beyond. */
 rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why);
 /* law_newton.c: Newton's method from the present bounds, until these and the bounds of
  * the law differ by at most `enough` in the natural residual.  left: number of contact
  * problems that may still be solved.  RB_MAXITER: this number is used up, or the residual
  * does not decrease. */
-rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left,
-                                rb_message *why);
+rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left, rb_message *why);
 /* Solves the model's problem by iteration if the law depends on the state. */
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
 
 /* A creepage at which the whole contact slides; the search for a given force starts
  * there. */
-double rb_rolling_sliding_creepage(const rb_rolling_case *rc,
-                                   const rb_contact_problem *p);
+double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p);
 
 /* ---- heat.c ------------------------------------------------------------------------ */
 
@@ -247,9 +237,9 @@ int rb_rolling_has_heat(const rb_rolling_case *rc);
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
  * a steady solution with tractions, slip and zones. */
-rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
-                                        const rb_rolling_solution *s, const double *power,
-                                        double *t_a, double *t_b, rb_message *why);
+rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                        const double *power, double *t_a, double *t_b,
+                                        rb_message *why);
 /* Highest temperature in contact and its place; NAN without contact. */
 void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
                                  double *value, double *at);
@@ -270,9 +260,8 @@ rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_wi
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
 /* Stores the heat of the newest step with friction q and slip displacement lambda, and
  * computes the temperature (n) of both surfaces at its end. */
-void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
-                                const double *lambda, rb_rolling_heat_track *track,
-                                double *temperature);
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q, const double *lambda,
+                                rb_rolling_heat_track *track, double *temperature);
 void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 
 /* ---- coarse.c ---------------------------------------------------------------------- */
@@ -282,8 +271,8 @@ int rb_rolling_coarse_elements(int n);
 /* Interpolates tractions, zones, delta and xi from a solution with fewer elements on the
  * same line. */
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                           const rb_contact_state *coarse,
-                           const rb_rolling_mesh *fine_mesh, rb_contact_state *fine);
+                           const rb_contact_state *coarse, const rb_rolling_mesh *fine_mesh,
+                           rb_contact_state *fine);
 
 /* The friction coefficients (n; owned by the caller) of a solved model; NULL: those of
  * the case, or the law may have other states, or no memory. */
@@ -322,15 +311,14 @@ typedef struct {
 
 /* Searches along the whole table; other gaps are convex, so that the bodies cannot touch
  * outside the contact (theory.md 5.1).  RB_ENOMEM. */
-rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
-                                  const rb_contact_state *state,
+rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
 
 /* RB_ZONE: an element at an end of the mesh is in contact, so that the contact may extend
  * further, or the bodies overlap where there is no midpoint of an element.  state: of the
  * model's problem. */
-rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
-                                    const rb_contact_state *state, rb_message *why);
+rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_contact_state *state,
+                                    rb_message *why);
 
 /* ---- zone.c ------------------------------------------------------------------------ */
 
@@ -376,11 +364,11 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
 /* How much the largest pressure rises where elements get so many times shorter, because
  * the slope of the worn table turns by s at a row between `from` and `to`: there the
  * pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next row. */
-double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to,
-                                  double element, double times);
+double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
+                                  double times);
 /* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
-                               const double *x, double *gap);
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,
+                               double *gap);
 /* 0: the bodies may touch in several places. */
 int rb_rolling_is_convex(const rb_rolling_case *rc);
 /* The interval in which elements may lie: on the lower half of every round body, within
@@ -390,8 +378,7 @@ void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
 /* A patch for fitted elements, and how far the elements must extend beyond its edges. */
 typedef struct {
     double from, to, margin_left, margin_right;
-    double h_left,
-        h_right; /* lengths of the elements from which the edges were computed; fit.c */
+    double h_left, h_right; /* lengths of the elements from which the edges were computed; fit.c */
 } rb_rolling_span;
 
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
@@ -419,8 +406,8 @@ double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pres
 
 /* Torques that keep both bodies rolling against M and the force Q, > 0 if they drive
  * (theory.md V4); torque_b is NAN if B is a plane. */
-void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
-                        double *torque_a, double *torque_b);
+void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, double *torque_a,
+                        double *torque_b);
 
 /* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory.md V4): 0
  * for elastic bodies; steady rolling only, otherwise NAN.  RB_ENOMEM. */
@@ -441,8 +428,7 @@ enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 
 /* Vertex of the parabola through (0, 0) and two neighbours (d, f): its height and place.
  * 0: the parabola has no maximum. */
-static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise,
-                                    double *at)
+static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at)
 {
     const double left = f[0] / d[0], right = f[1] / d[1];
     const double curvature = (right - left) / (d[1] - d[0]);
@@ -462,14 +448,12 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
  * patches that are separated by one open element if large friction between dissimilar
  * bodies opens every other element. */
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                 const rb_contact_state *state, int at,
-                                 rb_rolling_run *run);
+                                 const rb_contact_state *state, int at, rb_rolling_run *run);
 /* p0: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* Computes the patches of a solution and the results that depend on all of them.
  * RB_ENOMEM. */
-rb_status rb_rolling_set_patches(const rb_rolling_model *model,
-                                 rb_rolling_solution *solution);
+rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *solution);
 
 /* Length of the longest element in contact. */
 double rb_rolling_longest_element(int n, const int *zone, const double *h);

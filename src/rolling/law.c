@@ -28,8 +28,7 @@ static double exponential_mu(const rb_rolling_case *rc, double x, double v)
 {
     const rb_rolling_friction *f = &rc->friction;
     (void)x;
-    return rc->mu + f->fall[0] * exp2(-scaled(f, 0, v)) +
-           f->fall[1] * exp2(-scaled(f, 1, v));
+    return rc->mu + f->fall[0] * exp2(-scaled(f, 0, v)) + f->fall[1] * exp2(-scaled(f, 1, v));
 }
 
 static double rational_mu(const rb_rolling_case *rc, double x, double v)
@@ -55,10 +54,8 @@ static const struct {
     double steepest[2];
 } laws[RB_FRICTION_LAWS] = {
     [RB_FRICTION_constant] = {constant_mu, {0.0, 0.0}},
-    [RB_FRICTION_exponential] = {exponential_mu,
-                                 {0.6931471805599453, 0.6931471805599453}},
-    [RB_FRICTION_rational] = {rational_mu,
-                              {1.0, 0.6495190528383290}}, /* 1, 3 sqrt(3)/8 */
+    [RB_FRICTION_exponential] = {exponential_mu, {0.6931471805599453, 0.6931471805599453}},
+    [RB_FRICTION_rational] = {rational_mu, {1.0, 0.6495190528383290}}, /* 1, 3 sqrt(3)/8 */
     [RB_FRICTION_linear] = {linear_mu, {0.5, 0.5}},
     [RB_FRICTION_table] = {table_mu, {0.0, 0.0}}};
 
@@ -115,13 +112,11 @@ static rb_status check_table(const rb_rolling_table *t, rb_message *why)
         return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
     for (int k = 0; k < t->n; k++) {
         if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
-            return rb_fail(why, RB_EINVAL,
-                           "friction table: row %d: expected x to increase, got %g",
+            return rb_fail(why, RB_EINVAL, "friction table: row %d: expected x to increase, got %g",
                            k + 1, t->x[k]);
         if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
-            return rb_fail(why, RB_EINVAL,
-                           "friction table: row %d: expected mu >= 0, got %g", k + 1,
-                           t->y[k]);
+            return rb_fail(why, RB_EINVAL, "friction table: row %d: expected mu >= 0, got %g",
+                           k + 1, t->y[k]);
     }
     return RB_OK;
 }
@@ -139,8 +134,7 @@ static rb_status check_slip(const rb_rolling_case *rc, rb_message *why)
     if (s != RB_OK)
         return s;
     if (rc->formulation != RB_STATIC && rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "friction law %s: needs the speed of rolling, add --speed",
+        return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
                        names[f->law]);
     return RB_OK;
 }
@@ -158,42 +152,37 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         if (f->heat != 0.0) {
             if (!isfinite(f->heat) || !isfinite(f->heat_from) ||
                 !(isfinite(f->heat_range) && f->heat_range > 0.0))
-                s = rb_fail(
-                    why, RB_EINVAL,
-                    "friction and heat: expected a change, a temperature and a range "
-                    "> 0, got %g, %g, %g",
-                    f->heat, f->heat_from, f->heat_range);
+                s = rb_fail(why, RB_EINVAL,
+                            "friction and heat: expected a change, a temperature and a range "
+                            "> 0, got %g, %g, %g",
+                            f->heat, f->heat_from, f->heat_range);
             else
                 s = rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc)
-                        ? rb_fail(
-                              why, RB_EINVAL,
-                              "friction and heat: needs temperatures, add --conductivity")
+                        ? rb_fail(why, RB_EINVAL,
+                                  "friction and heat: needs temperatures, add --conductivity")
                         : RB_OK;
         }
     }
-    if (s == RB_OK && !(f->memory >= 0.0 && isfinite(f->memory) &&
-                        (f->memory == 0.0 || f->memory_slip > 0.0)))
+    if (s == RB_OK &&
+        !(f->memory >= 0.0 && isfinite(f->memory) && (f->memory == 0.0 || f->memory_slip > 0.0)))
         s = rb_fail(why, RB_EINVAL,
                     "friction memory: expected a distance >= 0 and a velocity > 0, got "
                     "%g, %g",
                     f->memory, f->memory_slip);
     if (s == RB_OK && end_of_range(rc, -1.0) < 0.0)
-        s = rb_fail(why, RB_EINVAL,
-                    "friction law %s: expected mu >= 0 everywhere, got %g at least",
+        s = rb_fail(why, RB_EINVAL, "friction law %s: expected mu >= 0 everywhere, got %g at least",
                     names[f->law], end_of_range(rc, -1.0));
     return s;
 }
 
 /* ---- The coefficients of a state --------------------------------------------------- */
 
-double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
-                         double temperature)
+double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature)
 {
     return laws[rc->friction.law].mu(rc, x, v) +
            (rc->friction.heat != 0.0
-                ? rc->friction.heat *
-                      fmin(1.0, fmax(0.0, (temperature - rc->friction.heat_from) /
-                                              rc->friction.heat_range))
+                ? rc->friction.heat * fmin(1.0, fmax(0.0, (temperature - rc->friction.heat_from) /
+                                                              rc->friction.heat_range))
                 : 0.0);
 }
 
@@ -216,8 +205,7 @@ double rb_rolling_law_steepest(const rb_rolling_case *rc)
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              rb_contact_problem *p)
 {
-    const rb_rolling_table *start =
-        rc->formulation == RB_STATIC ? NULL : rc->friction.start;
+    const rb_rolling_table *start = rc->formulation == RB_STATIC ? NULL : rc->friction.start;
 
     for (int i = 0; i < p->n; i++)
         p->bound[i] = start ? rb_rolling_friction_at(start, bodies->f.x[i])

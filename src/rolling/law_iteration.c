@@ -42,8 +42,7 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
 
 /* From the leading edge on, in the order in which particles pass (F2): each one forgets
  * its coefficient over the distance that it slides. */
-static void set_coefficients(const rb_rolling_model *model, const double *temperature,
-                             double *mu)
+static void set_coefficients(const rb_rolling_model *model, const double *temperature, double *mu)
 {
     const rb_rolling_case *rc = model->rc;
     const rb_rolling_friction *f = &rc->friction;
@@ -56,15 +55,14 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
         const int zone = state->zone[i], direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
                                                      : zone == RB_ZONE_SLIP_POSITIVE ? -1
                                                                                      : 0;
-        const double slip =
-            direction ? direction * state->lambda[i] : fabs(state->lambda[i]);
+        const double slip = direction ? direction * state->lambda[i] : fabs(state->lambda[i]);
         const double v = slip / e_T[i] * rc->speed;
         if (state->zone[i] == RB_ZONE_SEPARATED) {
             mu[i] = at_rest;
             continue;
         }
-        mu[i] = rb_rolling_law_mu(rc, x[i], v,
-                                  temperature ? temperature[i] : rc->heat_a.temperature);
+        mu[i] =
+            rb_rolling_law_mu(rc, x[i], v, temperature ? temperature[i] : rc->heat_a.temperature);
         if (f->memory == 0.0)
             continue;
         const double before = rc->formulation == RB_STEADY
@@ -75,8 +73,7 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
     }
 }
 
-rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
-                                      rb_message *why)
+rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu, rb_message *why)
 {
     const int n = model->state.n, is_warm = model->rc->friction.heat != 0.0;
     double *temperature = is_warm ? rb_alloc((size_t)n, 1) : NULL;
@@ -189,8 +186,7 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 
         change = 0.0;
         for (int i = 0; i < p->n; i++)
-            change = fmax(change,
-                          fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
+            change = fmax(change, fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
         if (change > enough) {
             enum { TURNS = 4, WAITED = 40, FELL = 20 };
             const int less = change < 0.95 * r.least;
@@ -298,8 +294,8 @@ static rb_status lack(search *s, double x, double *f)
     const rb_status status = iterate(model, 1, s->why);
     p->force_given = 1;
     set_force(model);
-    *f = s->side * (rb_rolling_model_force(model) - p->force +
-                    p->axle * rb_contact_moment(p, &model->state));
+    *f = s->side *
+         (rb_rolling_model_force(model) - p->force + p->axle * rb_contact_moment(p, &model->state));
     return status;
 }
 
@@ -386,8 +382,7 @@ static rb_status solve_between(search *s, double from, double to, double small)
     double before = INFINITY;
     rb_status status = RB_OK;
 
-    for (int k = 0; k < ROUNDS && status == RB_OK && fabs(p->force - before) > small;
-         k++) {
+    for (int k = 0; k < ROUNDS && status == RB_OK && fabs(p->force - before) > small; k++) {
         before = p->force;
         status = iterate(model, 1, NULL);
         set_force(model);
@@ -409,18 +404,17 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         memcpy(by.start, p->bound, (size_t)p->n * sizeof *by.start);
         s = lack(&by, 0.0, &f[0]);
     }
-    const double small = 0.1 * fmax(model->rc->contact.tol, p->rounding) *
-                         rb_contact_capacity(p, &model->state);
+    const double small =
+        0.1 * fmax(model->rc->contact.tol, p->rounding) * rb_contact_capacity(p, &model->state);
     if (s == RB_OK && fabs(f[0]) > small) {
         by.side = f[0] > 0.0 ? 1.0 : -1.0;
         f[0] = fabs(f[0]);
         s = go_on(&by, x, f);
         if (s == RB_OK && f[1] > 0.0)
-            s = rb_fail(
-                why, RB_EINVAL,
-                "force Q = %g N/mm: with this friction law the largest is %g N/mm, "
-                "at creepage %g",
-                p->force, p->force + by.side * f[1], by.side * x[1]);
+            s = rb_fail(why, RB_EINVAL,
+                        "force Q = %g N/mm: with this friction law the largest is %g N/mm, "
+                        "at creepage %g",
+                        p->force, p->force + by.side * f[1], by.side * x[1]);
         else if (s == RB_OK) {
             /* The force is lacking at x[0] and reached at x[1].  Where a creepage has
              * several states and the search falls on one or another of them, the force
@@ -428,8 +422,7 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
             const double from = x[0], to = x[1];
             const rb_status status = find_force(&by, x, f, small);
 
-            s = status > 0 && solve_between(&by, from, to, small) == RB_OK ? RB_OK
-                                                                           : status;
+            s = status > 0 && solve_between(&by, from, to, small) == RB_OK ? RB_OK : status;
         }
     }
     free(by.start);
@@ -452,8 +445,8 @@ static rb_status follow_force(rb_rolling_model *model)
         before = p->force;
         s = go_round(model, 1, NULL);
         set_force(model);
-        small = 0.1 * fmax(model->rc->contact.tol, p->rounding) *
-                rb_contact_capacity(p, &model->state);
+        small =
+            0.1 * fmax(model->rc->contact.tol, p->rounding) * rb_contact_capacity(p, &model->state);
     }
     if (s == RB_OK && !(fabs(model->state.xi - xi) <= CLOSE * unit))
         s = RB_MAXITER;
@@ -472,8 +465,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
             rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
     }
     if (s > 0)
-        s = model->problem.force_given ? solve_force(model, why)
-                                       : iterate(model, warm, why);
+        s = model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
     return model->state.status = s;
 }
 
@@ -481,8 +473,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
 
 /* The largest eigenvalue of B diag(pressure), B the slips of unit friction, which is
  * nearly symmetric: the power method.  scratch: 4n, of zeros. */
-static double largest_answer(const rb_contact_problem *p, const double *pressure,
-                             double *scratch)
+static double largest_answer(const rb_contact_problem *p, const double *pressure, double *scratch)
 {
     enum { ROUNDS = 40 };
     const size_t n = (size_t)p->n;
@@ -519,8 +510,7 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
     if (!scratch)
         return RB_ENOMEM;
     for (size_t i = 0; i < n && model->rc->formulation == RB_STEADY; i++) {
-        const double own =
-            K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
+        const double own = K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
         largest = fmax(largest, pressure[i] * own / p->e_T[i]);
     }
     if (model->rc->formulation == RB_TRANSIENT)

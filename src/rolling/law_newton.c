@@ -53,8 +53,7 @@ static void set_trial(newton *w, double part, const double *change)
 {
     for (int i = 0; i < w->n; i++)
         w->trial[i] =
-            w->b[i] +
-            (w->weight[i] > NO_PRESSURE ? part * change[i] / w->weight[i] : 0.0);
+            w->b[i] + (w->weight[i] > NO_PRESSURE ? part * change[i] / w->weight[i] : 0.0);
 }
 
 /* r + r' step = 0 by Krylov's directions, each the image of the one before, of which the
@@ -123,8 +122,7 @@ static rb_status line_search(newton *w, double *norm)
     return s == RB_OK ? RB_MAXITER : s;
 }
 
-rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left,
-                                rb_message *why)
+rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left, rb_message *why)
 {
     const size_t n = (size_t)model->problem.n;
     double *scratch = rb_alloc(n, 6 + 2 * DIRECTIONS);

@@ -27,8 +27,7 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
      * rows of the at most 2n variables in the basis. */
     const double lcp =
         rc->contact.solver == RB_SOLVER_LEMKE
-            ? (rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0) *
-                  square
+            ? (rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0) * square
             : newton_numbers(n, (double)unknowns * unknowns);
     /* What the memory of a body adds to its flexibility is kept for the hysteresis of
      * pairs with a wheel. */
@@ -40,7 +39,6 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
     if (!boundary)
         return kept + fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
     const double both = rb_bem_system_bytes(boundary, n),
-                 condensation =
-                     sizeof(double) * (4.0 * (double)boundary * n + 4.0 * square);
+                 condensation = sizeof(double) * (4.0 * (double)boundary * n + 4.0 * square);
     return kept + both + fmax(0.0, solution - condensation);
 }

@@ -31,8 +31,8 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
-double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to,
-                                  double element, double times)
+double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
+                                  double times)
 {
     const double *x = rc->worn.x, *y = rc->worn.y;
     double most = 0.0;
@@ -63,8 +63,7 @@ static double round_gap(const rb_rolling_case *rc, double x)
             return rb_bem_circle_height(rc->a.radius, x) +
                    (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
         const double bore = -rc->b.radius;
-        const double a = sqrt(rc->a.radius * rc->a.radius - x * x),
-                     b = sqrt(bore * bore - x * x);
+        const double a = sqrt(rc->a.radius * rc->a.radius - x * x), b = sqrt(bore * bore - x * x);
         return x * x * (bore - rc->a.radius) * (1.0 + (rc->a.radius + bore) / (a + b)) /
                ((rc->a.radius + a) * (bore + b));
     }
@@ -88,8 +87,8 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
     return RB_ENOMEM;
 }
 
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n,
-                               const double *x, double *gap)
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,
+                               double *gap)
 {
     for (int i = 0; i < n; i++)
         gap[i] = rb_rolling_initial_gap(rc, x[i]);
@@ -152,26 +151,22 @@ void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to)
 }
 
 /* The mesh must stay on the lower half of every round body. */
-static rb_status check_extent(const rb_rolling_case *rc, double from, double to,
-                              rb_message *why)
+static rb_status check_extent(const rb_rolling_case *rc, double from, double to, rb_message *why)
 {
     const double radius = lower_half(rc);
 
     if (!(from < to))
-        return rb_fail(why, RB_EINVAL, "potential contact from %g to %g mm is empty",
-                       from, to);
+        return rb_fail(why, RB_EINVAL, "potential contact from %g to %g mm is empty", from, to);
     if (fmax(fabs(from), fabs(to)) >= radius)
-        return rb_fail(
-            why, RB_EINVAL,
-            "potential contact from %g to %g mm is wider than the radius, %g mm", from,
-            to, radius);
+        return rb_fail(why, RB_EINVAL,
+                       "potential contact from %g to %g mm is wider than the radius, %g mm", from,
+                       to, radius);
     return RB_OK;
 }
 
 /* Equal elements of a boundary-element cylinder are equal arcs, of a half-plane equal
  * lengths; both are symmetric to rounding where from = -to. */
-static void equal_ends(const rb_rolling_case *rc, double from, double to, int n,
-                       double *ends)
+static void equal_ends(const rb_rolling_case *rc, double from, double to, int n, double *ends)
 {
     const double R = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? INFINITY : rc->a.radius;
     const double s0 = isinf(R) ? from : R * asin(from / R);
@@ -201,19 +196,16 @@ static rb_status equal_elements(const rb_rolling_case *rc, int n, double from, d
     if (s != RB_OK)
         return s;
     /* an arc beyond the quarter circle turns back */
-    return rb_fail(
-        why, RB_EINVAL,
-        "potential contact from %g to %g mm: no room for the element before it "
-        "within the radius, %g mm; take more elements",
-        from, to, rc->a.radius);
+    return rb_fail(why, RB_EINVAL,
+                   "potential contact from %g to %g mm: no room for the element before it "
+                   "within the radius, %g mm; take more elements",
+                   from, to, rc->a.radius);
 }
 
 rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                  double from, double to, rb_rolling_mesh *mesh,
-                                  rb_message *why)
+                                  double from, double to, rb_rolling_mesh *mesh, rb_message *why)
 {
-    return equal_elements(rc, plan ? plan->elements : rc->contact_elements, from, to,
-                          mesh, why);
+    return equal_elements(rc, plan ? plan->elements : rc->contact_elements, from, to, mesh, why);
 }
 
 /* ---- Fitted elements --------------------------------------------------------------- */
@@ -267,8 +259,7 @@ static int elements_across(int all, int count, const rb_rolling_span *span, int 
         return all;
     for (int l = 0; l < count; l++)
         width += span[l].to - span[l].from;
-    return (int)fmax(fmax(LEAST_ACROSS, all / 4),
-                     round(all * (span[k].to - span[k].from) / width));
+    return (int)fmax(fmax(LEAST_ACROSS, all / 4), round(all * (span[k].to - span[k].from) / width));
 }
 
 /* Length of the element beside either edge of a patch. */
@@ -286,8 +277,7 @@ static void put_upstream(const rb_rolling_case *rc, int n, double *ends)
 }
 
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
-                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
-                                rb_message *why)
+                                const rb_rolling_span *span, rb_rolling_mesh *mesh, rb_message *why)
 {
     int most = (count + 1) * 2 * MOST_OUTSIDE;
     rb_status s = check_extent(rc, span[0].from, span[count - 1].to, why);
@@ -319,9 +309,9 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
             *++end = centre - half * sin(0.5 * M_PI * (across - 2 * i) / across);
         *++end = span[k].to;
         if (k + 1 < count)
-            end = put_between(
-                span[k].to, span[k + 1].from, step,
-                edge_step(span + k + 1, elements_across(all, count, span, k + 1)), end);
+            end =
+                put_between(span[k].to, span[k + 1].from, step,
+                            edge_step(span + k + 1, elements_across(all, count, span, k + 1)), end);
     }
     const int right = distances(step, last->margin_right, to - last->to, distance);
     for (int k = 0; k < right; k++)
@@ -336,13 +326,12 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
 }
 
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                 double from, double to, rb_rolling_mesh *mesh,
-                                 rb_message *why)
+                                 double from, double to, rb_rolling_mesh *mesh, rb_message *why)
 {
     const rb_rolling_span span = {.from = from, .to = to};
 
-    return rb_rolling_mesh_spans(rc, plan ? plan->elements : rc->contact_elements, 1,
-                                 &span, mesh, why);
+    return rb_rolling_mesh_spans(rc, plan ? plan->elements : rc->contact_elements, 1, &span, mesh,
+                                 why);
 }
 
 /* ---- The mesh of a result ---------------------------------------------------------- */
@@ -356,8 +345,7 @@ static double half_extent(const rb_rolling_case *rc, double x, double h)
     return 0.5 * h * sqrt(1.0 - gsl_pow_2(x / apothem));
 }
 
-rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
-                                    const rb_rolling_elements *elements,
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why)
 {
     const int n = elements->n;

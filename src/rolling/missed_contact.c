@@ -85,8 +85,7 @@ static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body 
         return RB_ENOMEM;
     cblas_daxpy(s->n, coupling, s->q, 1, q, 1);
     const rb_bem_edge_load loads = {s->n, s->ends, s->p, q};
-    const rb_status status =
-        rb_bem_surface_add_normal(&surface, &loads, at->n, at->x, at->w);
+    const rb_status status = rb_bem_surface_add_normal(&surface, &loads, at->n, at->x, at->w);
     free(q);
     return status;
 }
@@ -102,8 +101,8 @@ static int by_x(const void *a, const void *b)
 }
 
 /* u_y of boundary elements by their system. */
-static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_state *state,
-                            int is_b, double coupling, const rb_bem_mesh *mesh, double *u)
+static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
+                            double coupling, const rb_bem_mesh *mesh, double *u)
 {
     const int n = model->mesh.n;
     double *t_c = rb_alloc(2 * (size_t)n, 1), *all = rb_alloc(2 * (size_t)mesh->n, 2);
@@ -114,8 +113,8 @@ static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_stat
         t_c[2 * i + 1] = state->p[i];
     }
     if (s == RB_OK)
-        s = rb_bem_system_solve(is_b ? model->bodies.system_b : model->bodies.system_a,
-                                t_c, all, all + 2 * mesh->n);
+        s = rb_bem_system_solve(is_b ? model->bodies.system_b : model->bodies.system_a, t_c, all,
+                                all + 2 * mesh->n);
     for (int j = 0; j < mesh->n && s == RB_OK; j++)
         u[j] = all[2 * j + 1];
     free(t_c);
@@ -141,11 +140,10 @@ static rb_status waved_rim(const rb_rolling_model *model, int is_b, double coupl
 }
 
 /* Of the lower half of a wheel, between the midpoints of its boundary elements. */
-static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state,
-                           int is_b, const strips *loads, const targets *to)
+static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
+                           const strips *loads, const targets *to)
 {
-    const double radius = (is_b ? model->rc->b : model->rc->a).radius,
-                 coupling = is_b ? -1.0 : 1.0;
+    const double radius = (is_b ? model->rc->b : model->rc->a).radius, coupling = is_b ? -1.0 : 1.0;
     const int solved = (is_b ? model->bodies.system_b : model->bodies.system_a) != NULL;
     rb_bem_mesh mesh;
     rb_status s = rb_rolling_boundary_mesh(model, is_b, &mesh, NULL);
@@ -209,9 +207,8 @@ static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_stat
 /* Pressed half-planes are displaced the less the further away: between from and to
  * nowhere less than at that length from either end.  A bound for wheels is not needed:
  * all their places cost one solve. */
-static rb_status least_displacement(const rb_rolling_model *model,
-                                    const rb_contact_state *state, const strips *s,
-                                    double from, double to, double *least)
+static rb_status least_displacement(const rb_rolling_model *model, const rb_contact_state *state,
+                                    const strips *s, double from, double to, double *least)
 {
     const double x[2] = {2.0 * from - to, 2.0 * to - from};
     double w[2] = {0.0, 0.0};
@@ -227,9 +224,8 @@ static rb_status least_displacement(const rb_rolling_model *model,
 /* w: w_N at the places x, whose last two are the outermost midpoints of the mesh.  There
  * the flexibility is known, from which the boundary elements of a wheel differ a little:
  * the difference is taken off all along. */
-static rb_status displacement(const rb_rolling_model *model,
-                              const rb_contact_state *state, const strips *s,
-                              const targets *to)
+static rb_status displacement(const rb_rolling_model *model, const rb_contact_state *state,
+                              const strips *s, const targets *to)
 {
     const int n = model->mesh.n, left = to->n - 2, right = to->n - 1;
     const double *x = to->x;
@@ -258,9 +254,8 @@ static int element_at(const rb_rolling_mesh *mesh, double x)
 {
     if (x < mesh->ends[0])
         return -1;
-    return x < mesh->ends[mesh->n]
-               ? (int)gsl_interp_bsearch(mesh->ends, x, 0, (size_t)mesh->n)
-               : mesh->n;
+    return x < mesh->ends[mesh->n] ? (int)gsl_interp_bsearch(mesh->ends, x, 0, (size_t)mesh->n)
+                                   : mesh->n;
 }
 
 static double shortest(const rb_rolling_mesh *mesh)
@@ -273,8 +268,7 @@ static double shortest(const rb_rolling_mesh *mesh)
 
 /* 1 beyond the mesh and in open elements much longer than the shortest, which see the gap
  * at their midpoints only. */
-static int is_unseen(const rb_rolling_mesh *mesh, const rb_contact_state *state, double h,
-                     double x)
+static int is_unseen(const rb_rolling_mesh *mesh, const rb_contact_state *state, double h, double x)
 {
     const int i = element_at(mesh, x);
 
@@ -293,8 +287,8 @@ typedef struct {
 
 /* Appends the rows of a table and places between them, thinned out where they are very
  * many; returns how many places there are now. */
-static int add_places(const rb_rolling_model *model, const rb_contact_state *state,
-                      const table *t, double *x, int n)
+static int add_places(const rb_rolling_model *model, const rb_contact_state *state, const table *t,
+                      double *x, int n)
 {
     const double h = shortest(&model->mesh);
     const int all = BETWEEN * (t->n - 1), stride = 1 + all / MOST_PLACES;
@@ -356,8 +350,8 @@ static double hertz_edge_gap(const rb_rolling_model *model, const rb_contact_sta
 }
 
 /* The same in the room for x, w and gap. */
-static rb_status look(const rb_rolling_model *model, const rb_contact_state *state,
-                      const strips *s, size_t scratch, double *x, rb_rolling_overlap *o)
+static rb_status look(const rb_rolling_model *model, const rb_contact_state *state, const strips *s,
+                      size_t scratch, double *x, rb_rolling_overlap *o)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
     const double tolerance = NEGLIGIBLE * hertz_edge_gap(model, state);
@@ -374,8 +368,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
         if (t[k].n > 1)
             places = add_places(model, state, &t[k], x, places);
     qsort(x, (size_t)places, sizeof *x, by_value);
-    rb_status status =
-        rb_rolling_gap_along(model->rc, model->mesh.passed, places, x, gap);
+    rb_status status = rb_rolling_gap_along(model->rc, model->mesh.passed, places, x, gap);
 
     if (status != RB_OK || places == 0)
         return status;
@@ -407,8 +400,8 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
     return status;
 }
 
-rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
-                                  const rb_contact_state *state, rb_rolling_overlap *o)
+rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
+                                  rb_rolling_overlap *o)
 {
     const rb_rolling_case *rc = model->rc;
     strips s = {0};
@@ -432,8 +425,8 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
 
 /* ---- Whether the mesh holds the contact -------------------------------------------- */
 
-static rb_status check_end(const rb_rolling_model *model, const rb_contact_state *state,
-                           int right, rb_message *why)
+static rb_status check_end(const rb_rolling_model *model, const rb_contact_state *state, int right,
+                           rb_message *why)
 {
     const int n = model->mesh.n;
     const double x = model->mesh.ends[right ? n : 0];
@@ -445,14 +438,12 @@ static rb_status check_end(const rb_rolling_model *model, const rb_contact_state
     const double rounding = 1e-9 * (to - from);
     const int no_room = right ? x >= to - rounding : x <= from + rounding;
     if (no_room && model->rc->gap == RB_GAP_TABLE)
-        return rb_fail(
-            why, RB_ZONE,
-            "the contact reaches x = %g mm, and the gap table or the wheel has x "
-            "from %g to %g mm only",
-            x, from, to);
-    if (no_room)
         return rb_fail(why, RB_ZONE,
-                       "the contact does not end within %g mm of the lowest point",
+                       "the contact reaches x = %g mm, and the gap table or the wheel has x "
+                       "from %g to %g mm only",
+                       x, from, to);
+    if (no_room)
+        return rb_fail(why, RB_ZONE, "the contact does not end within %g mm of the lowest point",
                        fabs(x));
     return rb_fail(why, RB_ZONE,
                    "the contact reaches the end of the potential contact at x = %g mm; "
@@ -460,8 +451,8 @@ static rb_status check_end(const rb_rolling_model *model, const rb_contact_state
                    x);
 }
 
-rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
-                                    const rb_contact_state *state, rb_message *why)
+rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_contact_state *state,
+                                    rb_message *why)
 {
     rb_rolling_overlap overlap;
     rb_status s = check_end(model, state, 0, why);

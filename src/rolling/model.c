@@ -52,16 +52,16 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 {
     const double start = rb_seconds();
     const int iterates = rb_rolling_law_depends_on_state(model->rc);
-    rb_status s = iterates ? rb_rolling_law_solve(model, warm, why)
-                           : rb_rolling_problem_solve(&model->problem, model->rc, warm,
-                                                      &model->state, why);
+    rb_status s =
+        iterates ? rb_rolling_law_solve(model, warm, why)
+                 : rb_rolling_problem_solve(&model->problem, model->rc, warm, &model->state, why);
 
     if (!iterates)
         model->iterations += model->state.iterations;
     model->seconds_lcp += rb_seconds() - start;
     if (s >= 0)
-        model->half_width = rb_rolling_hertz_half_width(
-            model->rc, fmax(0.0, rb_rolling_model_load(model)));
+        model->half_width =
+            rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
     if (s == RB_OK)
         s = model->state.status = rb_rolling_check_enclosed(model, &model->state, why);
     return s;
@@ -75,8 +75,7 @@ static rb_status meet_ratio(rb_rolling_model *model, rb_status s, rb_message *wh
     const rb_rolling_case *rc = model->rc;
     double step = NAN, excess_before = NAN, missing = INFINITY;
 
-    if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
-        model->problem.load_given)
+    if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC || model->problem.load_given)
         return s;
     for (int k = 0; s == RB_OK; k++) {
         const double xi = rb_rolling_creepage_of_ratio(model, rc->creep_ratio);
@@ -116,13 +115,11 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     fewer.elements = rb_rolling_coarse_elements(model->mesh.n);
     rb_status s = rb_rolling_model_begin(model->rc, &fewer, &coarse, why);
     if (s == RB_OK)
-        s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n],
-                                    &mesh, why);
+        s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n], &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&coarse, &mesh, why);
     if (s >= 0)
-        rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh,
-                              &model->state);
+        rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh, &model->state);
     if (s == RB_OK) {
         double *bound = rb_rolling_friction_of(&coarse);
         rb_rolling_follow_friction(&coarse.mesh, bound, model);
@@ -137,9 +134,9 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
 {
-    rb_status s = kept ? RB_OK
-                       : rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh,
-                                                  &model->bodies, why);
+    rb_status s =
+        kept ? RB_OK
+             : rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh, &model->bodies, why);
     if (s == RB_OK)
         s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
@@ -150,15 +147,13 @@ rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
 {
     if (model->bodies.F || model->mesh.n >= RB_ROLLING_LARGE)
         return RB_OK;
-    const rb_status s =
-        rb_rolling_bodies_add_matrix(model->rc, &model->mesh, &model->bodies, why);
-    return s == RB_OK ? rb_rolling_problem_renew_operator(model->rc, &model->bodies,
-                                                          &model->problem, why)
-                      : s;
+    const rb_status s = rb_rolling_bodies_add_matrix(model->rc, &model->mesh, &model->bodies, why);
+    return s == RB_OK
+               ? rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why)
+               : s;
 }
 
-rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
-                                     const rb_rolling_elements *elements,
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
                                      rb_rolling_model *model, rb_message *why)
 {
     rb_status s = rb_rolling_model_set_case(model, rc, why);
@@ -169,15 +164,14 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
     return s == RB_OK ? set_up(model, 0, why) : s;
 }
 
-rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
-                                 rb_message *why)
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why)
 {
     const int kept = model->same_bodies && model->mesh.n == mesh->n &&
                      memcmp(model->mesh.ends, mesh->ends,
                             ((size_t)model->mesh.n + 2) * sizeof *model->mesh.ends) == 0;
     /* the edges have been followed from another line to this one */
-    const int near = model->state.p && model->state.status == RB_OK &&
-                     model->rc->mesh == RB_MESH_ALIGNED;
+    const int near =
+        model->state.p && model->state.status == RB_OK && model->rc->mesh == RB_MESH_ALIGNED;
     rb_rolling_mesh old_mesh = model->mesh;
     rb_contact_state old = model->state;
     double *bound = near ? rb_rolling_friction_of(model) : NULL;
@@ -207,8 +201,8 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     }
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
-    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) ||
-        !large || model->mesh.n >= RB_ROLLING_LARGE)
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) || !large ||
+        model->mesh.n >= RB_ROLLING_LARGE)
         return s;
     s = rb_rolling_model_add_matrix(model, why);
     if (s == RB_OK)

@@ -10,8 +10,7 @@
 
 static const rb_choice planes[] = {
     {"strain", RB_PLANE_STRAIN}, {"stress", RB_PLANE_STRESS}, {NULL, 0}};
-static const rb_choice gaps[] = {
-    {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
+static const rb_choice gaps[] = {{"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
 static const rb_choice formulations[] = {
     {"static", RB_STATIC}, {"steady", RB_STEADY}, {"transient", RB_TRANSIENT}, {NULL, 0}};
 static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
@@ -20,17 +19,14 @@ static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
                                    {NULL, 0}};
 static const rb_choice slip_operators[] = {
     {"upstream", RB_SLIP_UPSTREAM}, {"second", RB_SLIP_SECOND}, {NULL, 0}};
-static const rb_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
-                                    {"surface", RB_BEM_NORMALS_SURFACE},
-                                    {NULL, 0}};
+static const rb_choice normals[] = {
+    {"obstacle", RB_BEM_NORMALS_OBSTACLE}, {"surface", RB_BEM_NORMALS_SURFACE}, {NULL, 0}};
 static const rb_choice near_fields[] = {{"auto", RB_NEAR_FIELD_AUTO},
                                         {"plain", RB_NEAR_FIELD_PLAIN},
                                         {"exact", RB_NEAR_FIELD_EXACT},
                                         {NULL, 0}};
-static const rb_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
-                                    {"lemke", RB_SOLVER_LEMKE},
-                                    {"newton", RB_SOLVER_NEWTON},
-                                    {NULL, 0}};
+static const rb_choice solvers[] = {
+    {"auto", RB_SOLVER_AUTO}, {"lemke", RB_SOLVER_LEMKE}, {"newton", RB_SOLVER_NEWTON}, {NULL, 0}};
 static const rb_choice lcp_forms[] = {
     {"pivoted", RB_LCP_PIVOTED}, {"kwak", RB_LCP_KWAK}, {NULL, 0}};
 
@@ -48,10 +44,9 @@ static const rb_choice systems[] = {
 const rb_option rb_case_table[] = {
     RB_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
     RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R", .common = 1),
-    RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E",
+    RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E", .common = 1),
+    RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5), "Poisson's ratio nu",
                    .common = 1),
-    RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio nu", .common = 1),
     RB_CHOICE_LINE("support", RC(a.support), rb_rolling_supports,
                    "how it is held: clamped arc at the top, rigid core, or a half-plane "
                    "instead of the cylinder's boundary",
@@ -60,34 +55,30 @@ const rb_option rb_case_table[] = {
                    "half-angle of the clamped arc"),
     RB_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", RB_BETWEEN(0, 1),
                    "radius of the rigid core / R"),
-    RB_NUMBER_LINE(
-        "datum", RC(a.datum), "mm", RB_ABOVE(0),
-        "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
-        "half-cylinder",
-        .word = "auto", .word_value = 0.0),
+    RB_NUMBER_LINE("datum", RC(a.datum), "mm", RB_ABOVE(0),
+                   "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
+                   "half-cylinder",
+                   .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness", RC(a.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of this material, bonded to a base",
                    .word = "none", .word_value = 0.0, .one_only = ONE_LAYER),
     RB_NUMBER_LINE("base-young", RC(a.base_young), "MPa", RB_ABOVE(0),
-                   "Young's modulus of the layer's base", .word = "rigid",
-                   .word_value = 0.0),
+                   "Young's modulus of the layer's base", .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("base-poisson", RC(a.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic base"),
     RB_NUMBER_LINE("cover-thickness", RC(a.cover), "mm", RB_ABOVE(0),
-                   "hub: thickness of a cover of this material, bonded to the core",
-                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER),
-    RB_NUMBER_LINE(
-        "core-young", RC(a.core_young), "MPa", RB_ABOVE(0),
-        "Young's modulus of the core, a ring between the cover and a rigid hub",
-        .word = "rigid", .word_value = 0.0),
+                   "hub: thickness of a cover of this material, bonded to the core", .word = "none",
+                   .word_value = 0.0, .one_only = ONE_COVER),
+    RB_NUMBER_LINE("core-young", RC(a.core_young), "MPa", RB_ABOVE(0),
+                   "Young's modulus of the core, a ring between the cover and a rigid hub",
+                   .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("core-poisson", RC(a.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic core"),
-    RB_NUMBER_LINE(
-        "relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),
-        "relaxation times tau_k of the creep compliance J(t) E = 1 + sum f_k (1 - "
-        "exp(-t/tau_k)); --young is then the instantaneous (glassy) modulus. "
-        "Static contact needs a history in time",
-        .unset = "elastic", .list = PLACE(memory_a.times)),
+    RB_NUMBER_LINE("relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),
+                   "relaxation times tau_k of the creep compliance J(t) E = 1 + sum f_k (1 - "
+                   "exp(-t/tau_k)); --young is then the instantaneous (glassy) modulus. "
+                   "Static contact needs a history in time",
+                   .unset = "elastic", .list = PLACE(memory_a.times)),
     RB_NUMBER_LINE("relaxation-ratio", PLACE(memory_a.ratio), "-", RB_FROM(0),
                    "the amplitudes f_k, one per --relaxation-time; for one term f = "
                    "E_glassy/E_rubbery - 1",
@@ -103,18 +94,16 @@ const rb_option rb_case_table[] = {
                  "viscoelasticity",
                  .excludes = RB_ONE_YOUNG_B | RB_ONE_POISSON_B, .common = 1),
     RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
-                   "Young's modulus; makes B elastic", .unset = "rigid",
-                   .excludes = RB_ONE_YOUNG_B, .common = 1, .into = RC(b.young),
-                   .of_a = RC(a.young), .if_similar = 1),
-    RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5),
-                   "Poisson's ratio", .unset = "A's", .excludes = RB_ONE_POISSON_B,
-                   .into = RC(b.poisson), .of_a = RC(a.poisson)),
+                   "Young's modulus; makes B elastic", .unset = "rigid", .excludes = RB_ONE_YOUNG_B,
+                   .common = 1, .into = RC(b.young), .of_a = RC(a.young), .if_similar = 1),
+    RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5), "Poisson's ratio",
+                   .unset = "A's", .excludes = RB_ONE_POISSON_B, .into = RC(b.poisson),
+                   .of_a = RC(a.poisson)),
     RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ANY,
                    "radius of an elastic B, or plane; < 0: a bore around A (outer race, "
                    "bearing of a journal, internal gear)",
                    .word = "plane", .word_value = INFINITY, .into = RC(b.radius)),
-    RB_CHOICE_LINE("support-b", RC(b.support), rb_rolling_supports,
-                   "how an elastic B is held"),
+    RB_CHOICE_LINE("support-b", RC(b.support), rb_rolling_supports, "how an elastic B is held"),
     RB_NUMBER_LINE("arc-b", RC(b.arc), "degrees", RB_ABOVE_UPTO(0, 90),
                    "half-angle of its clamped arc"),
     RB_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", RB_BETWEEN(0, 1),
@@ -124,9 +113,8 @@ const rb_option rb_case_table[] = {
                    "of A's for a plane",
                    .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness-b", RC(b.layer), "mm", RB_ABOVE(0),
-                   "halfplane: thickness of a layer of its material on a base",
-                   .word = "none", .word_value = 0.0, .one_only = ONE_LAYER,
-                   .of_a = RC(a.layer), .if_similar = 1),
+                   "halfplane: thickness of a layer of its material on a base", .word = "none",
+                   .word_value = 0.0, .one_only = ONE_LAYER, .of_a = RC(a.layer), .if_similar = 1),
     RB_NUMBER_LINE("base-young-b", RC(b.base_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of that base", .word = "rigid", .word_value = 0.0,
                    .of_a = RC(a.base_young), .if_similar = 1),
@@ -134,9 +122,8 @@ const rb_option rb_case_table[] = {
                    "Poisson's ratio of an elastic base", .of_a = RC(a.base_poisson),
                    .if_similar = 1),
     RB_NUMBER_LINE("cover-thickness-b", RC(b.cover), "mm", RB_ABOVE(0),
-                   "hub: thickness of a cover of its material on its core",
-                   .word = "none", .word_value = 0.0, .one_only = ONE_COVER,
-                   .of_a = RC(a.cover), .if_similar = 1),
+                   "hub: thickness of a cover of its material on its core", .word = "none",
+                   .word_value = 0.0, .one_only = ONE_COVER, .of_a = RC(a.cover), .if_similar = 1),
     RB_NUMBER_LINE("core-young-b", RC(b.core_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of that core", .word = "rigid", .word_value = 0.0,
                    .of_a = RC(a.core_young), .if_similar = 1),
@@ -145,14 +132,14 @@ const rb_option rb_case_table[] = {
                    .if_similar = 1),
     RB_NUMBER_LINE("relaxation-time-b", PLACE(memory_b.time), "s", RB_ABOVE(0), "as of A",
                    .unset = "elastic", .list = PLACE(memory_b.times)),
-    RB_NUMBER_LINE("relaxation-ratio-b", PLACE(memory_b.ratio), "-", RB_FROM(0),
-                   "as of A", .unset = "elastic", .list = PLACE(memory_b.ratios)),
+    RB_NUMBER_LINE("relaxation-ratio-b", PLACE(memory_b.ratio), "-", RB_FROM(0), "as of A",
+                   .unset = "elastic", .list = PLACE(memory_b.ratios)),
 
     RB_GROUP_LINE("gap", "Initial gap"),
     RB_CHOICE_LINE("gap", RC(gap), gaps,
                    "x^2/(2R), the exact circle, or a file of rows x, gap [mm]",
-                   .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
-                   .path_name = "FILE", .file = RB_FILE_READ),
+                   .path = PLACE(gap_file), .path_value = RB_GAP_TABLE, .path_name = "FILE",
+                   .file = RB_FILE_READ),
     RB_NUMBER_LINE(
         "gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
         "standard deviation of the noise in the gap file; the gap is then the smoothest "
@@ -171,14 +158,13 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
-                   "Coulomb's coefficient; curve: several, separated by commas",
-                   .list = PLACE(mus), .excludes = RB_ONE_FRICTION, .common = 1),
-    RB_CHOICE_LINE(
-        "friction-law", RC(friction.law), laws,
-        RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
-                                              "between them, constant beyond",
-        .path = PLACE(friction_file), .path_value = RB_FRICTION_table,
-        .path_name = "FILE", .file = RB_FILE_READ),
+                   "Coulomb's coefficient; curve: several, separated by commas", .list = PLACE(mus),
+                   .excludes = RB_ONE_FRICTION, .common = 1),
+    RB_CHOICE_LINE("friction-law", RC(friction.law), laws,
+                   RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
+                                                         "between them, constant beyond",
+                   .path = PLACE(friction_file), .path_value = RB_FRICTION_table,
+                   .path_name = "FILE", .file = RB_FILE_READ),
     RB_NUMBER_LINE("mu-fall", PLACE(law.fall), "-", RB_ANY,
                    "m1[,m2]: decrease of the coefficient from rest to high slip velocity",
                    .unset = "none", .list = PLACE(law.falls)),
@@ -189,18 +175,16 @@ const rb_option rb_case_table[] = {
                    "d[,s0]: the coefficient approaches the law over a sliding distance "
                    "d; at rest it changes as if sliding at s0 (1 mm/s)",
                    .unset = "none", .list = PLACE(law.memories)),
-    RB_NUMBER_LINE(
-        "mu-heat",
-        PLACE(law.heat), "-", RB_ANY,
-        "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
-        "rises from Tref to Tref + dT [K]; see --conductivity",
-        .unset = "none", .list = PLACE(law.heats)),
+    RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
+                   "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
+                   "rises from Tref to Tref + dT [K]; see --conductivity",
+                   .unset = "none", .list = PLACE(law.heats)),
 
     RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic or plastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
                    "its normal compliance: displacement per pressure"),
-    RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa",
-                   RB_FROM(0), "its tangential compliance: thickness over shear modulus"),
+    RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa", RB_FROM(0),
+                   "its tangential compliance: thickness over shear modulus"),
     RB_NUMBER_LINE("yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
                    "shear stress at which the third body yields, a second bound on "
                    "friction besides mu p",
@@ -215,43 +199,38 @@ const rb_option rb_case_table[] = {
                    "of A; if it is given, temperatures are computed, which needs --speed",
                    .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("heat-capacity", RC(heat_a.heat_capacity), "MJ/(m3 K)", RB_ABOVE(0),
-                   "of A: density times specific heat", .word = "none",
-                   .word_value = 0.0),
+                   "of A: density times specific heat", .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("temperature", RC(heat_a.temperature), "K", RB_ANY,
                    "of A far from the contact; 0: results are temperature rises"),
     RB_NUMBER_LINE("conductivity-b", PLACE(conductivity_b), "W/(m K)", RB_FROM(0),
                    "of B, rigid or elastic; 0: no heat enters B", .unset = "A's",
                    .into = RC(heat_b.conductivity), .of_a = RC(heat_a.conductivity)),
-    RB_NUMBER_LINE("heat-capacity-b", PLACE(heat_capacity_b), "MJ/(m3 K)", RB_ABOVE(0),
-                   "of B", .unset = "A's", .into = RC(heat_b.heat_capacity),
+    RB_NUMBER_LINE("heat-capacity-b", PLACE(heat_capacity_b), "MJ/(m3 K)", RB_ABOVE(0), "of B",
+                   .unset = "A's", .into = RC(heat_b.heat_capacity),
                    .of_a = RC(heat_a.heat_capacity)),
-    RB_NUMBER_LINE("temperature-b", PLACE(temperature_b), "K", RB_ANY,
-                   "of B far from the contact", .unset = "A's",
-                   .into = RC(heat_b.temperature), .of_a = RC(heat_a.temperature)),
+    RB_NUMBER_LINE("temperature-b", PLACE(temperature_b), "K", RB_ANY, "of B far from the contact",
+                   .unset = "A's", .into = RC(heat_b.temperature), .of_a = RC(heat_a.temperature)),
 
     RB_GROUP_LINE("normal", "Normal direction: one of"),
     RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
-                   "how far A is moved down, towards B", .unset = "R/2",
+                   "how far A is moved down, towards B", .unset = "R/2", .excludes = RB_ONE_NORMAL,
+                   .common = 1),
+    RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P", .unset = "not given",
                    .excludes = RB_ONE_NORMAL, .common = 1),
-    RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P",
-                   .unset = "not given", .excludes = RB_ONE_NORMAL, .common = 1),
     RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
-                   "the half-width a of Hertz; the load follows from it",
-                   .unset = "not given", .excludes = RB_ONE_NORMAL, .common = 1),
+                   "the half-width a of Hertz; the load follows from it", .unset = "not given",
+                   .excludes = RB_ONE_NORMAL, .common = 1),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
-    RB_NUMBER_LINE(
-        "shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",
-        .unset = "a tenth of the approach; 0 under load", .excludes = RB_ONE_LOADING),
-    RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY,
-                   "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
-                   .excludes = RB_ONE_CREEPAGE, .common = 1),
+    RB_NUMBER_LINE("shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",
+                   .unset = "a tenth of the approach; 0 under load", .excludes = RB_ONE_LOADING),
+    RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY, "creepage xi; > 0: braked wheel, Q < 0",
+                   .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", RB_ANY,
                    "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
                    .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),
-    RB_NUMBER_LINE("force", RC(force), "N/mm", RB_ANY,
-                   "tangential load Q on A, towards +x", .unset = "not given",
-                   .excludes = RB_ONE_LOADING),
+    RB_NUMBER_LINE("force", RC(force), "N/mm", RB_ANY, "tangential load Q on A, towards +x",
+                   .unset = "not given", .excludes = RB_ONE_LOADING),
     RB_NUMBER_LINE("force-ratio", RC(force_ratio), "-", RB_ANY, "Q/(mu P), the sign of Q",
                    .unset = "not given", .excludes = RB_ONE_LOADING, .common = 1),
     RB_FLAG_LINE("free-axle", RC(free_axle),
@@ -269,9 +248,8 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
                    "transient: rolled distance, in Hertz half-widths of the load",
                    .unset = "as --history says", .frozen = 1),
-    RB_INTEGER_LINE(
-        "steps", RC(steps), RB_FROM(0),
-        "transient: number of steps of equal length; 0: steps of at most one element"),
+    RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
+                    "transient: number of steps of equal length; 0: steps of at most one element"),
     RB_TEXT_LINE("history", PLACE(history_file), "FILE",
                  "table with named columns: distance (transient, in Hertz half-widths of "
                  "the largest load), time [s] (static, viscoelastic bodies), mu, load or "
@@ -289,13 +267,12 @@ const rb_option rb_case_table[] = {
                    "loads per unit of thickness"),
 
     RB_GROUP_LINE("mesh", "Mesh"),
-    RB_CHOICE_LINE(
-        "mesh", RC(mesh), meshes,
-        "equal elements, fitted to the contact edges, or equal ones aligned with them",
-        .unset = "fitted in steady rolling under a given load, half-width or "
-                 "approach without zone and gap file, aligned from 1500 elements on; "
-                 "else uniform",
-        .common = 1),
+    RB_CHOICE_LINE("mesh", RC(mesh), meshes,
+                   "equal elements, fitted to the contact edges, or equal ones aligned with them",
+                   .unset = "fitted in steady rolling under a given load, half-width or "
+                            "approach without zone and gap file, aligned from 1500 elements on; "
+                            "else uniform",
+                   .common = 1),
     RB_CHOICE_LINE("slip-operator", RC(slip_operator), slip_operators,
                    "steady, equal elements: difference to the element upstream, or of "
                    "second order",
@@ -308,14 +285,11 @@ const rb_option rb_case_table[] = {
                    "half-width of the potential contact; auto: enlarged until each end "
                    "has three separated elements",
                    .word = "auto", .word_value = 0.0, .frozen = 1),
-    RB_INTEGER_LINE(
-        "outer-elements", RC(outer_elements), RB_FROM(0),
-        "number on the circle outside the contact, one more if that makes the mesh "
-        "symmetric; 0: graded, neighbours differ by at most a fifth"),
-    RB_CHOICE_LINE(
-        "normals",
-        RC(normals), normals,
-        "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
+    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
+                    "number on the circle outside the contact, one more if that makes the mesh "
+                    "symmetric; 0: graded, neighbours differ by at most a fifth"),
+    RB_CHOICE_LINE("normals", RC(normals), normals,
+                   "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
     RB_CHOICE_LINE(
         "near-field", RC(near_field), near_fields,
         "displacements close to a load on a wheel: by plain boundary elements, or by the "
@@ -343,11 +317,10 @@ const rb_option rb_case_table[] = {
     RB_FLAG_LINE("error", PLACE(error),
                  "error bars: estimates of the discretisation error from coarser meshes",
                  .common = 1),
-    RB_NUMBER_LINE(
-        "accuracy", PLACE(accuracy), "-", RB_BETWEEN(0, 1),
-        "refine until the relative error of forces, half-width, p0 and creepage "
-        "is estimated below this",
-        .word = "off", .word_value = 0.0, .frozen = 1),
+    RB_NUMBER_LINE("accuracy", PLACE(accuracy), "-", RB_BETWEEN(0, 1),
+                   "refine until the relative error of forces, half-width, p0 and creepage "
+                   "is estimated below this",
+                   .word = "off", .word_value = 0.0, .frozen = 1),
 };
 
 const int rb_case_table_n = sizeof rb_case_table / sizeof rb_case_table[0];
@@ -373,11 +346,9 @@ const char *rb_option_expected(const rb_option *o, char *text, size_t size)
         rb_format(range, sizeof range, " in %c%g, %g%c", o->range.from_open ? '(' : '[',
                   o->range.from, o->range.to, o->range.to_open ? ')' : ']');
     else if (isfinite(o->range.from))
-        rb_format(range, sizeof range, " %s %g",
-                  o->range.from_open ? ">" : ">=", o->range.from);
+        rb_format(range, sizeof range, " %s %g", o->range.from_open ? ">" : ">=", o->range.from);
     else if (isfinite(o->range.to))
-        rb_format(range, sizeof range, " %s %g",
-                  o->range.to_open ? "<" : "<=", o->range.to);
+        rb_format(range, sizeof range, " %s %g", o->range.to_open ? "<" : "<=", o->range.to);
     else
         range[0] = '\0';
     switch (o->kind) {
@@ -444,17 +415,16 @@ rb_status rb_rolling_check_number(const char *option, double value, rb_message *
     return rb_option_in_range(o, value) ? RB_OK : refuse(o, value, why);
 }
 
-rb_status rb_rolling_check_ranges(const rb_rolling_case *rc,
-                                  const rb_rolling_case *defaults, rb_message *why)
+rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
+                                  rb_message *why)
 {
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const size_t at = o->into ? o->into : o->offset;
         const int of_a = at >= RC(a) && at < RC(a) + sizeof rc->a,
                   of_b = at >= RC(b) && at < RC(b) + sizeof rc->b,
                   of_heat_b = at >= RC(heat_b) && at < RC(heat_b) + sizeof rc->heat_b;
-        if ((o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER) ||
-            at >= sizeof *rc || (of_b && !rc->elastic_b) ||
-            (of_heat_b && rc->heat_a.conductivity == 0.0) ||
+        if ((o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER) || at >= sizeof *rc ||
+            (of_b && !rc->elastic_b) || (of_heat_b && rc->heat_a.conductivity == 0.0) ||
             ((of_a || of_b) && !rb_option_applies(o, of_b ? &rc->b : &rc->a)))
             continue;
         const double x = number_at(rc, o, at), unset = number_at(defaults, o, at);

@@ -18,8 +18,8 @@ static double midpoint(const rb_rolling_mesh *mesh, int i)
  * decided at midpoints: the edge lies between those of the last loaded and of the first
  * open element.  run->bounded: set where this interval is all that is known, because p
  * does not fall or the power law misses the interval by more than its length. */
-static double edge(double beta, const rb_rolling_mesh *mesh,
-                   const rb_contact_state *state, int side, rb_rolling_run *run)
+static double edge(double beta, const rb_rolling_mesh *mesh, const rb_contact_state *state,
+                   int side, rb_rolling_run *run)
 {
     const int outer = side > 0 ? run->last : run->first, open = outer + side;
     const double end = mesh->ends[side > 0 ? outer + 1 : outer];
@@ -35,8 +35,7 @@ static double edge(double beta, const rb_rolling_mesh *mesh,
      * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
      * without friction, without coupling and in stick like a square root.  i, j: elements
      * near the edge, a slip zone that is shorter than they are does not count. */
-    const int slides =
-        state->zone[j] != RB_ZONE_STICK && state->zone[(j - side)] == state->zone[j];
+    const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[(j - side)] == state->zone[j];
 
     const double exponent =
         slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI : 0.5;
@@ -75,8 +74,8 @@ static double root_beyond(double y0, double y1, double y2)
 
 /* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
  * patch of RB_ROLLING_ALIGNED_LEAST equal elements or more. */
-static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                           const double *p, int outer, int side)
+static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh, const double *p,
+                           int outer, int side)
 {
     const int third = outer - 2 * side;
     const double *end = mesh->ends + third, h = end[1] - end[0];
@@ -120,15 +119,13 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
 }
 
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                 const rb_contact_state *state, int at,
-                                 rb_rolling_run *run)
+                                 const rb_contact_state *state, int at, rb_rolling_run *run)
 {
     /* Where A slides, F_NN - mu F_NT of (K5) has its largest entries beside the diagonal,
      * not on it, once mu beta > 1 or so: every other element opens, however small they
      * are. */
     const int one_place = rb_rolling_is_convex(rc),
-              alternates =
-                  rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
+              alternates = rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
     rb_rolling_run next;
 
     if (!rb_rolling_next_patch(rc, mesh, state, at, run))
@@ -147,8 +144,7 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
     rb_rolling_run run = {.last = -1};
 
     *from = *to = NAN;
-    for (int at = 0; rb_rolling_next_patch(rc, mesh, state, at, &run);
-         at = run.last + 1) {
+    for (int at = 0; rb_rolling_next_patch(rc, mesh, state, at, &run); at = run.last + 1) {
         if (isnan(*from))
             *from = run.from;
         *to = run.to;
@@ -159,8 +155,8 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
  * Hertz's ellipse. */
-static void set_peak(const rb_rolling_mesh *mesh, const double *p,
-                     const rb_rolling_run *run, rb_rolling_patch *patch)
+static void set_peak(const rb_rolling_mesh *mesh, const double *p, const rb_rolling_run *run,
+                     rb_rolling_patch *patch)
 {
     int k = run->first;
 
@@ -186,8 +182,7 @@ static int count_patches(const rb_rolling_model *model)
     rb_rolling_run run = {.last = -1};
     int count = 0;
 
-    while (
-        rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
         count++;
     return count;
 }
@@ -198,8 +193,7 @@ double rb_rolling_peak_pressure(const rb_rolling_model *model)
     rb_rolling_patch patch;
     double p0 = 0.0;
 
-    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
-                                 &run)) {
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
         set_peak(&model->mesh, model->state.p, &run, &patch);
         p0 = fmax(p0, patch.max_pressure);
     }
@@ -215,8 +209,7 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
     s->patch = calloc((size_t)count_patches(model) + 1, sizeof *s->patch);
     if (!s->patch)
         return RB_ENOMEM;
-    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1,
-                                 &run)) {
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
         const rb_contact_problem *problem = &model->problem;
         const rb_contact_state *state = &model->state;
         rb_rolling_patch patch = {.from = run.from, .to = run.to};

@@ -17,8 +17,7 @@ static int slides(int n, const double *lambda, const double *traction)
 
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
 {
-    const int none =
-        s->formulation != RB_STATIC && s->n > 0 && !slides(s->n, s->shift, s->q);
+    const int none = s->formulation != RB_STATIC && s->n > 0 && !slides(s->n, s->shift, s->q);
 
     for (int i = 0; i < s->n; i++) {
         const double before = i > 0 ? s->shift[i - 1] : 0.0;
@@ -35,8 +34,7 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
  * the slip between two midpoints, so it is paired with the mean of their tractions
  * (theory.md 6); otherwise slip and traction belong to the same point. */
 static double slip_times(const rb_rolling_case *rc, int n, const double *lambda,
-                         const double *traction, const double *h, const double *e_T,
-                         int i)
+                         const double *traction, const double *h, const double *e_T, int i)
 {
     const double next = i + 1 < n ? traction[i + 1] : 0.0;
     return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM
@@ -44,8 +42,8 @@ static double slip_times(const rb_rolling_case *rc, int n, const double *lambda,
                : lambda[i] / e_T[i] * traction[i] * h[i];
 }
 
-static double paired_power(const rb_rolling_case *rc, int n, const double *lambda,
-                           const double *q, const double *h, const double *e_T)
+static double paired_power(const rb_rolling_case *rc, int n, const double *lambda, const double *q,
+                           const double *h, const double *e_T)
 {
     double power = 0.0;
 
@@ -74,8 +72,7 @@ double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *
 
 /* -int p w_N' dx by differences over the neighbours' unequal distances, exact for a
  * parabola, which the surface in contact is. */
-static double normal_work(int n, const double *x, const double *w, const double *p,
-                          const double *h)
+static double normal_work(int n, const double *x, const double *w, const double *p, const double *h)
 {
     double work = 0.0;
     for (int i = 1; i < n; i++) {
@@ -87,8 +84,8 @@ static double normal_work(int n, const double *x, const double *w, const double 
 }
 
 /* Equilibrium about the axles: pressure p at x and friction q at the distance R. */
-void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
-                        double *torque_a, double *torque_b)
+void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, double *torque_a,
+                        double *torque_b)
 {
     *torque_a = moment + force * rc->a.radius;
     /* a bore turns about the other side, the way A does */
@@ -116,8 +113,8 @@ static double work_of_memories(const rb_rolling_model *model, double *r, double 
             r[i] = state->p[i];
             r[n + i] = b ? -state->q[i] : state->q[i]; /* B's own frame */
         }
-        cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0,
-                    model->bodies.memory[b], rows, r, 1, 0.0, w, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0, model->bodies.memory[b], rows, r,
+                    1, 0.0, w, 1);
         /* -int t Dw ds of one body for the displacement w (2m) that its memory adds under
          * p, q. D w follows the material: on a wheel the frame of the surface turns with
          * it, so that D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); radius: INFINITY on a

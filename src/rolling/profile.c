@@ -35,28 +35,24 @@ static rb_status check_lowest(int n, const double *gap, rb_message *why)
     for (int i = 1; i < n - 1; i++)
         if (gap[i] < gap[end])
             return RB_OK;
-    return rb_fail(
-        why, RB_EINVAL,
-        "gap: row %d: the smallest gap, %g mm, is at an end of the table, which must "
-        "enclose the contact; gaps are positive where the bodies are apart",
-        end + 1, gap[end]);
+    return rb_fail(why, RB_EINVAL,
+                   "gap: row %d: the smallest gap, %g mm, is at an end of the table, which must "
+                   "enclose the contact; gaps are positive where the bodies are apart",
+                   end + 1, gap[end]);
 }
 
-rb_status rb_rolling_points_check(const char *what, int n, const double *x,
-                                  const double *gap, rb_message *why)
+rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
+                                  rb_message *why)
 {
     if (n < 3)
-        return rb_fail(why, RB_EINVAL, "%s: a table needs 3 points or more, got %d", what,
-                       n);
+        return rb_fail(why, RB_EINVAL, "%s: a table needs 3 points or more, got %d", what, n);
     for (int i = 0; i < n; i++)
         if (!isfinite(x[i]) || !isfinite(gap[i]))
-            return rb_fail(why, RB_EINVAL, "%s: row %d: not a finite number", what,
-                           i + 1);
+            return rb_fail(why, RB_EINVAL, "%s: row %d: not a finite number", what, i + 1);
     for (int i = 1; i < n; i++)
         if (x[i] <= x[i - 1])
             return rb_fail(why, RB_EINVAL,
-                           "%s: row %d: expected an x larger than in the row before",
-                           what, i + 1);
+                           "%s: row %d: expected an x larger than in the row before", what, i + 1);
     return RB_OK;
 }
 
@@ -141,8 +137,7 @@ static double distance_of(smoothing *s, double lambda)
             for (int q = p; q < BAND; q++)
                 s->band[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] +=
                     lambda * third[p] * third[q];
-    if (LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', size, BAND - 1, 1, s->band, BAND, s->c,
-                      size) != 0)
+    if (LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', size, BAND - 1, 1, s->band, BAND, s->c, size) != 0)
         return INFINITY;
     for (int i = 0; i < s->n; i++)
         sum += gsl_pow_2(value(s, s->x[i]) - s->residual[i]);
@@ -174,8 +169,7 @@ static rb_status smoothing_create(int n, const double *x, const double *gap, dou
         for (int p = 0; p < BAND; p++) {
             s->load[k + p] += weight * b[p] * s->residual[i];
             for (int q = p; q < BAND; q++)
-                s->normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] +=
-                    weight * b[p] * b[q];
+                s->normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] += weight * b[p] * b[q];
         }
     }
     /* The largest lambda that leaves the points within the noise (Morozov's principle).
@@ -197,19 +191,17 @@ static rb_status smoothing_create(int n, const double *x, const double *gap, dou
 
 /* ---- The curve --------------------------------------------------------------------- */
 
-static rb_status set_spline(rb_rolling_profile *p, int n, const double *x,
-                            const double *gap)
+static rb_status set_spline(rb_rolling_profile *p, int n, const double *x, const double *gap)
 {
     p->from = x[0];
     p->to = x[n - 1];
     p->spline = gsl_spline_alloc(gsl_interp_cspline, (size_t)n);
-    return p->spline && gsl_spline_init(p->spline, x, gap, (size_t)n) == 0 ? RB_OK
-                                                                           : RB_ENOMEM;
+    return p->spline && gsl_spline_init(p->spline, x, gap, (size_t)n) == 0 ? RB_OK : RB_ENOMEM;
 }
 
 /* Through the smoothed values at the ends of the intervals. */
-static rb_status set_smoothed(rb_rolling_profile *p, int n, const double *x,
-                              const double *gap, double noise)
+static rb_status set_smoothed(rb_rolling_profile *p, int n, const double *x, const double *gap,
+                              double noise)
 {
     smoothing s;
     rb_status status = smoothing_create(n, x, gap, noise, &s);
@@ -231,9 +223,8 @@ static rb_status set_smoothed(rb_rolling_profile *p, int n, const double *x,
     return status;
 }
 
-rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
-                                    double noise, rb_rolling_profile **profile,
-                                    rb_message *why)
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why)
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
@@ -241,8 +232,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
         if (!(isfinite(noise) && noise >= 0.0))
             s = rb_fail(why, RB_EINVAL, "gap smoothing: expected >= 0, got %g", noise);
         else {
-            if (noise > 0.0 &&
-                !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
+            if (noise > 0.0 && !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
                 s = rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
         }
     }
@@ -251,9 +241,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
     if (s != RB_OK)
         return s;
     rb_rolling_profile *p = calloc(1, sizeof *p);
-    s = !p            ? RB_ENOMEM
-        : noise > 0.0 ? set_smoothed(p, n, x, gap, noise)
-                      : set_spline(p, n, x, gap);
+    s = !p ? RB_ENOMEM : noise > 0.0 ? set_smoothed(p, n, x, gap, noise) : set_spline(p, n, x, gap);
     if (s != RB_OK) {
         rb_rolling_profile_free(p);
         return rb_fail(why, s, "out of memory for a gap of %d points", n);

@@ -15,15 +15,12 @@ static const motion at_rest = {0.0, 1.0};
 
 /* The elements of `of`, moved, with the gap of rc.  Equal ones on a wheel are arcs of its
  * circle between ends that stay. */
-static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of,
-                           int same_bodies, motion moved, rb_rolling_mesh *mesh,
-                           rb_message *why)
+static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of, int same_bodies,
+                           motion moved, rb_rolling_mesh *mesh, rb_message *why)
 {
-    if (!same_bodies && rc->mesh == RB_MESH_UNIFORM &&
-        !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
+    if (!same_bodies && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
         return rb_rolling_mesh_uniform(rc, NULL, moved.shift + moved.scale * of->ends[0],
-                                       moved.shift + moved.scale * of->ends[of->n], mesh,
-                                       why);
+                                       moved.shift + moved.scale * of->ends[of->n], mesh, why);
     mesh->n = of->n;
     mesh->ends = rb_alloc((size_t)of->n + 2, 1);
     mesh->gap = rb_alloc((size_t)of->n, 1);
@@ -82,8 +79,7 @@ static factors factors_of(const rb_rolling_case *rc)
         const double own = 0.5 * (1.0 - s.material.poisson) / s.material.shear;
         all.direct += own;
         all.datum += own * log(s.datum);
-        all.coupled +=
-            (k ? -0.25 : 0.25) * (1.0 - 2.0 * s.material.poisson) / s.material.shear;
+        all.coupled += (k ? -0.25 : 0.25) * (1.0 - 2.0 * s.material.poisson) / s.material.shear;
     }
     return all;
 }
@@ -106,8 +102,8 @@ static void sign_integral(const rb_bem_flexibility *f, const double *r, double *
 /* What the present tractions of the model displace more than they do, 2m, where its
  * bodies are those of rc and its elements `scale` times as long, wherever they stand: w0
  * of the variant. */
-static rb_status changed_displacement(const rb_rolling_model *of,
-                                      const rb_rolling_case *rc, double scale, double *w0)
+static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                      double scale, double *w0)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const rb_contact_state *state = &of->state;
@@ -148,8 +144,8 @@ static rb_status changed_displacement(const rb_rolling_model *of,
  * -------------------------------------------------------------------------- */
 
 /* The bodies that the model has, with what their change displaces as w0. */
-static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc,
-                               motion moved, rb_rolling_model *v)
+static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc, motion moved,
+                               rb_rolling_model *v)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const int moves = moved.scale != 1.0 || moved.shift != 0.0;
@@ -173,15 +169,13 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
 
 /* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
  * only where all results stay right. */
-static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                        int by_formula, motion moved, rb_rolling_model *v,
-                        rb_message *why)
+static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int by_formula,
+                        motion moved, rb_rolling_model *v, rb_message *why)
 {
     /* The formula must know how the flexibility changes.  kappa of a law asks for the
      * matrix itself. */
     const int borrows =
-        (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 &&
-         moved.shift == 0.0) ||
+        (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 && moved.shift == 0.0) ||
         (by_formula && are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
          rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
          (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
@@ -201,10 +195,9 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc,
                     "--outer-elements");
     if (s == RB_OK)
         s = borrows && of->rc->formulation == rc->formulation
-                ? rb_rolling_problem_share(rc, &v->mesh, &v->bodies, of->problem.op,
-                                           &v->problem, why)
-                : rb_rolling_problem_create(rc, &v->mesh, &v->bodies, NULL, &v->problem,
-                                            why);
+                ? rb_rolling_problem_share(rc, &v->mesh, &v->bodies, of->problem.op, &v->problem,
+                                           why)
+                : rb_rolling_problem_create(rc, &v->mesh, &v->bodies, NULL, &v->problem, why);
     if (s == RB_OK)
         s = rb_contact_state_alloc(of->mesh.n, &v->state);
     if (s == RB_OK)
@@ -219,8 +212,7 @@ rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, doub
 }
 
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                   double shift, double scale, rb_rolling_model *v,
-                                   rb_message *why)
+                                   double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
     const rb_status s = create(of, rc, 0, (motion){shift, scale}, v, why);
     return s == RB_OK ? rb_rolling_variant_complete(v, NULL, NULL, why) : s;
@@ -250,8 +242,7 @@ rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_
     if (s == RB_OK)
         s = rb_rolling_bodies_create(of->rc, &of->plan, &v->mesh, &v->bodies, why);
     if (s == RB_OK)
-        s = rb_rolling_problem_create(of->rc, &v->mesh, &v->bodies, NULL, &v->problem,
-                                      why);
+        s = rb_rolling_problem_create(of->rc, &v->mesh, &v->bodies, NULL, &v->problem, why);
     if (s == RB_OK)
         s = rb_rolling_model_add_matrix(v, why);
     if (s == RB_OK)
@@ -309,8 +300,7 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *
     free(room);
     for (int i = 0; i < state->n; i++) {
         state->lambda[i] *= state->zone[i] != RB_ZONE_STICK;
-        state->plastic[i] =
-            state->zone[i] > RB_ZONE_SLIP_POSITIVE ? state->lambda[i] : 0.0;
+        state->plastic[i] = state->zone[i] > RB_ZONE_SLIP_POSITIVE ? state->lambda[i] : 0.0;
     }
     v->half_width = rb_rolling_hertz_half_width(rc, fmax(0.0, rb_rolling_model_load(v)));
     if (!p->force_given && !p->load_given && rc->formulation != RB_STATIC &&

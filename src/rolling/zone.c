@@ -68,18 +68,16 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
         const int n = model->mesh.n;
-        const double longest =
-            rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
+        const double longest = rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
         const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
-        if (thickness > 0.0 &&
-            rb_rolling_material(rc, bodies[b]).poisson > nearly_incompressible &&
+        if (thickness > 0.0 && rb_rolling_material(rc, bodies[b]).poisson > nearly_incompressible &&
             h > thickness * (1.0 + 1e-9))
             return rb_fail(why, RB_EINVAL,
                            "%s thickness: with nu = %g the elements, %.3g mm, may not be "
                            "longer than the thickness, %g mm; take %.0f contact elements "
                            "or more, twice as many with error bars",
-                           bodies[b]->layer > 0.0 ? "layer" : "cover", bodies[b]->poisson,
-                           h, thickness, ceil(rc->contact_elements * h / thickness));
+                           bodies[b]->layer > 0.0 ? "layer" : "cover", bodies[b]->poisson, h,
+                           thickness, ceil(rc->contact_elements * h / thickness));
     }
     return RB_OK;
 }
@@ -88,15 +86,14 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why)
 {
     const char *what = "";
-    const double strain = rb_rolling_strain(model->rc, model->state.delta,
-                                            rb_rolling_peak_pressure(model), &what);
+    const double strain =
+        rb_rolling_strain(model->rc, model->state.delta, rb_rolling_peak_pressure(model), &what);
 
     return strain >= 1.0
-               ? rb_fail(
-                     why, RB_EINVAL,
-                     "the %s is compressed by %.0f %% of its thickness (approach %.3g "
-                     "mm): expected less than 100 %%",
-                     what, 100.0 * strain, model->state.delta)
+               ? rb_fail(why, RB_EINVAL,
+                         "the %s is compressed by %.0f %% of its thickness (approach %.3g "
+                         "mm): expected less than 100 %%",
+                         what, 100.0 * strain, model->state.delta)
                : RB_OK;
 }
 
@@ -142,8 +139,7 @@ static int covered(const rb_rolling_model *model, double *length)
     int count = 0;
 
     *length = 0.0;
-    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state,
-                                        run.last + 1, &run);
+    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
          count++)
         *length += run.to - run.from;
     return count;
@@ -170,8 +166,8 @@ static int are_too_many(const rb_rolling_model *model, int elements)
            !rb_rolling_is_large(model->rc, &mesh);
 }
 
-static rb_status equal_elements(const rb_rolling_model *model, interval zone,
-                                int elements, rb_rolling_mesh *mesh, rb_message *why)
+static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,
+                                rb_rolling_mesh *mesh, rb_message *why)
 {
     rb_rolling_plan plan = model->plan;
 
@@ -207,18 +203,15 @@ static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
             lowest = k;
         }
     double level = least + 0.5 * a * a / rb_rolling_radius(rc);
-    if (!isnan(
-            rb_rolling_derive(rc).approach)) /* beyond it not even rigid bodies touch */
+    if (!isnan(rb_rolling_derive(rc).approach)) /* beyond it not even rigid bodies touch */
         level = fmin(level, rb_rolling_derive(rc).approach);
-    while (first < lowest &&
-           rb_rolling_initial_gap(rc, limit.from + first * step) > level)
+    while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > level)
         first++;
     while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > level)
         last--;
     const interval zone = {crossing(rc, limit.from + first * step, -step, level),
                            crossing(rc, limit.from + last * step, step, level)};
-    return within(width(zone) > 0.0 ? zone : (interval){zone.from - step, zone.to + step},
-                  limit);
+    return within(width(zone) > 0.0 ? zone : (interval){zone.from - step, zone.to + step}, limit);
 }
 
 static interval first_zone(const rb_rolling_case *rc)
@@ -226,12 +219,10 @@ static interval first_zone(const rb_rolling_case *rc)
     /* Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R
      * L_N). */
     const rb_rolling_derived d = rb_rolling_derive(rc);
-    const double soft = isnan(d.load)
-                            ? sqrt(2.0 * d.radius * d.approach)
-                            : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
+    const double soft = isnan(d.load) ? sqrt(2.0 * d.radius * d.approach)
+                                      : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
 
-    const double a =
-        rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
+    const double a = rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
     const interval limit = extent(rc);
     interval zone = {-a, a};
 
@@ -256,9 +247,7 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
      * is grown until all elements are separated no longer sees the contact between their
      * midpoints. */
     const int spare = (model->state.n - IN_CONTACT) / 2;
-    const int wanted = spare > SEPARATED_AT_END ? SEPARATED_AT_END
-                       : spare > 1              ? spare
-                                                : 1;
+    const int wanted = spare > SEPARATED_AT_END ? SEPARATED_AT_END : spare > 1 ? spare : 1;
     int left, right;
 
     separated_at_ends(&model->state, &left, &right);
@@ -374,8 +363,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         /* What would do: a quarter of the half-width beyond either edge. */
         interval edge;
 
-        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from,
-                                 &edge.to);
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
         if (is_symmetric(model->rc)) {
             edge.to = fmax(fabs(edge.from), fabs(edge.to));
             edge.from = -edge.to;

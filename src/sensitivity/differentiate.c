@@ -70,26 +70,22 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     const int falls = x + longest > input->to;
     rb_rolling_case rc;
     const rb_status status =
-        input->vary
-            ? input->vary(input->context, x + (falls ? -longest : longest), &rc, why)
-            : RB_OK;
+        input->vary ? input->vary(input->context, x + (falls ? -longest : longest), &rc, why)
+                    : RB_OK;
 
     if (status != RB_OK)
         return status;
-    v->step =
-        (input->vary && rb_rolling_same_bodies(&rc, s->model->rc) ? STEP
-                                                                  : STEP_OF_BODIES) *
-        input->scale;
+    v->step = (input->vary && rb_rolling_same_bodies(&rc, s->model->rc) ? STEP : STEP_OF_BODIES) *
+              input->scale;
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives: the input cannot vary within its range");
+        return rb_fail(why, RB_EINVAL, "derivatives: the input cannot vary within its range");
     v->at = *at;
     return RB_OK;
 }
 
-static rb_rolling_case on_the_same_elements(const rb_rolling_case *rc,
-                                            const rb_rolling_case *of, int n)
+static rb_rolling_case on_the_same_elements(const rb_rolling_case *rc, const rb_rolling_case *of,
+                                            int n)
 {
     rb_rolling_case varied = *rc;
 
@@ -113,9 +109,8 @@ typedef struct {
     double centre, half; /* of what is stretched */
 } motion;
 
-static rb_status variants_create(const rb_rolling_model *base,
-                                 const rb_sensitivity_input *input, int freely,
-                                 variants *v, rb_message *why)
+static rb_status variants_create(const rb_rolling_model *base, const rb_sensitivity_input *input,
+                                 int freely, variants *v, rb_message *why)
 {
     rb_status s = RB_OK;
 
@@ -124,10 +119,9 @@ static rb_status variants_create(const rb_rolling_model *base,
         rb_rolling_case rc;
         if (!input->vary) {
             const motion *m = input->context;
-            s = m->kind == SHIFT
-                    ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
-                    : rb_rolling_variant_move(base, -by * m->centre / m->half,
-                                              1.0 + by / m->half, &v->model[k], why);
+            s = m->kind == SHIFT ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
+                                 : rb_rolling_variant_move(base, -by * m->centre / m->half,
+                                                           1.0 + by / m->half, &v->model[k], why);
             continue;
         }
         s = input->vary(input->context, input->value + by, &rc, why);
@@ -193,16 +187,16 @@ static double *column_of(const rb_rolling_result *r, rb_rolling_solution *s)
 }
 
 /* d = keep d + weight (x - less) of all that has derivatives; NULL: nothing. */
-static void blend(rb_rolling_solution *d, double keep, const rb_rolling_solution *x,
-                  double weight, const rb_rolling_solution *less)
+static void blend(rb_rolling_solution *d, double keep, const rb_rolling_solution *x, double weight,
+                  const rb_rolling_solution *less)
 {
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         if (rb_sensitivity_has(r))
-            *number_of(r, d) = (keep != 0.0 ? keep * *number_of(r, d) : 0.0) +
-                               (x ? weight * (rb_rolling_number(r, x) -
-                                              (less ? rb_rolling_number(r, less) : 0.0))
-                                  : 0.0);
+            *number_of(r, d) =
+                (keep != 0.0 ? keep * *number_of(r, d) : 0.0) +
+                (x ? weight * (rb_rolling_number(r, x) - (less ? rb_rolling_number(r, less) : 0.0))
+                   : 0.0);
     }
     for (int k = 0; k < rb_rolling_solution_columns.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_columns.row[k];
@@ -222,8 +216,7 @@ void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
 
 /* In the place of the second one the derivative: weights times what each has more than
  * the first one, so that what does not change has a derivative of exactly 0. */
-static void combine(const rb_sensitivity_stencil *at, double step,
-                    rb_rolling_solution *moved)
+static void combine(const rb_sensitivity_stencil *at, double step, rb_rolling_solution *moved)
 {
     for (int j = 1; j < at->n; j++)
         blend(&moved[1], j > 1, &moved[j], at->weight[j] / step, &moved[0]);
@@ -259,8 +252,8 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
 
 /* What follows from the rates on one side. */
 static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int side,
-                                    const rb_sensitivity_rate *rate,
-                                    rb_rolling_solution *d, rb_message *why)
+                                    const rb_sensitivity_rate *rate, rb_rolling_solution *d,
+                                    rb_message *why)
 {
     rb_contact_state tangent;
     rb_status status = rb_contact_state_alloc(s->n, &tangent);
@@ -288,16 +281,14 @@ static int sides_agree(const rb_sensitivity_derivative *d)
 
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        const double x = rb_rolling_number(r, &d->value[0]),
-                     y = rb_rolling_number(r, &d->value[1]);
+        const double x = rb_rolling_number(r, &d->value[0]), y = rb_rolling_number(r, &d->value[1]);
         if (rb_sensitivity_has(r) && !(isnan(x) && isnan(y)) && x != y)
             worst = fmax(worst, fabs(x - y) / fmax(fabs(x), fabs(y)));
     }
     return worst < 1e-8;
 }
 
-double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *r,
-                               double value)
+double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *r, double value)
 {
     const rb_rolling_derived d = rb_rolling_derive(rc);
     const char *unit = r->unit ? r->unit : "1";
@@ -323,16 +314,14 @@ static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         if (rb_sensitivity_has(r) &&
             fabs(*number_of(r, d)) * scale <
-                rb_sensitivity_rounding(s->model->rc, r,
-                                        rb_rolling_number(r, &s->solution)))
+                rb_sensitivity_rounding(s->model->rc, r, rb_rolling_number(r, &s->solution)))
             *number_of(r, d) = 0.0;
     }
 }
 
 /* Where p^2, on a line through the second and third element in contact, is zero, on the
  * side -1 or 1; *rate: of that place on elements that stay (p_rate NULL: none). */
-static double edge_of(const rb_rolling_model *model, const double *p_rate, int side,
-                      double *rate)
+static double edge_of(const rb_rolling_model *model, const double *p_rate, int side, double *rate)
 {
     const rb_contact_state *state = &model->state;
     const double *p = state->p, *ends = model->mesh.ends;
@@ -345,19 +334,17 @@ static double edge_of(const rb_rolling_model *model, const double *p_rate, int s
     const double fall = gsl_pow_2(p[j] / p[i]),
                  apart = 0.5 * (ends[j] + ends[j + 1] - ends[i] - ends[i + 1]);
 
-    *rate = p_rate ? apart * 2.0 * fall * (p_rate[j] / p[j] - p_rate[i] / p[i]) /
-                         gsl_pow_2(1.0 - fall)
-                   : 0.0;
+    *rate = p_rate
+                ? apart * 2.0 * fall * (p_rate[j] / p[j] - p_rate[i] / p[i]) / gsl_pow_2(1.0 - fall)
+                : 0.0;
     return 0.5 * (ends[j] + ends[j + 1]) + apart * fall / (1.0 - fall);
 }
 
 /* Half-width and centre of the contact, and their rates. */
-static motion edges_of(const rb_rolling_model *model, const double *p_rate,
-                       double rate[2])
+static motion edges_of(const rb_rolling_model *model, const double *p_rate, double rate[2])
 {
     double left, right;
-    const double from = edge_of(model, p_rate, -1, &left),
-                 to = edge_of(model, p_rate, 1, &right);
+    const double from = edge_of(model, p_rate, -1, &left), to = edge_of(model, p_rate, 1, &right);
 
     rate[0] = 0.5 * (right - left);
     rate[1] = 0.5 * (right + left);
@@ -366,8 +353,8 @@ static motion edges_of(const rb_rolling_model *model, const double *p_rate,
 
 /* (D6) how an input moves the elements: stretches them as Hertz's half-width grows, or as
  * the contact that is found on them grows and shifts, e' = found' + found_e e'. */
-static void motions_of(const rb_sensitivity *s, int moves, const variants *v,
-                       const double *p_rate, double by[2])
+static void motions_of(const rb_sensitivity *s, int moves, const variants *v, const double *p_rate,
+                       double by[2])
 {
     double found[2];
 
@@ -399,9 +386,9 @@ static int set_gain(rb_sensitivity *s, const double *stretched, const double *sh
 
 /* The tangent of free rolling, which has its own equations, and what the motion of its
  * elements adds to its creepage. */
-static rb_status differentiate_free(const rb_sensitivity *freely,
-                                    const rb_sensitivity_input *input, const variants *of,
-                                    int side, rb_contact_state *tangent, rb_message *why)
+static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensitivity_input *input,
+                                    const variants *of, int side, rb_contact_state *tangent,
+                                    rb_message *why)
 {
     variants v = {.base = freely->model, .at = of->at, .step = of->step};
     rb_sensitivity_rate rate = {0};
@@ -425,9 +412,9 @@ static rb_status differentiate_free(const rb_sensitivity *freely,
     return status;
 }
 
-static rb_status set_free_creepage(const rb_sensitivity *s,
-                                   const rb_sensitivity_input *input, const variants *v,
-                                   int side, rb_rolling_solution *d, rb_message *why)
+static rb_status set_free_creepage(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                   const variants *v, int side, rb_rolling_solution *d,
+                                   rb_message *why)
 {
     rb_contact_state tangent = {0};
     rb_status status = RB_OK;
@@ -442,8 +429,7 @@ static rb_status set_free_creepage(const rb_sensitivity *s,
 }
 
 /* What the motion of the elements changes, but for free rolling, which has its own. */
-static void add_motions(const rb_sensitivity *s, const variants *v,
-                        rb_rolling_solution *d)
+static void add_motions(const rb_sensitivity *s, const variants *v, rb_rolling_solution *d)
 {
     const double free_creepage = d->free_creepage;
     double by[2], found[2];
@@ -458,16 +444,14 @@ static void add_motions(const rb_sensitivity *s, const variants *v,
         d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
         d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
         d->nip_width = d->contact_to - d->contact_from;
-        const double radius = rb_rolling_derive(s->model->rc).radius,
-                     before = d->half_width;
+        const double radius = rb_rolling_derive(s->model->rc).radius, before = d->half_width;
         d->half_width = 0.5 * d->nip_width;
         if (s->solution.max_strain == 0.5 * s->solution.half_width / radius)
             d->max_strain += 0.5 * (d->half_width - before) / radius;
     }
 }
 
-rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
-                                       const rb_sensitivity_input *input,
+rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
     variants v = {.base = s->model, .results = 1};
@@ -525,8 +509,8 @@ static int motion_of(const rb_sensitivity *s)
 }
 
 /* Of the creepage of free rolling, by its own contact on these elements. */
-static rb_status set_free_motion(rb_sensitivity *freely, int moves,
-                                 rb_sensitivity_input *input, motion *m)
+static rb_status set_free_motion(rb_sensitivity *freely, int moves, rb_sensitivity_input *input,
+                                 motion *m)
 {
     rb_contact_state tangent[2] = {{0}, {0}};
     const variants v = {.at = middle, .step = STEP_OF_BODIES * input->scale};

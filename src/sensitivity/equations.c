@@ -23,8 +23,7 @@ void rb_sensitivity_rate_free(rb_sensitivity_rate *rate)
     memset(rate, 0, sizeof *rate);
 }
 
-void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
-                             rb_sensitivity_rate *to)
+void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times, rb_sensitivity_rate *to)
 {
     for (int i = 0; i < 4 * rate->n; i++)
         to->gap[i] += times * rate->gap[i];
@@ -50,12 +49,11 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
     }
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;
-    left->tangential =
-        p->force_given
-            ? (rb_contact_force(p, state) + p->axle * rb_contact_moment(p, state) -
-               p->force - p->force_ratio * rb_contact_capacity(p, state)) /
-                  (scale->mu * scale->stress * base->bodies.f.h[0])
-            : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
+    left->tangential = p->force_given
+                           ? (rb_contact_force(p, state) + p->axle * rb_contact_moment(p, state) -
+                              p->force - p->force_ratio * rb_contact_capacity(p, state)) /
+                                 (scale->mu * scale->stress * base->bodies.f.h[0])
+                           : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
     return RB_OK;
 }
 
@@ -64,11 +62,10 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
 /* Coefficients that the law gives slips and friction that differ by `step` at element
  * `at` (-1: at every element), in four places: their derivative.  room: 2n. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
-                                   int of_friction, double step, int at,
-                                   double *derivative, rb_message *why)
+                                   int of_friction, double step, int at, double *derivative,
+                                   rb_message *why)
 {
-    static const double part[] = {-2.0, -1.0, 1.0, 2.0},
-                        weight[] = {1.0, -8.0, 8.0, -1.0};
+    static const double part[] = {-2.0, -1.0, 1.0, 2.0}, weight[] = {1.0, -8.0, 8.0, -1.0};
     const int n = model->problem.n;
     double *x = of_friction ? v->state.q : v->state.lambda;
     rb_status s = RB_OK;
@@ -91,8 +88,7 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
 
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
-static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
-                          rb_message *why)
+static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
     const rb_rolling_friction *f = &model->rc->friction;
@@ -112,8 +108,7 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
             continue;
         status = differentiate_law(model, v, 0, slip, (int)j, s->law_slip + j * n, why);
         if (status == RB_OK && s->law_force)
-            status =
-                differentiate_law(model, v, 1, stress, (int)j, s->law_force + j * n, why);
+            status = differentiate_law(model, v, 1, stress, (int)j, s->law_force + j * n, why);
     }
     return status;
 }

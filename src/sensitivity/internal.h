@@ -9,23 +9,21 @@
 struct rb_sensitivity {
     const rb_rolling_model *model; /* borrowed */
     int n, degenerate;
-    char *border;                 /* n: which pairs of an element are degenerate; owned */
-    double *slip;                 /* 2n: T_T lambda and gap of the state; owned */
-    double *law_slip, *law_force; /* n x n: derivatives of the bounds with respect to
-                                     slips and friction; NULL: zero; owned */
-    rb_rolling_solution solution; /* of the model, if results are differentiated */
+    char *border;                           /* n: which pairs of an element are degenerate; owned */
+    double *slip;                           /* 2n: T_T lambda and gap of the state; owned */
+    double *law_slip, *law_force;           /* n x n: derivatives of the bounds with respect to
+                                               slips and friction; NULL: zero; owned */
+    rb_rolling_solution solution;           /* of the model, if results are differentiated */
     struct rb_sensitivity_factors *factors; /* for the zones of the model; owned */
-    struct rb_sensitivity
-        *free_rolling;             /* for free rolling of the same model; NULL: none */
-    rb_rolling_model *freely;      /* the model in free rolling; owned */
-    rb_rolling_model *with_matrix; /* a copy of the model with matrices, if it was solved
-                                      without; otherwise NULL; owned */
-    int moves;                     /* rb_sensitivity_elements, fixed at first */
-    rb_rolling_solution motion[2]; /* derivatives for elements that are stretched or
-                                      shifted by 1 mm; owned */
+    struct rb_sensitivity *free_rolling;    /* for free rolling of the same model; NULL: none */
+    rb_rolling_model *freely;               /* the model in free rolling; owned */
+    rb_rolling_model *with_matrix;          /* a copy of the model with matrices, if it was solved
+                                               without; otherwise NULL; owned */
+    int moves;                              /* rb_sensitivity_elements, fixed at first */
+    rb_rolling_solution motion[2];          /* derivatives for elements that are stretched or
+                                               shifted by 1 mm; owned */
     double creepage[2]; /* derivatives of the free-rolling creepage for these motions */
-    double
-        gain[4]; /* derivatives of the computed half-width and centre for these motions */
+    double gain[4];     /* derivatives of the computed half-width and centre for these motions */
 };
 
 /* Bits for degenerate complementary pairs. */
@@ -63,9 +61,7 @@ void rb_sensitivity_factors_free(rb_sensitivity_factors *factors);
  * under an approach (the ratio is one of Hertz's half-width); otherwise 0. */
 double rb_sensitivity_xi_by_load(const rb_rolling_model *model);
 /* Solves J y' = -R'. */
-rb_status rb_sensitivity_forward(const rb_sensitivity *s,
-                                 const rb_sensitivity_factors *factors,
-                                 const rb_sensitivity_rate *rate,
-                                 rb_contact_state *tangent);
+rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_factors *factors,
+                                 const rb_sensitivity_rate *rate, rb_contact_state *tangent);
 
 #endif

@@ -77,8 +77,7 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
         for (size_t j = 0; j < n; j++) {
             const int moves = zone[j] > RB_ZONE_STICK;
             weight[j] = moves ? -friction * s->law_slip[(size_t)i + j * n] : 0.0;
-            force[j] =
-                moves && s->law_force ? -friction * s->law_force[(size_t)i + j * n] : 0.0;
+            force[j] = moves && s->law_force ? -friction * s->law_force[(size_t)i + j * n] : 0.0;
         }
     /* what has softened away carries nothing, whatever it yields further */
     const int carries = fabs(s->model->state.q[i]) > 1e-9 * rb_contact_friction_scale(p);
@@ -95,8 +94,8 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
 }
 
 /* Adds to row r, which is J + r, `times` the slip of element j. */
-static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, int j,
-                     double times, double *r)
+static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, int j, double times,
+                     double *r)
 {
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
@@ -111,8 +110,7 @@ static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, i
 }
 
 /* (D1) the rows of element contact[c]: its gap, and its stick, slip or yield. */
-static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int c,
-                         double *weight)
+static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int c, double *weight)
 {
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
@@ -165,10 +163,9 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     const int m = f->contacts, law = rb_rolling_law_depends_on_state(rc);
     const size_t ld = (size_t)f->size;
     double *normal = f->J + m, *tangential = f->J + 2 * m + 1;
-    const double share =
-        p->force_given && law && p->axle == 0.0 && !isnan(rc->force_ratio)
-            ? rc->force_ratio * p->mu
-            : rb_sensitivity_xi_by_load(model);
+    const double share = p->force_given && law && p->axle == 0.0 && !isnan(rc->force_ratio)
+                             ? rc->force_ratio * p->mu
+                             : rb_sensitivity_xi_by_load(model);
 
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c];
@@ -190,8 +187,8 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     if (!p->force_given)
         tangential[(size_t)(2 * m + 1) * ld] = 1.0;
     f->row[m] = p->load_given ? p->load : p->gap_length;
-    f->row[2 * m + 1] = p->force_given ? p->mu * p->stress * model->bodies.f.h[0]
-                                       : p->slip_length / p->e_T[0];
+    f->row[2 * m + 1] =
+        p->force_given ? p->mu * p->stress * model->bodies.f.h[0] : p->slip_length / p->e_T[0];
 }
 
 rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
@@ -225,44 +222,39 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
             if (f->J[i + (size_t)j * (size_t)size] != 0.0)
                 f->first = size;
     const int k = f->first, rest = size - k;
-    rb_status status = rb_lapack_status(
-        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
+    rb_status status =
+        rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
     if (status == RB_OK && rest > 0)
-        status = rb_lapack_status(LAPACKE_dgetrf_work(
-            LAPACK_COL_MAJOR, rest, rest, f->J + (size_t)k * (size_t)(size + 1), size,
-            f->pivot + k));
+        status = rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rest, rest,
+                                                      f->J + (size_t)k * (size_t)(size + 1), size,
+                                                      f->pivot + k));
     return status;
 }
 
 /* J x = x, or J' x = x. */
-static rb_status back_substitute(const rb_sensitivity_factors *f, char transposed,
-                                 double *x)
+static rb_status back_substitute(const rb_sensitivity_factors *f, char transposed, double *x)
 {
     const int k = f->first, rest = f->size - k, ld = f->size;
     const double *of_p = f->J + k, *last = of_p + (size_t)k * (size_t)ld;
     int info = 0;
 
     if (transposed == 'T' && rest > 0) {
-        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', rest, 1, last, ld, f->pivot + k,
-                                   x + k, ld);
-        cblas_dgemv(CblasColMajor, CblasTrans, rest, k, -1.0, of_p, ld, x + k, 1, 1.0, x,
-                    1);
+        info =
+            LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', rest, 1, last, ld, f->pivot + k, x + k, ld);
+        cblas_dgemv(CblasColMajor, CblasTrans, rest, k, -1.0, of_p, ld, x + k, 1, 1.0, x, 1);
     }
     if (info == 0)
-        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, k, 1, f->J, ld, f->pivot,
-                                   x, ld);
+        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, k, 1, f->J, ld, f->pivot, x, ld);
     if (transposed == 'N' && rest > 0 && info == 0) {
-        cblas_dgemv(CblasColMajor, CblasNoTrans, rest, k, -1.0, of_p, ld, x, 1, 1.0,
-                    x + k, 1);
-        info = LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', rest, 1, last, ld, f->pivot + k,
-                                   x + k, ld);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, rest, k, -1.0, of_p, ld, x, 1, 1.0, x + k, 1);
+        info =
+            LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', rest, 1, last, ld, f->pivot + k, x + k, ld);
     }
     return rb_lapack_status(info);
 }
 
 rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_factors *f,
-                                 const rb_sensitivity_rate *rate,
-                                 rb_contact_state *tangent)
+                                 const rb_sensitivity_rate *rate, rb_contact_state *tangent)
 {
     const rb_contact_state *state = &s->model->state;
     const int m = f->contacts;
@@ -274,8 +266,8 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
         const int i = f->contact[c], zone = f->zone[i];
         x[c] = -rate->gap[i] / f->row[c];
         x[m + 1 + c] = (zone == RB_ZONE_STICK ? -rate->slip[i]
-                        : slides(zone) ? sign_of(zone) * rate->bound[i] * state->p[i]
-                                       : sign_of(zone) * rate->yield[i]) /
+                        : slides(zone)        ? sign_of(zone) * rate->bound[i] * state->p[i]
+                                              : sign_of(zone) * rate->yield[i]) /
                        f->row[m + 1 + c];
     }
     x[m] = -rate->normal;

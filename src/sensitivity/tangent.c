@@ -31,8 +31,8 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
                        "that yields, needs matrices: fewer than %d elements",
                        RB_ROLLING_LARGE);
     for (int i = 0; i < state->n && model->problem.yield; i++)
-        if (state->zone[i] != RB_ZONE_SEPARATED &&
-            state->zone[i] <= RB_ZONE_SLIP_POSITIVE && state->plastic[i] != 0.0)
+        if (state->zone[i] != RB_ZONE_SEPARATED && state->zone[i] <= RB_ZONE_SLIP_POSITIVE &&
+            state->plastic[i] != 0.0)
             return rb_fail(why, RB_EINVAL,
                            "derivatives: at element %d the interface yields while the "
                            "surfaces slide",
@@ -74,8 +74,8 @@ static rb_status find_borders(rb_sensitivity *s)
 /* ---- Of operators without matrices ------------------------------------------------- */
 
 /* The problem of the model's zones, `part` of the way that the rates lead (linear). */
-static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                             double part, rb_contact_state *x)
+static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate *rate, double part,
+                             rb_contact_state *x)
 {
     const rb_contact_problem *base = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
@@ -105,8 +105,7 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
     p.load -= part * rate->normal * base->load;
     p.delta -= part * rate->normal * base->gap_length;
     p.xi -= part * rate->tangential * base->slip_length / base->e_T[0];
-    p.force -=
-        part * rate->tangential * base->mu * base->stress * s->model->bodies.f.h[0];
+    p.force -= part * rate->tangential * base->mu * base->stress * s->model->bodies.f.h[0];
     for (size_t i = 0; i < n; i++) {
         p.load -= base->load_T[i] * friction[i];
         p.force -= (base->force_T[i] + base->axle * base->moment_T[i] -
@@ -128,18 +127,17 @@ static double long_part(const rb_sensitivity *s, const rb_sensitivity_rate *rate
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
-    const double size =
-        fmax(fmax(rb_norm_inf(n, rate->gap) / p->gap_length,
-                  rb_norm_inf(n, rate->slip) / p->slip_length),
-             fmax(rb_norm_inf(n, rate->bound) / fmax(p->mu, 1e-3),
-                  fmax(fabs(rate->normal), fabs(rate->tangential) / s->n)));
+    const double size = fmax(fmax(rb_norm_inf(n, rate->gap) / p->gap_length,
+                                  rb_norm_inf(n, rate->slip) / p->slip_length),
+                             fmax(rb_norm_inf(n, rate->bound) / fmax(p->mu, 1e-3),
+                                  fmax(fabs(rate->normal), fabs(rate->tangential) / s->n)));
 
     return size > 0.0 ? FAR / size : FAR;
 }
 
 /* At the creepage that the rate says. */
-static rb_status tangent_at_creepage(const rb_sensitivity *s,
-                                     const rb_sensitivity_rate *rate, rb_contact_state *y)
+static rb_status tangent_at_creepage(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                                     rb_contact_state *y)
 {
     const rb_contact_state *x = &s->model->state;
     const double part = long_part(s, rate);
@@ -156,8 +154,8 @@ static rb_status tangent_at_creepage(const rb_sensitivity *s,
 
 /* A creepage that follows the load brings its own tangent, as often as the load that it
  * changes asks for. */
-static rb_status tangent_by_products(const rb_sensitivity *s,
-                                     const rb_sensitivity_rate *rate, rb_contact_state *y)
+static rb_status tangent_by_products(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                                     rb_contact_state *y)
 {
     const rb_contact_problem *p = &s->model->problem;
     const double share = rb_sensitivity_xi_by_load(s->model);
@@ -173,9 +171,9 @@ static rb_status tangent_by_products(const rb_sensitivity *s,
     unit.tangential = -p->e_T[0] / p->slip_length;
     if (status == RB_OK)
         status = tangent_at_creepage(s, &unit, &by_xi);
-    const double more = status == RB_OK ? share * rb_contact_load(p, y) /
-                                              (1.0 - share * rb_contact_load(p, &by_xi))
-                                        : 0.0;
+    const double more =
+        status == RB_OK ? share * rb_contact_load(p, y) / (1.0 - share * rb_contact_load(p, &by_xi))
+                        : 0.0;
     for (int i = 0; i < s->n && status == RB_OK; i++) {
         y->p[i] += more * by_xi.p[i];
         y->q[i] += more * by_xi.q[i];
@@ -203,8 +201,8 @@ static threshold threshold_of(const rb_sensitivity *s, const rb_sensitivity_rate
 
     return (threshold){
         NO_CHANGE * fmax(traction, rb_norm_inf(n, rate->bound) * p->stress),
-        NO_CHANGE * fmax(p->gap_length / p->stress * traction + fabs(y->delta),
-                         rb_norm_inf(n, rate->gap)),
+        NO_CHANGE *
+            fmax(p->gap_length / p->stress * traction + fabs(y->delta), rb_norm_inf(n, rate->gap)),
         NO_CHANGE * fmax(p->slip_length / p->stress * traction + fabs(y->xi) * p->e_T[0],
                          rb_norm_inf(n, rate->slip))};
 }
@@ -212,8 +210,8 @@ static threshold threshold_of(const rb_sensitivity *s, const rb_sensitivity_rate
 /* The zone of element i at a border, if the tangent (times side) does not suit the one
  * that it has. */
 static int next_zone(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
-                     const rb_contact_state *y, const double *gap, const double *slip,
-                     int i, int zone)
+                     const rb_contact_state *y, const double *gap, const double *slip, int i,
+                     int zone)
 {
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
@@ -227,17 +225,15 @@ static int next_zone(const rb_sensitivity *s, const rb_sensitivity_rate *rate, i
                    : zone;
     if (s->border[i] == BORDER_GAP)
         return side * y->p[i] < -least.traction ? RB_ZONE_SEPARATED : zone;
-    const double left =
-        p->bound[i] * y->p[i] + rate->bound[i] * state->p[i] - sign * y->q[i];
+    const double left = p->bound[i] * y->p[i] + rate->bound[i] * state->p[i] - sign * y->q[i];
     if (zone == RB_ZONE_STICK)
         return side * left < -least.traction ? toward : zone;
     return side * sign * (slip[i] + rate->slip[i]) > least.slip ? RB_ZONE_STICK : zone;
 }
 
 /* One element at a time: the first of those whose zone does not suit (Murty's rule). */
-static rb_status tangent_at_border(const rb_sensitivity *s,
-                                   const rb_sensitivity_rate *rate, int side,
-                                   rb_contact_state *y, rb_message *why)
+static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                                   int side, rb_contact_state *y, rb_message *why)
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
@@ -261,9 +257,8 @@ static rb_status tangent_at_border(const rb_sensitivity *s,
         rb_contact_operator_add(p->op, y->p, y->q, gap, slip);
         moved = 0;
         for (int i = 0; i < s->n && !moved && status == RB_OK; i++) {
-            const int to = s->border[i]
-                               ? next_zone(s, rate, side, y, gap, slip, i, zone[i])
-                               : zone[i];
+            const int to =
+                s->border[i] ? next_zone(s, rate, side, y, gap, slip, i, zone[i]) : zone[i];
             moved = to != zone[i];
             zone[i] = to;
         }
@@ -278,13 +273,12 @@ static rb_status tangent_at_border(const rb_sensitivity *s,
                : status;
 }
 
-rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                                 int side, rb_contact_state *tangent, rb_message *why)
+rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
+                                 rb_contact_state *tangent, rb_message *why)
 {
-    const rb_status status = !s->factors ? tangent_by_products(s, rate, tangent)
-                             : s->degenerate
-                                 ? tangent_at_border(s, rate, side, tangent, why)
-                                 : rb_sensitivity_forward(s, s->factors, rate, tangent);
+    const rb_status status = !s->factors     ? tangent_by_products(s, rate, tangent)
+                             : s->degenerate ? tangent_at_border(s, rate, side, tangent, why)
+                                             : rb_sensitivity_forward(s, s->factors, rate, tangent);
     return status == RB_SINGULAR
                ? rb_fail(why, status, "derivatives: the Jacobian is singular here")
                : status;
@@ -306,8 +300,7 @@ static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
     return rb_rolling_variant_with_matrix(model, s->with_matrix, why);
 }
 
-static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
-                        rb_message *why)
+static rb_status create(const rb_rolling_model *model, rb_sensitivity **made, rb_message *why)
 {
     rb_sensitivity *s = *made = calloc(1, sizeof *s);
     rb_status status = RB_OK;
@@ -357,21 +350,19 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    status = rc->mesh == RB_MESH_UNIFORM
-                 ? rb_rolling_variant_solve(model, &freely, v, why)
-                 : rb_rolling_model_create(&freely, v, why);
+    status = rc->mesh == RB_MESH_UNIFORM ? rb_rolling_variant_solve(model, &freely, v, why)
+                                         : rb_rolling_model_create(&freely, v, why);
     return status == RB_OK ? create(v, &s->free_rolling, why) : status;
 }
 
-rb_status rb_sensitivity_create(const rb_rolling_model *model, int results,
-                                rb_sensitivity **s, rb_message *why)
+rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
+                                rb_message *why)
 {
     rb_message reason = {""};
     rb_status status = create(model, s, why);
 
     if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
-        status = rb_fail(why, RB_EINVAL,
-                         "derivatives: only for one step; this case has several");
+        status = rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status == RB_OK && results) {

@@ -22,19 +22,16 @@ static int is_known(const rb_rolling_solutions *all, const rb_rolling_model *mod
     for (int k = 0; k < all->n; k++) {
         double difference = 0.0;
         for (int i = 0; i < p->n; i++)
-            difference =
-                fmax(difference, fabs(all->solution[k].q[i] - model->state.q[i]));
+            difference = fmax(difference, fabs(all->solution[k].q[i] - model->state.q[i]));
         if (difference <= small)
             return 1;
     }
     return 0;
 }
 
-static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model,
-                      rb_message *why)
+static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model, rb_message *why)
 {
-    rb_rolling_solution *more =
-        realloc(all->solution, sizeof *more * ((size_t)all->n + 1));
+    rb_rolling_solution *more = realloc(all->solution, sizeof *more * ((size_t)all->n + 1));
 
     if (!more)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d solutions", all->n + 1);

@@ -34,16 +34,15 @@ typedef struct {
     void *context;
 } watcher;
 
-static rb_status record(const rb_rolling_model *model, const watcher *w,
-                        rb_rolling_curve *c, rb_message *why)
+static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
+                        rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
     const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
     const int k = c->n++;
     double contact, stick;
-    const double longest =
-        rb_rolling_longest_element(p->n, state->zone, model->bodies.f.h);
+    const double longest = rb_rolling_longest_element(p->n, state->zone, model->bodies.f.h);
 
     rb_rolling_zone_lengths(p->n, state->zone, model->bodies.f.h, &contact, &stick);
     c->creepage[k] = state->xi;
@@ -54,8 +53,8 @@ static rb_status record(const rb_rolling_model *model, const watcher *w,
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);
-    c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda,
-                                                    state->q, model->bodies.f.h, p->e_T);
+    c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
+                                                    model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
     c->speed[k] = model->rc->speed;
@@ -102,8 +101,7 @@ static rb_status start_anew(rb_rolling_model *model, rb_message *why)
 
 /* A fitted mesh whose contact has moved is fitted again; a potential contact that is full
  * is chosen again. */
-static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[2],
-                                rb_message *why)
+static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[2], rb_message *why)
 {
     double from, to;
 
@@ -112,13 +110,11 @@ static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[
         fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
     if (!fills && !(model->rc->mesh != RB_MESH_UNIFORM && moved > REFIT))
         return RB_OK;
-    const rb_status s = fills ? start_anew(model, why)
-                        : model->rc->mesh == RB_MESH_ALIGNED
-                            ? rb_rolling_model_realign(model, why)
-                            : rb_rolling_model_refit(model, why);
+    const rb_status s = fills                                ? start_anew(model, why)
+                        : model->rc->mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
+                                                             : rb_rolling_model_refit(model, why);
     if (s == RB_OK)
-        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
-                                 &edge[1]);
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
     return s;
 }
 
@@ -157,8 +153,8 @@ static rb_status remember_branch(const rb_rolling_model *model, branch_start *st
 }
 
 static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
-                                const watcher *w, rb_rolling_model *model,
-                                rb_rolling_curve *c, rb_message *why)
+                                const watcher *w, rb_rolling_model *model, rb_rolling_curve *c,
+                                rb_message *why)
 {
     rb_rolling_case steady = *rc;
     double edge[2];
@@ -201,9 +197,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
 }
 
 /* The flexibility itself depends on the speed. */
-static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r,
-                             const watcher *w, rb_rolling_model *model,
-                             rb_rolling_curve *c, rb_message *why)
+static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r, const watcher *w,
+                             rb_rolling_model *model, rb_rolling_curve *c, rb_message *why)
 {
     rb_rolling_case steady = *rc;
     rb_status s = RB_OK;
@@ -222,21 +217,18 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
     return s;
 }
 
-static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r,
-                             rb_message *why)
+static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r, rb_message *why)
 {
     if (!isfinite(r->from) || !isfinite(r->to))
-        return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers",
-                       r->from, r->to);
+        return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers", r->from,
+                       r->to);
     if (r->points < 1 || r->points > 1000000)
-        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d",
-                       r->points);
+        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d", r->points);
     if (r->over == RB_OVER_CREEP_RATIO && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
     if (r->over == RB_OVER_SPEED && !(r->from > 0.0 && r->to > 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "curve over speed: expected from and to > 0, got %g and %g",
+        return rb_fail(why, RB_EINVAL, "curve over speed: expected from and to > 0, got %g and %g",
                        r->from, r->to);
     if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc))
         return rb_fail(why, RB_EINVAL,
@@ -252,9 +244,8 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
     return rb_rolling_curve_observe(rc, range, NULL, NULL, curve, why);
 }
 
-rb_status rb_rolling_curve_observe(const rb_rolling_case *rc,
-                                   const rb_rolling_range *range, rb_rolling_point *point,
-                                   void *context, rb_rolling_curve *curve,
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                   rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                                    rb_message *why)
 {
     const watcher w = {point, context};
@@ -266,15 +257,14 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc,
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
-    const int returns =
-        range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
+    const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady,
                                      returns ? 2 * range->points : range->points, curve);
     curve->rising = range->points;
     if (s == RB_OK)
-        s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(
-            &steady, range, &w, &model, curve, why);
+        s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, range, &w,
+                                                                          &model, curve, why);
     s = rb_rolling_check_layer_resolved(&model, s, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;

@@ -45,8 +45,7 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
                        "error bars compare with half the elements: expected 12 contact "
                        "elements or more, got %d",
                        rc->contact_elements);
-    if (rb_rolling_error_runs(rc) > 2 && rc->outer_elements > 0 &&
-        rc->outer_elements < 16)
+    if (rb_rolling_error_runs(rc) > 2 && rc->outer_elements > 0 && rc->outer_elements < 16)
         return rb_fail(why, RB_EINVAL,
                        "error bars compare with half the elements: expected 16 outer "
                        "elements or more, got %d",
@@ -79,8 +78,8 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own)
     return runs > 2 ? 2.0 * fabs(own - coarser[2]) : 0.0;
 }
 
-double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
-                             double a, double share)
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
+                             double share)
 {
     const double slip =
         fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * a / rb_rolling_radius(rc);
@@ -106,8 +105,8 @@ static int has_unresolved_stick(const rb_rolling_solution *s)
             stuck++;
             continue;
         }
-        if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK &&
-            s->zone[i] != before && stuck < 4)
+        if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK && s->zone[i] != before &&
+            stuck < 4)
             return 1;
         before = s->zone[i];
         stuck = 0;
@@ -141,8 +140,7 @@ static int touches_stick(const rb_rolling_solution *s, int i)
 /* What a stick zone of fewer than four elements may be off by in friction [load]:
  * Carter's falls short of mu P by the square of the part of the contact that sticks,
  * whose length is known to an element beside it. */
-static double friction_of_short_stick(const rb_rolling_case *rc,
-                                      const rb_rolling_solution *s)
+static double friction_of_short_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const double width = 2.0 * s->half_width, stick = s->stick_length;
     double element = 0.0;
@@ -152,8 +150,8 @@ static double friction_of_short_stick(const rb_rolling_case *rc,
     for (int i = 0; i < s->n; i++)
         if (s->zone[i] == RB_ZONE_STICK || touches_stick(s, i))
             element = fmax(element, s->h[i]);
-    return rb_rolling_largest_mu(rc) * s->normal_load * element *
-           (2.0 * stick + element) / (width * width);
+    return rb_rolling_largest_mu(rc) * s->normal_load * element * (2.0 * stick + element) /
+           (width * width);
 }
 
 /* What zones of stick that the mesh does not show may change: the friction of an element
@@ -162,8 +160,7 @@ typedef struct {
     double friction, length;
 } hidden_stick;
 
-static hidden_stick find_hidden_stick(const rb_rolling_case *rc,
-                                      const rb_rolling_solution *s)
+static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     hidden_stick hidden = {0.0, rb_rolling_longest_element(s->n, s->zone, s->h)};
     double farthest = 0.0;
@@ -194,17 +191,15 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
     const int unresolved = has_unresolved_stick(s);
     const int force_given = rb_rolling_force_is_given(rc);
-    const double friction = force_given ? 0.0
-                            : unresolved
-                                ? rb_rolling_largest_mu(rc) * s->max_pressure *
-                                      rb_rolling_longest_element(s->n, s->zone, s->h)
-                                : fmax(hidden.friction, friction_of_short_stick(rc, s));
+    const double friction = force_given  ? 0.0
+                            : unresolved ? rb_rolling_largest_mu(rc) * s->max_pressure *
+                                               rb_rolling_longest_element(s->n, s->zone, s->h)
+                                         : fmax(hidden.friction, friction_of_short_stick(rc, s));
 
     switch (scale) {
     case RB_SCALE_ONE:
-        return rounding + (friction > 0.0
-                               ? friction / (rb_rolling_largest_mu(rc) * s->normal_load)
-                               : 0.0);
+        return rounding +
+               (friction > 0.0 ? friction / (rb_rolling_largest_mu(rc) * s->normal_load) : 0.0);
     case RB_SCALE_LOAD:
         return rounding * s->normal_load;
     case RB_SCALE_FRICTION:
@@ -221,18 +216,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                                    ? 0.5 * rb_rolling_longest_element(s->n, s->zone, s->h)
                                    : 0.0);
     case RB_SCALE_PRESSURE:
-        return (rounding + (unresolved ? rb_rolling_largest_mu(rc) *
-                                             fabs(rb_rolling_derive(rc).dundurs)
-                                       : 0.0)) *
+        return (rounding + (unresolved
+                                ? rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs)
+                                : 0.0)) *
                    s->max_pressure +
                rb_rolling_rise_at_corners(rc, s->contact_from, s->contact_to,
-                                          rb_rolling_longest_element(s->n, s->zone, s->h),
-                                          10.0);
+                                          rb_rolling_longest_element(s->n, s->zone, s->h), 10.0);
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */
         const double driven =
-            s->slipping == 0 ? fabs((s->creepage - s->free_creepage) * s->tangential_load)
-                             : 0.0;
+            s->slipping == 0 ? fabs((s->creepage - s->free_creepage) * s->tangential_load) : 0.0;
         return (driven > 0.0 ? driven : 0.0) +
                rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
                                      rb_rolling_longest_element(s->n, s->zone, s->h) /
@@ -249,8 +242,8 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_WORK:
         return rounding * s->normal_load * a / rb_rolling_radius(rc);
     case RB_SCALE_HEAT:
-        return rounding * fabs(s->max_temperature -
-                               fmin(rc->heat_a.temperature, rc->heat_b.temperature));
+        return rounding *
+               fabs(s->max_temperature - fmin(rc->heat_a.temperature, rc->heat_b.temperature));
     case RB_SCALE_ELEMENT:
     case RB_SCALE_NONE:
         break;
@@ -286,8 +279,7 @@ static void *part_of_errors(rb_rolling_errors *e, int table)
 
 /* Where a coarser run has no stick at all: the zone is shorter than its elements, of
  * which one is added to the bar. */
-static double take_unseen(const rb_rolling_solution *s, int runs, double value,
-                          double coarser[])
+static double take_unseen(const rb_rolling_solution *s, int runs, double value, double coarser[])
 {
     const double element = rb_rolling_longest_element(s->n, s->zone, s->h);
     double longest = 0.0;
@@ -315,8 +307,7 @@ static void add_parts(error_parts *parts, rb_rolling_errors *errors)
 
 /* ---- One case and its error bars --------------------------------------------------- */
 
-static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s,
-                             rb_message *why)
+static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s, rb_message *why)
 {
     rb_rolling_model model = {0};
     rb_status status = rb_rolling_solve_model(rc, &model, &s->solution, why);
@@ -354,10 +345,9 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
                 const double value = rb_rolling_number(r, part_of_sample(own, t));
                 for (int j = 0; j < runs; j++)
                     coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
-                const double unseen =
-                    r->error_bar == RB_SCALE_ELEMENT
-                        ? take_unseen(&own->solution, runs, value, coarser)
-                        : 0.0;
+                const double unseen = r->error_bar == RB_SCALE_ELEMENT
+                                          ? take_unseen(&own->solution, runs, value, coarser)
+                                          : 0.0;
                 put(r, part_of_errors(&parts->contact, t),
                     rb_rolling_contact_error(coarser, value) +
                         least_error(rc, &own->solution, r->error_bar) + unseen);
@@ -370,8 +360,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
     return status;
 }
 
-rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
-                                     const rb_rolling_solution *solution,
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
                                      rb_rolling_errors *errors, rb_message *why)
 {
@@ -400,8 +389,7 @@ static rb_status solve_parts(const rb_rolling_case *rc, rb_rolling_solution *sol
     return status == RB_OK ? find_parts(rc, 0, &own, parts, why) : status;
 }
 
-rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
-                                       rb_rolling_solution *solution,
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why)
 {
     error_parts parts;
@@ -425,10 +413,8 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
 static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
                              const rb_rolling_solution *e)
 {
-    const double strain =
-        rb_rolling_largest_mu(rc) * s->hertz_half_width / rb_rolling_radius(rc);
-    double worst =
-        fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
+    const double strain = rb_rolling_largest_mu(rc) * s->hertz_half_width / rb_rolling_radius(rc);
+    double worst = fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
 
     worst = fmax(worst, e->half_width / s->half_width);
     if (rb_rolling_largest_mu(rc) > 0.0)
@@ -457,15 +443,13 @@ static int refine(double accuracy, double contact, double boundary, rb_rolling_c
     rc->contact_elements = (int)(finer * n + 0.5);
     rc->steps = (int)ceil(finer * rc->steps);
     rc->outer_refinement =
-        fmin(finest_boundary,
-             outer * fmin(2.0, outer_factor > 1.0 ? 1.1 * outer_factor : 1.0));
+        fmin(finest_boundary, outer * fmin(2.0, outer_factor > 1.0 ? 1.1 * outer_factor : 1.0));
     return rc->contact_elements > n || rc->outer_refinement > outer;
 }
 
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
-                                       rb_rolling_solution *solution,
-                                       rb_rolling_errors *errors, int *elements,
-                                       rb_message *why)
+                                       rb_rolling_solution *solution, rb_rolling_errors *errors,
+                                       int *elements, rb_message *why)
 {
     rb_rolling_case refined = *rc;
     error_parts parts;
@@ -477,8 +461,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     *errors = rb_rolling_no_row(RB_OK).errors;
     *elements = 0;
     if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
-        status =
-            rb_fail(why, RB_EINVAL, "accuracy: expected in (0, 1), got %g", accuracy);
+        status = rb_fail(why, RB_EINVAL, "accuracy: expected in (0, 1), got %g", accuracy);
     if (status != RB_OK)
         return status;
     do {
@@ -501,11 +484,10 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     } while (refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
                     worst_relative(rc, solution, &parts.boundary.scalar), &refined));
     if (status == RB_OK || status == RB_ENOMEM)
-        status =
-            rb_fail(why, RB_INACCURATE,
-                    "accuracy %g not reached with %d elements: estimated error "
-                    "%.2g%s",
-                    accuracy, *elements, worst,
-                    rc->mesh == RB_MESH_UNIFORM ? "; a fitted mesh needs fewer" : "");
+        status = rb_fail(why, RB_INACCURATE,
+                         "accuracy %g not reached with %d elements: estimated error "
+                         "%.2g%s",
+                         accuracy, *elements, worst,
+                         rc->mesh == RB_MESH_UNIFORM ? "; a fitted mesh needs fewer" : "");
     return status;
 }

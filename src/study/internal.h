@@ -20,7 +20,7 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own);
 /* Power that slip at an edge dissipates over one element, the part `share` of a contact
  * of half-width a under the load P, and that a mesh may not see: the pressure is like a
  * square root there, and the slip that of the creepage and of dissimilar bodies. */
-double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
-                             double a, double share);
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
+                             double share);
 
 #endif

@@ -39,9 +39,8 @@ static processes *processes_of(rb_rolling_pool *pool)
 
 /* What a row has besides the solution. */
 static rb_status measure(const rb_rolling_sweep *sweep, const rb_rolling_case *rc,
-                         const rb_rolling_model *model,
-                         const rb_rolling_solution *solution, rb_rolling_row *row,
-                         rb_message *why)
+                         const rb_rolling_model *model, const rb_rolling_solution *solution,
+                         rb_rolling_row *row, rb_message *why)
 {
     const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
     rb_status s = RB_OK;
@@ -73,8 +72,7 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
         s = rb_rolling_solve_model(&rc, &model, &solution, why);
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
-    row->solution.status =
-        s == RB_OK ? measure(sweep, &rc, &model, &solution, row, why) : s;
+    row->solution.status = s == RB_OK ? measure(sweep, &rc, &model, &solution, row, why) : s;
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }
@@ -237,9 +235,8 @@ rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool *
 {
     *pool = NULL;
     if (sweep->count < 0 || sweep->workers < 0 || sweep->workers > WORKERS_MAX)
-        return rb_fail(why, RB_EINVAL,
-                       "sweep: %d cases by %d processes, expected 0 ... %d", sweep->count,
-                       sweep->workers, WORKERS_MAX);
+        return rb_fail(why, RB_EINVAL, "sweep: %d cases by %d processes, expected 0 ... %d",
+                       sweep->count, sweep->workers, WORKERS_MAX);
     processes *p = calloc(1, sizeof *p);
     rb_status s = p ? RB_OK : RB_ENOMEM;
 

@@ -24,16 +24,14 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
             for (int r = 0; r < runs; r++)
                 coarser[r] = rb_rolling_column(column, run[r])[i];
             e[i] = rb_rolling_contact_error(coarser, value[i]) +
-                   rb_rolling_boundary_error(runs, coarser, value[i]) +
-                   DBL_EPSILON * largest;
+                   rb_rolling_boundary_error(runs, coarser, value[i]) + DBL_EPSILON * largest;
         }
     }
 }
 
 /* ---- Curves ------------------------------------------------------------------------ */
 
-rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
-                                       const rb_rolling_range *range,
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolling_range *range,
                                        rb_rolling_point *point, void *context,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why)
@@ -64,8 +62,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
         errors->free_creepage =
             rb_rolling_contact_error(free_creepage, curve->free_creepage) +
             rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
-            DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width /
-                rb_rolling_radius(rc);
+            DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width / rb_rolling_radius(rc);
         error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
         for (int i = 0; i < curve->n; i++) {
             errors->stick_ratio[i] += curve->stick_step;
@@ -101,8 +98,8 @@ static double place(const rb_rolling_history *h, int is_mean, int k, int rest)
 
 /* A column at the steps of another history.  Rolling starts from the last state at rest,
  * but not a mean over a rolled step. */
-static void place_column(const rb_rolling_history *from, const double *column,
-                         int is_mean, const rb_rolling_history *to, double *out)
+static void place_column(const rb_rolling_history *from, const double *column, int is_mean,
+                         const rb_rolling_history *to, double *out)
 {
     const int rest = steps_at_rest(from);
     int k = is_mean || rest == 0 ? rest : rest - 1;
@@ -119,8 +116,7 @@ static void place_column(const rb_rolling_history *from, const double *column,
         if (k + 1 >= from->n)
             out[i] = column[from->n - 1];
         else {
-            const double x0 = place(from, is_mean, k, rest),
-                         x1 = place(from, is_mean, k + 1, rest);
+            const double x0 = place(from, is_mean, k, rest), x1 = place(from, is_mean, k + 1, rest);
             out[i] = column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
         }
     }
@@ -143,8 +139,7 @@ static rb_status widen(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
-static rb_status history_errors(const rb_rolling_case *rc,
-                                const rb_rolling_history placed[],
+static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_history placed[],
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
     const int runs = rb_rolling_error_runs(rc);
@@ -173,8 +168,8 @@ static rb_status history_errors(const rb_rolling_case *rc,
 }
 
 /* context: the observer of the run itself. */
-static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *history,
-                       int step, int steps, void *context)
+static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                       int steps, void *context)
 {
     const rb_rolling_observer *of_run = context;
 
@@ -185,9 +180,8 @@ static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *
 
 /* Coarser runs of the same way, at its steps. */
 static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
-                             const rb_rolling_observer *observer,
-                             const rb_rolling_history *own, rb_rolling_history placed[],
-                             rb_message *why)
+                             const rb_rolling_observer *observer, const rb_rolling_history *own,
+                             rb_rolling_history placed[], rb_message *why)
 {
     rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
     const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
@@ -208,8 +202,8 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
             for (int i = 0; i < columns->n && s == RB_OK; i++) {
                 const rb_rolling_result *r = &columns->row[i];
                 if (r->error_bar && rb_rolling_has_column(r, &history))
-                    place_column(&history, rb_rolling_column(r, &history), r->is_mean,
-                                 own, rb_rolling_column(r, out));
+                    place_column(&history, rb_rolling_column(r, &history), r->is_mean, own,
+                                 rb_rolling_column(r, out));
             }
         }
         rb_rolling_model_free(&model);
@@ -221,8 +215,8 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          const rb_rolling_program *program,
                                          const rb_rolling_observer *observer,
-                                         rb_rolling_model *model,
-                                         rb_rolling_history *history, rb_message *why)
+                                         rb_rolling_model *model, rb_rolling_history *history,
+                                         rb_message *why)
 {
     rb_rolling_history placed[RB_ERROR_RUNS] = {0};
     rb_status s = rb_rolling_error_check(rc, why);

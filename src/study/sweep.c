@@ -54,8 +54,7 @@ static rb_status supervise(study_state *r, rb_message *why)
         const rb_rolling_sweep *sweep = r->sweep;
 
         for (int idle = r->pool->idle(r->pool);
-             s == RB_OK && idle > 0 && r->given < sweep->count &&
-             r->given - r->seen < r->window;
+             s == RB_OK && idle > 0 && r->given < sweep->count && r->given - r->seen < r->window;
              idle--)
             s = r->pool->submit(r->pool, sweep->first + r->given++);
         if (s == RB_OK)
@@ -68,18 +67,16 @@ static rb_status supervise(study_state *r, rb_message *why)
     return s == RB_OK ? s : rb_fail(why, s, "sweep: cannot replace a lost process");
 }
 
-rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
-                              rb_message *why)
+rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool, rb_message *why)
 {
     study_state r = {.sweep = sweep, .pool = pool};
 
     r.window = sweep->count < WINDOW ? sweep->count : WINDOW;
     r.row = calloc((size_t)r.window + 1, sizeof *r.row);
     r.came = calloc((size_t)r.window + 1, sizeof *r.came);
-    const rb_status s =
-        r.row && r.came
-            ? supervise(&r, why)
-            : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", r.window);
+    const rb_status s = r.row && r.came
+                            ? supervise(&r, why)
+                            : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", r.window);
     pool->stop(pool);
     free(r.came);
     free(r.row);

@@ -30,8 +30,8 @@ static void carter_at(rb_verify *v, int elements, double bound)
         largest = larger(error, largest);
         rb_rolling_solution_free(&s);
     }
-    rb_verify_absolute(v, largest, 0.0, bound,
-                       "Carter, %d elements: largest error of Q/(mu P)", elements);
+    rb_verify_absolute(v, largest, 0.0, bound, "Carter, %d elements: largest error of Q/(mu P)",
+                       elements);
 }
 
 /* Two similar cylinders roll as one of nu = 1/2 on a rigid plane. */
@@ -111,8 +111,7 @@ void rb_verify_accuracy(rb_verify *v)
         rb_rolling_solution_free(&s);
     }
     rb_verify_absolute(v, off, 0.0, 1e-10, "Carter by force: Q as asked, relative");
-    rb_verify_absolute(v, largest, 0.0, 2e-4,
-                       "Carter by force, 200 elements: creepage, relative");
+    rb_verify_absolute(v, largest, 0.0, 2e-4, "Carter by force, 200 elements: creepage, relative");
     similar_pair(v);
     cattaneo_traction(v);
     bentall_johnson_at(v, 10.0, -rough, 1e-3);
@@ -129,7 +128,7 @@ void rb_verify_accuracy(rb_verify *v)
     rb_verify_solve(v, &rc, &s);
     for (int i = 0; i < s.n; i++)
         moment += s.x[i] * s.p[i] * s.h[i];
-    rb_verify_relative(v, s.dissipation, -s.creepage * s.tangential_load + moment / 25.0,
-                       1e-3, "dissipated power of dissimilar bodies");
+    rb_verify_relative(v, s.dissipation, -s.creepage * s.tangential_load + moment / 25.0, 1e-3,
+                       "dissipated power of dissimilar bodies");
     rb_rolling_solution_free(&s);
 }

@@ -19,8 +19,7 @@ static void ring(rb_verify *v, rb_bem_plane plane)
 {
     const double E = 2.6, nu = 0.3, c = E / (1.0 + nu);
     const double k =
-        (1.0 + nu) /
-        (plane == RB_PLANE_STRESS ? 1.0 - nu : (1.0 + nu) * (1.0 - 2.0 * nu));
+        (1.0 + nu) / (plane == RB_PLANE_STRESS ? 1.0 - nu : (1.0 + nu) * (1.0 - 2.0 * nu));
     const char *name = plane == RB_PLANE_STRESS ? ", plane stress" : "";
     /* s_rr = c (A k - B/r^2), A = -B/outer^2 */
     const double B = pressure / c / (k / (outer * outer) + 1.0 / (inner * inner));
@@ -64,11 +63,9 @@ static void ring(rb_verify *v, rb_bem_plane plane)
     const double u_got = s == RB_OK ? hypot(u[2 * RING], u[2 * RING + 1]) : NAN;
     const double s_got = s == RB_OK ? -hypot(t[0], t[1]) : NAN;
     rb_verify_relative(v, u_got, u_inner, bound,
-                       "ring under inner pressure (Lame)%s: displacement of the hole",
-                       name);
+                       "ring under inner pressure (Lame)%s: displacement of the hole", name);
     rb_verify_relative(v, s_got, s_outer, bound,
-                       "ring under inner pressure (Lame)%s: stress at the held rim",
-                       name);
+                       "ring under inner pressure (Lame)%s: stress at the held rim", name);
 }
 
 /* ---- Below the surface ------------------------------------------------------------- */
@@ -103,8 +100,8 @@ static void extremum(rb_verify *v, const subsurface *b, const rb_rolling_extremu
                      rb_rolling_extremum wanted, const char *name)
 {
     rb_verify_relative(v, e->value / b->p0, wanted.value, 3e-3, "%s / p0", name);
-    rb_verify_absolute(v, hypot(fabs(e->x) / b->a - wanted.x, e->y / b->a - wanted.y),
-                       0.0, 1e-2, "%s: distance from its place / a", name);
+    rb_verify_absolute(v, hypot(fabs(e->x) / b->a - wanted.x, e->y / b->a - wanted.y), 0.0, 1e-2,
+                       "%s: distance from its place / a", name);
 }
 
 /* Johnson, Contact Mechanics, 4.2 and 7.1; nu = 0.3. */
@@ -127,8 +124,7 @@ static void below_hertz(rb_verify *v)
 static void below_layers(rb_verify *v)
 {
     static const double thickness[] = {1e4, 0.01}, bound[] = {3e-3, 1e-2};
-    static const char *const name[] = {"layer of 10 000 a",
-                                       "base below a layer of a/100"};
+    static const char *const name[] = {"layer of 10 000 a", "base below a layer of a/100"};
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = rb_verify_uncoupled();
         const double a = rc.half_width, stiffer = 3.0,
@@ -141,8 +137,8 @@ static void below_layers(rb_verify *v)
         rc.load = rb_closed_hertz_load(a, rc.a.radius, modulus);
         const subsurface b = below(v, &rc);
         const rb_rolling_extremum *e = &b.max.max_shear;
-        rb_verify_relative(v, e->value / rb_closed_hertz_max_pressure(rc.load, a),
-                           0.30028, bound[k], "%s: largest shear / p0 of Hertz", name[k]);
+        rb_verify_relative(v, e->value / rb_closed_hertz_max_pressure(rc.load, a), 0.30028,
+                           bound[k], "%s: largest shear / p0 of Hertz", name[k]);
         rb_verify_absolute(v, hypot(e->x, e->y - 0.78615 * a) / a, 0.0, 1e-2,
                            "%s: distance from its place / a", name[k]);
     }

@@ -15,8 +15,8 @@ static void hand_on(rb_verify *v, rb_verify_check *c, const char *what, va_list 
     v->each(c, v->context);
 }
 
-void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound,
-                        const char *what, ...)
+void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound, const char *what,
+                        ...)
 {
     rb_verify_check c = {.wanted = wanted, .got = got, .bound = bound};
     va_list args;
@@ -25,8 +25,8 @@ void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound,
     va_end(args);
 }
 
-void rb_verify_relative(rb_verify *v, double got, double wanted, double bound,
-                        const char *what, ...)
+void rb_verify_relative(rb_verify *v, double got, double wanted, double bound, const char *what,
+                        ...)
 {
     rb_verify_check c = {.wanted = wanted, .got = got, .bound = bound, .relative = 1};
     va_list args;

@@ -15,8 +15,7 @@ static rb_rolling_case rolling_at(double s)
 
 /* rms of f(x) - wanted over the contact elements, divided by scale */
 static double rms_error(const rb_rolling_solution *s, const double *f, double scale,
-                        double (*wanted)(double x, const void *context),
-                        const void *context)
+                        double (*wanted)(double x, const void *context), const void *context)
 {
     double sum = 0.0, length = 0.0;
     for (int i = 0; i < s->n; i++) {
@@ -61,9 +60,8 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
     rb_verify_absolute(v, s.half_width / a, 1.0, bound[1], "Hertz, %s: half-width", name);
     rb_verify_absolute(v, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2],
                        "Hertz, %s: rms of p / p0", name);
-    rb_verify_absolute(
-        v, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a), 1.0,
-        bound[3], "half-cylinder compression, %s", name);
+    rb_verify_absolute(v, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a),
+                       1.0, bound[3], "half-cylinder compression, %s", name);
     rb_rolling_solution_free(&s);
 }
 
@@ -122,8 +120,7 @@ static void spence(rb_verify *v, double stick)
     const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why);
     rb_verify_note(v, s, &why);
     const int last = h.n - 1;
-    const double part =
-        h.n > 0 ? (double)h.stick[last] / (h.stick[last] + h.slipping[last]) : NAN;
+    const double part = h.n > 0 ? (double)h.stick[last] / (h.stick[last] + h.slipping[last]) : NAN;
     rb_verify_absolute(v, part, stick, 0.01, "Spence, growing load: part that sticks");
     rb_rolling_history_free(&h);
     rb_rolling_model_free(&model);
@@ -137,10 +134,8 @@ static void thin_discs(rb_verify *v)
     rc.plane = RB_PLANE_STRESS;
     const double E_a = rc.a.young, E_b = rc.b.young, a = rc.half_width, R = 25.0;
     const double modulus = 1.0 / (1.0 / E_a + 1.0 / E_b);
-    const double beta =
-        0.5 * modulus * ((1.0 - rc.a.poisson) / E_a - (1.0 - rc.b.poisson) / E_b);
-    const rb_closed_bentall_johnson rough =
-        rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    const double beta = 0.5 * modulus * ((1.0 - rc.a.poisson) / E_a - (1.0 - rc.b.poisson) / E_b);
+    const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
     rb_verify_solve(v, &rc, &s);
     rb_verify_relative(v, s.creepage, -rough.creepage, 1e-3,
                        "plane stress, Bentall-Johnson, mu = 20: creepage of mu -> inf");
@@ -159,8 +154,7 @@ static void thin_discs(rb_verify *v)
 static void bentall_johnson(rb_verify *v)
 {
     const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
-    const rb_closed_bentall_johnson rough =
-        rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
     rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
     rb_rolling_solution s;
     rb_verify_solve(v, &rc, &s);
@@ -183,8 +177,7 @@ void rb_verify_contact(rb_verify *v)
     static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
     static const double arcs[] = {0.01, 0.3, 0.8};
     static const double sticking[] = {0.2, 0.5, 0.9};
-    static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3},
-                        fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
+    static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3}, fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
     hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
     hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
     for (int k = 0; k < 3; k++) {
@@ -228,8 +221,7 @@ void rb_verify_contact(rb_verify *v)
     rb_rolling_solution s;
     rc.force_ratio = 0.64;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.force_ratio, 0.64, 1e-9,
-                       "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_relative(v, s.force_ratio, 0.64, 1e-9, "Cattaneo-Mindlin: Q/(mu P) as asked");
     rb_verify_absolute(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
                        rb_closed_cattaneo_stick(0.64), 0.02,
                        "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", 0.64);

@@ -22,11 +22,11 @@ static void flash_temperature(rb_verify *v, int elements, double bound)
     rc.speed = 1e6 * 2.0 * steel.conductivity / steel.heat_capacity / rc.half_width;
     rb_verify_solve(v, &rc, &s);
     const double p0 = rb_closed_hertz_max_pressure(s.normal_load, rc.half_width);
-    rb_verify_relative(v, s.max_temperature,
-                       rb_closed_flash_temperature(
-                           rc.mu * p0 * rc.creep * rc.speed, rc.half_width, rc.speed,
-                           2.0 * sqrt(steel.conductivity * steel.heat_capacity)),
-                       bound, "flash temperature, %d elements", elements);
+    rb_verify_relative(
+        v, s.max_temperature,
+        rb_closed_flash_temperature(rc.mu * p0 * rc.creep * rc.speed, rc.half_width, rc.speed,
+                                    2.0 * sqrt(steel.conductivity * steel.heat_capacity)),
+        bound, "flash temperature, %d elements", elements);
     rb_rolling_solution_free(&s);
 }
 
@@ -50,8 +50,8 @@ static void wear(rb_verify *v, int steps)
     const double volume = w.coefficient * P * w.way;
     rb_verify_relative(v, s == RB_OK ? h.worn[h.n - 1] : NAN, volume, 1e-12,
                        "wear of a cylinder, %d steps: volume K P S", steps);
-    rb_verify_relative(v, s == RB_OK ? last.half_width : NAN, cbrt(1.5 * R * volume),
-                       0.03, "wear of a cylinder, %d steps: uniform pressure, b", steps);
+    rb_verify_relative(v, s == RB_OK ? last.half_width : NAN, cbrt(1.5 * R * volume), 0.03,
+                       "wear of a cylinder, %d steps: uniform pressure, b", steps);
     rb_rolling_wear_history_free(&h);
     rb_rolling_solution_free(&last);
 }
@@ -77,11 +77,10 @@ static void brushes(rb_verify *v, int elements, double bound)
     const double s = 0.5;
     rb_rolling_case rc = stiff_bodies(elements);
     rb_rolling_solution it;
-    rc.creep =
-        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
+    rc.creep = s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
     rb_verify_solve(v, &rc, &it);
-    rb_verify_absolute(v, it.force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)),
-                       bound, "brushes, %d elements: Q/(mu P)", elements);
+    rb_verify_absolute(v, it.force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)), bound,
+                       "brushes, %d elements: Q/(mu P)", elements);
     rb_rolling_solution_free(&it);
 }
 
@@ -100,8 +99,8 @@ static void yielding_brushes(rb_verify *v, int elements, double bound)
     /* in units of most, s from the leading edge: 0.8 s up to 3/8, then 0.15 + 0.4 s up
      * to where it meets 2 s - s^2 */
     const double s1 = 0.375, s2 = 0.8 + sqrt(0.49);
-    const double Q = 0.4 * s1 * s1 + 0.15 * (s2 - s1) + 0.2 * (s2 * s2 - s1 * s1) +
-                     4.0 / 3.0 - s2 * s2 + s2 * s2 * s2 / 3.0;
+    const double Q = 0.4 * s1 * s1 + 0.15 * (s2 - s1) + 0.2 * (s2 * s2 - s1 * s1) + 4.0 / 3.0 -
+                     s2 * s2 + s2 * s2 * s2 / 3.0;
     rb_verify_absolute(v, it.force_ratio, -0.75 * Q, bound,
                        "yielding brushes, %d elements: Q/(mu P)", elements);
     rb_rolling_solution_free(&it);
@@ -128,8 +127,7 @@ static void yielding_half_planes(rb_verify *v, double hardening, double want)
     rc.zone = 1.1;
     rb_verify_solve(v, &rc, &it);
     rb_verify_absolute(v, it.force_ratio, want, 1e-4,
-                       "yielding interface, hardening %g: Q/(mu P) of CONTACT",
-                       hardening);
+                       "yielding interface, hardening %g: Q/(mu P) of CONTACT", hardening);
     rb_rolling_solution_free(&it);
 }
 
@@ -150,14 +148,13 @@ void rb_verify_interface(rb_verify *v)
     rc.contact_elements = 93;
     rc.zone = 4.65;
     rc.mu = 0.18;
-    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
-                                        .fall = {0.12, 0.0},
-                                        .slip_scale = {100.0, 100.0}};
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_exponential, .fall = {0.12, 0.0}, .slip_scale = {100.0, 100.0}};
     rb_verify_solve(v, &rc, &s);
     rb_verify_absolute(v, s.force_ratio, -0.5941, 5e-4,
                        "falling friction, %d elements: Q/(mu P) of CONTACT", 93);
-    rb_verify_absolute(v, s.stick, 45, 0.0,
-                       "falling friction, %d elements: elements that stick", 93);
+    rb_verify_absolute(v, s.stick, 45, 0.0, "falling friction, %d elements: elements that stick",
+                       93);
     rb_rolling_solution_free(&s);
     brushes(v, 50, 3e-4);
     brushes(v, 200, 1.9e-5);

@@ -42,9 +42,9 @@ void rb_verify_on_same(rb_rolling_case *rc);
 /* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1 (theory.md 6). */
 rb_rolling_case rb_verify_aluminium_on_steel(double mu);
 
-void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnson */
-void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
-void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
+void rb_verify_contact(rb_verify *v);   /* Hertz, Carter, Cattaneo, Bentall-Johnson */
+void rb_verify_bodies(rb_verify *v);    /* the elastic body alone, and below the contact */
+void rb_verify_rolling(rb_verify *v);   /* transients, dissipation */
 void rb_verify_interface(rb_verify *v); /* heat, wear */
 void rb_verify_crack(rb_verify *v);     /* stress intensities */
 /* How near fitted elements come, by their number. */

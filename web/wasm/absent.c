@@ -20,9 +20,8 @@ double *rb_large_alloc(size_t rows, size_t cols)
     return rb_alloc(rows, cols);
 }
 
-rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
-                                      const rb_bem_surface *body, rb_bem_flexibility *f,
-                                      rb_message *why)
+rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
+                                      rb_bem_flexibility *f, rb_message *why)
 {
     (void)body;
     (void)ends;
@@ -30,8 +29,7 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
 }
 
-rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
-                                            const rb_bem_wheel *wheel,
+rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why)
 {
@@ -43,8 +41,8 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends,
 }
 
 rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane,
-                                            rb_bem_flexibility *f, rb_message *why)
+                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
+                                            rb_message *why)
 {
     (void)ends;
     (void)plane;
@@ -53,8 +51,7 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
 }
 
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                                 const double *unit, double tolerance,
-                                 rb_hierarchical **h)
+                                 const double *unit, double tolerance, rb_hierarchical **h)
 {
     (void)mesh;
     (void)material;
@@ -78,8 +75,8 @@ void rb_hierarchical_free(rb_hierarchical *h)
 }
 
 /* Long boundaries alone, which have a hierarchical matrix. */
-rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                          const double *unit, double tolerance, rb_given **given)
+rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
+                          double tolerance, rb_given **given)
 {
     (void)mesh;
     (void)material;
@@ -89,8 +86,8 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material,
     return RB_EINVAL;
 }
 
-rb_status rb_given_multiply(const rb_given *given, int count, const int *element,
-                            int columns, const double *value, double *X)
+rb_status rb_given_multiply(const rb_given *given, int count, const int *element, int columns,
+                            const double *value, double *X)
 {
     (void)given;
     (void)count;
@@ -161,16 +158,15 @@ void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *
     (void)r;
 }
 
-void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
-                                       double *r)
+void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w, double *r)
 {
     (void)c;
     (void)w;
     (void)r;
 }
 
-void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening,
-                                     const double *w, double *r)
+void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening, const double *w,
+                                     double *r)
 {
     (void)c;
     (void)hardening;
@@ -184,9 +180,8 @@ void rb_bem_circulant_free(rb_bem_circulant *circulant)
 }
 
 /* No file, no profile. */
-rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
-                                    double noise, rb_rolling_profile **profile,
-                                    rb_message *why)
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why)
 {
     (void)n;
     (void)x;
@@ -221,8 +216,8 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
     return 0;
 }
 
-rb_status rb_rolling_points_check(const char *what, int n, const double *x,
-                                  const double *gap, rb_message *why)
+rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
+                                  rb_message *why)
 {
     (void)n;
     (void)x;

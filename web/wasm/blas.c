@@ -101,9 +101,9 @@ static void add_columns(int m, const double *A, size_t lda, const double s[4], d
         y[i] += (s[0] * a[i] + s[1] * b[i]) + (s[2] * c[i] + s[3] * d[i]);
 }
 
-void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n,
-                 double alpha, const double *A, int lda, const double *x, int incx,
-                 double beta, double *y, int incy)
+void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n, double alpha,
+                 const double *A, int lda, const double *x, int incx, double beta, double *y,
+                 int incy)
 {
     const size_t ld = (size_t)lda;
     (void)order;
@@ -130,13 +130,12 @@ enum { PANEL_ROWS = 128, PANEL_COLUMNS = 64 };
 
 static double entry_of(enum CBLAS_TRANSPOSE t, const double *B, size_t ldb, int i, int j)
 {
-    return t == CblasNoTrans ? B[(size_t)i + (size_t)j * ldb]
-                             : B[(size_t)j + (size_t)i * ldb];
+    return t == CblasNoTrans ? B[(size_t)i + (size_t)j * ldb] : B[(size_t)j + (size_t)i * ldb];
 }
 
 /* Columns j and j + 1 of C together: each load of A serves twice. */
-static void add_two(int m, int k, const double *A, size_t lda, const double *s,
-                    const double *t, double *y, double *z)
+static void add_two(int m, int k, const double *A, size_t lda, const double *s, const double *t,
+                    double *y, double *z)
 {
     int l = 0;
     for (; l + 2 <= k; l += 2) {
@@ -157,8 +156,8 @@ static void add_two(int m, int k, const double *A, size_t lda, const double *s,
 }
 
 static void add_panel(int m, int n, int k, double alpha, const double *A, size_t lda,
-                      enum CBLAS_TRANSPOSE tb, const double *B, size_t ldb, int first,
-                      double *C, size_t ldc)
+                      enum CBLAS_TRANSPOSE tb, const double *B, size_t ldb, int first, double *C,
+                      size_t ldc)
 {
     double s[PANEL_COLUMNS], t[PANEL_COLUMNS], none[PANEL_ROWS];
     for (int j = 0; j < n; j += 2) {
@@ -174,9 +173,9 @@ static void add_panel(int m, int n, int k, double alpha, const double *A, size_t
     }
 }
 
-void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRANSPOSE tb,
-                 int m, int n, int k, double alpha, const double *A, int lda,
-                 const double *B, int ldb, double beta, double *C, int ldc)
+void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRANSPOSE tb, int m,
+                 int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
+                 double beta, double *C, int ldc)
 {
     (void)order;
     for (int j = 0; beta != 1.0 && j < n; j++)
@@ -194,29 +193,26 @@ void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRA
         for (int i = 0; i < m; i += PANEL_ROWS)
             add_panel(m - i < PANEL_ROWS ? m - i : PANEL_ROWS, n,
                       k - l < PANEL_COLUMNS ? k - l : PANEL_COLUMNS, alpha,
-                      A + i + (size_t)l * (size_t)lda, (size_t)lda, tb, B, (size_t)ldb, l,
-                      C + i, (size_t)ldc);
+                      A + i + (size_t)l * (size_t)lda, (size_t)lda, tb, B, (size_t)ldb, l, C + i,
+                      (size_t)ldc);
 }
 
 void cblas_dtrsv(enum CBLAS_ORDER order, enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans,
-                 enum CBLAS_DIAG diag, int n, const double *A, int lda, double *x,
-                 int incx)
+                 enum CBLAS_DIAG diag, int n, const double *A, int lda, double *x, int incx)
 {
     (void)incx;
     cblas_dtrsm(order, CblasLeft, uplo, trans, diag, n, 1, 1.0, A, lda, x, n);
 }
 
 /* One column of B: forward or backward substitution. */
-static void substitute(enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans,
-                       enum CBLAS_DIAG diag, int m, const double *A, size_t lda,
-                       double *x)
+static void substitute(enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans, enum CBLAS_DIAG diag,
+                       int m, const double *A, size_t lda, double *x)
 {
     const int forward = (uplo == CblasLower) == (trans == CblasNoTrans);
     for (int step = 0; step < m; step++) {
         const int j = forward ? step : m - 1 - step;
         const double *a = A + (size_t)j * lda;
-        const int from = uplo == CblasLower ? j + 1 : 0,
-                  count = uplo == CblasLower ? m - 1 - j : j;
+        const int from = uplo == CblasLower ? j + 1 : 0, count = uplo == CblasLower ? m - 1 - j : j;
         if (trans == CblasTrans)
             x[j] -= cblas_ddot(count, a + from, 1, x + from, 1);
         if (diag == CblasNonUnit)
@@ -228,8 +224,8 @@ static void substitute(enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans,
 
 /* Blocks of the diagonal are substituted, the rest is products of matrices. */
 void cblas_dtrsm(enum CBLAS_ORDER order, enum CBLAS_SIDE side, enum CBLAS_UPLO uplo,
-                 enum CBLAS_TRANSPOSE trans, enum CBLAS_DIAG diag, int m, int n,
-                 double alpha, const double *A, int lda, double *B, int ldb)
+                 enum CBLAS_TRANSPOSE trans, enum CBLAS_DIAG diag, int m, int n, double alpha,
+                 const double *A, int lda, double *B, int ldb)
 {
     enum { BLOCK = 32 };
     const size_t la = (size_t)lda, lb = (size_t)ldb;
@@ -252,7 +248,6 @@ void cblas_dtrsm(enum CBLAS_ORDER order, enum CBLAS_SIDE side, enum CBLAS_UPLO u
                   rest = uplo == CblasLower ? m - from : first;
         if (rest > 0)
             cblas_dgemm(order, CblasNoTrans, CblasNoTrans, rest, n, size, -1.0,
-                        A + from + (size_t)first * la, lda, B + first, ldb, 1.0, B + from,
-                        ldb);
+                        A + from + (size_t)first * la, lda, B + first, ldb, 1.0, B + from, ldb);
     }
 }

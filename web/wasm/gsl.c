@@ -80,8 +80,7 @@ void gsl_vector_set_all(gsl_vector *v, double x)
 /* ---- Minima: the simplex of Nelder and Mead, in two dimensions
  * ------------------------- */
 
-static const gsl_multimin_fminimizer_type simplex2 = {"nmsimplex2", 0,    NULL,
-                                                      NULL,         NULL, NULL};
+static const gsl_multimin_fminimizer_type simplex2 = {"nmsimplex2", 0, NULL, NULL, NULL, NULL};
 const gsl_multimin_fminimizer_type *gsl_multimin_fminimizer_nmsimplex2 = &simplex2;
 
 typedef struct {
@@ -100,8 +99,8 @@ void gsl_multimin_fminimizer_free(gsl_multimin_fminimizer *s)
     free(s);
 }
 
-gsl_multimin_fminimizer *
-gsl_multimin_fminimizer_alloc(const gsl_multimin_fminimizer_type *T, size_t n)
+gsl_multimin_fminimizer *gsl_multimin_fminimizer_alloc(const gsl_multimin_fminimizer_type *T,
+                                                       size_t n)
 {
     gsl_multimin_fminimizer *s = calloc(1, sizeof *s);
     if (!s || n != 2)
@@ -272,8 +271,7 @@ gsl_integration_glfixed_table *gsl_integration_glfixed_table_alloc(size_t n)
             double p = 1.0, before = 0.0;
             for (size_t k = 1; k <= n; k++) {
                 const double next =
-                    ((2.0 * (double)k - 1.0) * x * p - ((double)k - 1.0) * before) /
-                    (double)k;
+                    ((2.0 * (double)k - 1.0) * x * p - ((double)k - 1.0) * before) / (double)k;
                 before = p;
                 p = next;
             }
@@ -361,8 +359,7 @@ int gsl_sf_expint_Ei_scaled_e(const double x, gsl_sf_result *result)
 /* ---- Interpolation: the interval that holds x -----------------------------------------
  */
 
-size_t gsl_interp_bsearch(const double x_array[], double x, size_t index_lo,
-                          size_t index_hi)
+size_t gsl_interp_bsearch(const double x_array[], double x, size_t index_lo, size_t index_hi)
 {
     while (index_hi > index_lo + 1) {
         const size_t middle = (index_lo + index_hi) / 2;
@@ -434,12 +431,10 @@ static double spline_area(const gsl_spline *s, size_t i, double x)
     const double h = s->x[i + 1] - s->x[i], *m = s->y + s->size;
     const double b = (x - s->x[i]) / h, a = 1.0 - b, bb = b * b, aa = a * a;
     return 0.5 * h * ((1.0 - aa) * s->y[i] + bb * s->y[i + 1]) -
-           h * h * h / 24.0 *
-               ((1.0 - 2.0 * aa + aa * aa) * m[i] + (2.0 * bb - bb * bb) * m[i + 1]);
+           h * h * h / 24.0 * ((1.0 - 2.0 * aa + aa * aa) * m[i] + (2.0 * bb - bb * bb) * m[i + 1]);
 }
 
-double gsl_spline_eval_integ(const gsl_spline *s, double a, double b,
-                             gsl_interp_accel *accel)
+double gsl_spline_eval_integ(const gsl_spline *s, double a, double b, gsl_interp_accel *accel)
 {
     const size_t first = gsl_interp_bsearch(s->x, a, 0, s->size - 1),
                  last = gsl_interp_bsearch(s->x, b, 0, s->size - 1);

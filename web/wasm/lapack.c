@@ -47,8 +47,7 @@ int LAPACKE_dgetrf_work(int layout, int m, int n, double *A, int lda, int *pivot
     int fault = 0;
     (void)layout;
     for (int first = 0; first < least; first += PANEL) {
-        const int width = least - first < PANEL ? least - first : PANEL,
-                  behind = first + width;
+        const int width = least - first < PANEL ? least - first : PANEL, behind = first + width;
         const int f = factor_panel(m, A, ld, first, width, pivots);
         fault = fault ? fault : f;
         for (int j = first; j < behind; j++) {
@@ -61,9 +60,9 @@ int LAPACKE_dgetrf_work(int layout, int m, int n, double *A, int lda, int *pivot
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, width,
                     n - behind, 1.0, A + (size_t)first * (ld + 1), lda, right, lda);
         if (behind < m)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m - behind, n - behind,
-                        width, -1.0, A + behind + (size_t)first * ld, lda, right, lda,
-                        1.0, A + behind + (size_t)behind * ld, lda);
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m - behind, n - behind, width,
+                        -1.0, A + behind + (size_t)first * ld, lda, right, lda, 1.0,
+                        A + behind + (size_t)behind * ld, lda);
     }
     return fault;
 }
@@ -73,8 +72,8 @@ int LAPACKE_dgetrf(int layout, int m, int n, double *A, int lda, int *pivots)
     return LAPACKE_dgetrf_work(layout, m, n, A, lda, pivots);
 }
 
-int LAPACKE_dlaswp_work(int layout, int n, double *A, int lda, int k1, int k2,
-                        const int *pivots, int incx)
+int LAPACKE_dlaswp_work(int layout, int n, double *A, int lda, int k1, int k2, const int *pivots,
+                        int incx)
 {
     (void)layout;
     for (int step = 0; step <= k2 - k1; step++) {
@@ -92,23 +91,20 @@ int LAPACKE_dgetrs_work(int layout, char trans, int n, int nrhs, const double *A
                           second = trans == 'N' ? CblasUpper : CblasLower;
     if (trans == 'N')
         LAPACKE_dlaswp_work(layout, nrhs, B, ldb, 1, n, pivots, 1);
-    cblas_dtrsm(CblasColMajor, CblasLeft, first, t,
-                first == CblasLower ? CblasUnit : CblasNonUnit, n, nrhs, 1.0, A, lda, B,
-                ldb);
+    cblas_dtrsm(CblasColMajor, CblasLeft, first, t, first == CblasLower ? CblasUnit : CblasNonUnit,
+                n, nrhs, 1.0, A, lda, B, ldb);
     cblas_dtrsm(CblasColMajor, CblasLeft, second, t,
-                second == CblasLower ? CblasUnit : CblasNonUnit, n, nrhs, 1.0, A, lda, B,
-                ldb);
+                second == CblasLower ? CblasUnit : CblasNonUnit, n, nrhs, 1.0, A, lda, B, ldb);
     if (trans != 'N')
         LAPACKE_dlaswp_work(layout, nrhs, B, ldb, 1, n, pivots, -1);
     return 0;
 }
 
-int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *pivots,
-                       double *B, int ldb)
+int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *pivots, double *B,
+                       int ldb)
 {
     const int fault = LAPACKE_dgetrf_work(layout, n, n, A, lda, pivots);
-    return fault ? fault
-                 : LAPACKE_dgetrs_work(layout, 'N', n, nrhs, A, lda, pivots, B, ldb);
+    return fault ? fault : LAPACKE_dgetrs_work(layout, 'N', n, nrhs, A, lda, pivots, B, ldb);
 }
 
 /* A = U'U column by column, in the upper triangle; uplo is 'U' here. */
@@ -139,21 +135,20 @@ int LAPACKE_dpotri(int layout, char uplo, int n, double *A, int lda)
         return LAPACK_WORK_MEMORY_ERROR;
     for (int i = 0; i < n; i++)
         X[(size_t)i * ((size_t)n + 1)] = 1.0;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, n, n, 1.0,
-                A, lda, X, n);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, n, n,
-                1.0, A, lda, X, n);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, n, n, 1.0, A, lda,
+                X, n);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, n, n, 1.0, A, lda,
+                X, n);
     for (int j = 0; j < n; j++)
-        memcpy(A + (size_t)j * (size_t)lda, X + (size_t)j * (size_t)n,
-               ((size_t)j + 1) * sizeof *X);
+        memcpy(A + (size_t)j * (size_t)lda, X + (size_t)j * (size_t)n, ((size_t)j + 1) * sizeof *X);
     free(X);
     return 0;
 }
 
 /* Hager's estimate of the 1-norm of the inverse from an LU whose rows keep their order:
  * as dgecon, the permutation does not matter. */
-int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda,
-                        double anorm, double *rcond, double *work, int *iwork)
+int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda, double anorm,
+                        double *rcond, double *work, int *iwork)
 {
     double *x = work, estimate = 0.0;
     int at = -1;

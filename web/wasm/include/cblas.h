@@ -20,17 +20,16 @@ void cblas_dscal(int n, double a, double *x, int incx);
 void cblas_drot(int n, double *x, int incx, double *y, int incy, double c, double s);
 void cblas_dswap(int n, double *x, int incx, double *y, int incy);
 void cblas_dcopy(int n, const double *x, int incx, double *y, int incy);
-void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n,
-                 double alpha, const double *A, int lda, const double *x, int incx,
-                 double beta, double *y, int incy);
-void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRANSPOSE tb,
-                 int m, int n, int k, double alpha, const double *A, int lda,
-                 const double *B, int ldb, double beta, double *C, int ldc);
+void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n, double alpha,
+                 const double *A, int lda, const double *x, int incx, double beta, double *y,
+                 int incy);
+void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRANSPOSE tb, int m,
+                 int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
+                 double beta, double *C, int ldc);
 void cblas_dtrsv(enum CBLAS_ORDER order, enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans,
-                 enum CBLAS_DIAG diag, int n, const double *A, int lda, double *x,
-                 int incx);
+                 enum CBLAS_DIAG diag, int n, const double *A, int lda, double *x, int incx);
 void cblas_dtrsm(enum CBLAS_ORDER order, enum CBLAS_SIDE side, enum CBLAS_UPLO uplo,
-                 enum CBLAS_TRANSPOSE trans, enum CBLAS_DIAG diag, int m, int n,
-                 double alpha, const double *A, int lda, double *B, int ldb);
+                 enum CBLAS_TRANSPOSE trans, enum CBLAS_DIAG diag, int m, int n, double alpha,
+                 const double *A, int lda, double *B, int ldb);
 
 #endif
