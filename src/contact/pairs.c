@@ -57,7 +57,7 @@ rb_status rb_contact_dense_halve(const rb_contact_operator *fine, int difference
 {
     const rb_contact_matrix *K = &fine->matrix;
     const int n = fine->n, m = (n + 1) / 2;
-    double *S = rb_alloc((size_t)m, 4 * (size_t)m); /* S, then F in the same room */
+    double *S = rb_alloc((size_t)m, 4 * (size_t)m); /* S, then F in the same memory */
     double *F = S + 2 * (size_t)m * (size_t)m;
 
     *half = NULL;

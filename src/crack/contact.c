@@ -21,7 +21,7 @@ rb_status rb_crack_contact_alloc(const rb_crack *c, int m, rb_crack_contact *k)
     k->scale = rb_alloc(n, 5);
     k->gap = k->scale + n;
     k->slip = k->gap + n;
-    k->room = k->slip + n;
+    k->scratch = k->slip + n;
     return k->F && k->scale ? rb_contact_state_alloc(k->n, &k->state) : RB_ENOMEM;
 }
 
@@ -53,9 +53,9 @@ rb_status rb_crack_contact_pose(const rb_crack *c, rb_crack_contact *k)
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, &k->problem);
     for (int j = 0; j < k->n; j++) /* a wheel has no friction */
-        k->room[j] = j < k->m ? 0.0 : c->shape.friction;
+        k->scratch[j] = j < k->m ? 0.0 : c->shape.friction;
     if (s == RB_OK)
-        rb_contact_set_friction(&k->problem, c->shape.friction, k->room);
+        rb_contact_set_friction(&k->problem, c->shape.friction, k->scratch);
     return s;
 }
 
@@ -63,16 +63,16 @@ void rb_crack_contact_load(const rb_crack *c, const double *T, double pressure, 
                            const rb_crack_state *before, rb_crack_contact *k)
 {
     rb_contact_problem *p = &k->problem;
-    memset(k->room, 0, 2 * (size_t)k->n * sizeof *k->room);
+    memset(k->scratch, 0, 2 * (size_t)k->n * sizeof *k->scratch);
     memset(p->d_N, 0, (size_t)k->n * sizeof *p->d_N);
     memset(p->d_T, 0, (size_t)k->n * sizeof *p->d_T);
     for (int j = 0; j < c->n; j++) {
         const int i = k->m + j;
-        k->room[i] = (T[j] + pressure * c->hat[j]) / k->scale[i];
-        k->room[k->n + i] = T[c->n + j] / k->scale[i];
+        k->scratch[i] = (T[j] + pressure * c->hat[j]) / k->scale[i];
+        k->scratch[k->n + i] = T[c->n + j] / k->scale[i];
         p->d_T[i] = -before->D[c->n + j] * k->scale[i];
     }
-    rb_contact_operator_add(p->op, k->room, k->room + k->n, p->d_N, p->d_T);
+    rb_contact_operator_add(p->op, k->scratch, k->scratch + k->n, p->d_N, p->d_T);
     p->stress = p->gap_length = size;
     p->slip_length = size * (p->mu > 0.0 ? p->mu : 1.0);
 }
@@ -112,7 +112,7 @@ void rb_crack_contact_read(const rb_crack *c, const rb_crack_contact *k, rb_crac
 
 /* ---- Trapped fluid ----------------------------------------------------------------- */
 
-/* The LCP of the step with one more unknown, p_f, and one more row, the fluid's room:
+/* The LCP of the step with one more unknown, p_f, and one more row, the free volume:
  * y_f = e'D_N - V_0 >= 0, complementary to p_f >= 0.  Its first n rows are the gaps; what
  * p_f adds to them and to the slips is the right-hand side of unit pressure alone.
  * *pressure: p_f; the problem is that of the load without fluid. */

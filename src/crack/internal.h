@@ -30,10 +30,10 @@ int rb_crack_points(const rb_crack_element *e, int graded_from, int graded_to,
 /* The contact of the faces, behind the m elements of a wheel if it is computed with them,
  * scaled so that the diagonal of F_NN is 1. */
 typedef struct {
-    int n, m;                  /* m + the nodes of the crack; m */
-    double *F;                 /* 2n x 2n; owned, as all here */
-    double *scale;             /* n: 1/sqrt(F_jj) */
-    double *gap, *slip, *room; /* n, n, 2n; gap and slip of the last solution */
+    int n, m;                     /* m + the nodes of the crack; m */
+    double *F;                    /* 2n x 2n; owned, as all here */
+    double *scale;                /* n: 1/sqrt(F_jj) */
+    double *gap, *slip, *scratch; /* n, n, 2n; gap and slip of the last solution */
     rb_contact_problem problem;
     rb_contact_state state;
     int warm;        /* 1: the zones of the state are a start */

@@ -98,22 +98,22 @@ static double largest_stress(const rb_crack_passage *p)
     return largest;
 }
 
-/* Nodal forces on the way from step k - 1 to step k; room: as many. */
+/* Nodal forces on the way from step k - 1 to step k; scratch: as many. */
 static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int k, double part,
-                              double *T, double *room)
+                              double *T, double *scratch)
 {
     const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
     rb_status s = rb_crack_load(c, load_of(p, k), x, p->tension, T);
     if (s == RB_OK && p->loads > 1)
-        s = rb_crack_load(c, load_of(p, k - 1), x, p->tension, room);
+        s = rb_crack_load(c, load_of(p, k - 1), x, p->tension, scratch);
     for (int i = 0; i < 2 * c->n && p->loads > 1; i++)
-        T[i] = part * T[i] + (1.0 - part) * room[i];
+        T[i] = part * T[i] + (1.0 - part) * scratch[i];
     return s;
 }
 
 /* What is trapped is the volume at the place where the mouth closes, and near it the
  * crack closes fast: the state becomes that just before this place, by bisection.  If the
- * mouth does not close, it stays as it is.  T: room for 4n. */
+ * mouth does not close, it stays as it is.  T: scratch for 4n. */
 static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k, double scale,
                                   double *T, rb_crack_state *state, rb_message *why)
 {

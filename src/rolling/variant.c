@@ -290,14 +290,14 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *
     rb_contact_state *state = &v->state;
     rb_contact_problem *p = &v->problem;
     const rb_rolling_case *rc = v->rc;
-    double *room = rb_alloc((size_t)state->n, 1);
+    double *scratch = rb_alloc((size_t)state->n, 1);
 
-    if (!room)
+    if (!scratch)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d elements", state->n);
-    rb_contact_kinematics(p, state, gap ? gap : room, state->lambda);
+    rb_contact_kinematics(p, state, gap ? gap : scratch, state->lambda);
     if (slip)
         memcpy(slip, state->lambda, (size_t)state->n * sizeof *slip);
-    free(room);
+    free(scratch);
     for (int i = 0; i < state->n; i++) {
         state->lambda[i] *= state->zone[i] != RB_ZONE_STICK;
         state->plastic[i] = state->zone[i] > RB_ZONE_SLIP_POSITIVE ? state->lambda[i] : 0.0;

@@ -60,7 +60,7 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
 /* ---- The law ----------------------------------------------------------------------- */
 
 /* Coefficients that the law gives slips and friction that differ by `step` at element
- * `at` (-1: at every element), in four places: their derivative.  room: 2n. */
+ * `at` (-1: at every element), in four places: their derivative.  scratch: 2n. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
                                    int of_friction, double step, int at, double *derivative,
                                    rb_message *why)
@@ -88,7 +88,7 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
 
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
-static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room, rb_message *why)
+static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
     const rb_rolling_friction *f = &model->rc->friction;
@@ -98,9 +98,9 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room, 
     rb_status status = RB_OK;
 
     if (f->memory == 0.0 && f->heat == 0.0) {
-        status = differentiate_law(model, v, 0, slip, -1, room, why);
+        status = differentiate_law(model, v, 0, slip, -1, scratch, why);
         for (size_t i = 0; i < n; i++)
-            s->law_slip[i + i * n] = room[i];
+            s->law_slip[i + i * n] = scratch[i];
         return status;
     }
     for (size_t j = 0; j < n && status == RB_OK; j++) {
@@ -124,16 +124,16 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
         return RB_OK;
     s->law_slip = rb_alloc(n, n);
     s->law_force = model->rc->friction.heat != 0.0 ? rb_alloc(n, n) : NULL;
-    double *room = rb_alloc(n, 1);
-    if (!s->law_slip || !room || (model->rc->friction.heat != 0.0 && !s->law_force))
+    double *scratch = rb_alloc(n, 1);
+    if (!s->law_slip || !scratch || (model->rc->friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
         status = rb_rolling_variant_create(model, model->rc, 1, &v, why);
     if (status == RB_OK)
         status = rb_rolling_variant_complete(&v, NULL, NULL, why);
     if (status == RB_OK)
-        status = fill_law(s, &v, room, why);
+        status = fill_law(s, &v, scratch, why);
     rb_rolling_variant_free(model, &v);
-    free(room);
+    free(scratch);
     return status;
 }

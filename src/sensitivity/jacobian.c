@@ -196,17 +196,17 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
 {
     const rb_contact_problem *p = &s->model->problem;
     rb_sensitivity_factors *f = *factors = factors_alloc(s->n, zone);
-    double *room = rb_alloc((size_t)s->n, 2);
+    double *scratch = rb_alloc((size_t)s->n, 2);
 
-    if (!f || !room) {
-        free(room);
+    if (!f || !scratch) {
+        free(scratch);
         return RB_ENOMEM;
     }
     const int m = f->contacts, size = f->size;
     for (int c = 0; c < m; c++)
-        fill_element(s, f, c, room);
+        fill_element(s, f, c, scratch);
     fill_controls(s, f);
-    free(room);
+    free(scratch);
     for (int j = 0; j < size; j++) {
         f->unknown[j] = j == m          ? p->gap_length
                         : j == size - 1 ? p->slip_length / p->e_T[0]

@@ -80,14 +80,14 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
     const rb_contact_problem *base = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
     const size_t n = (size_t)s->n;
-    double *room = rb_alloc(n, 5), *friction = room + 2 * n, *none = room + 3 * n,
-           *gap = room + 4 * n;
+    double *scratch = rb_alloc(n, 5), *friction = scratch + 2 * n, *none = scratch + 3 * n,
+           *gap = scratch + 4 * n;
     rb_contact_problem p = *base;
 
-    if (!room)
+    if (!scratch)
         return RB_ENOMEM;
-    p.d_N = room;
-    p.d_T = room + n;
+    p.d_N = scratch;
+    p.d_T = scratch + n;
     for (size_t i = 0; i < n; i++) {
         p.d_N[i] = base->d_N[i] + part * rate->gap[i];
         p.d_T[i] = base->d_T[i] + part * rate->slip[i];
@@ -115,7 +115,7 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
     const rb_status status = rb_contact_try_zones(&p, x, gap);
     for (size_t i = 0; i < n; i++)
         x->q[i] += friction[i];
-    free(room);
+    free(scratch);
     return status;
 }
 
