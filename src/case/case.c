@@ -335,16 +335,16 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
         s->young_b = s->poisson_b = NAN;
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
-        double *to = (double *)(void *)((char *)rc + (o->into ? o->into : o->offset));
-        const double typed = *(const double *)(const void *)((char *)s + o->offset);
         /* Options of the second body mean nothing to a rigid plane. */
         if (is_b && !rc->elastic_b && c->given[o - rb_case_table])
             return refuse(c, o, "body B is rigid without --similar or --young-b", why);
-        if (is_b && !rc->elastic_b)
+        if ((is_b && !rc->elastic_b) || (!o->into && !o->of_a))
             continue;
         /* What is given of B lies in its place; the rest is A's, as the table says. */
-        if (o->into && !isnan(typed))
-            *to = typed;
+        double *to = (double *)(void *)((char *)rc + (o->into ? o->into : o->offset));
+        const double *typed = (const double *)(const void *)((char *)s + o->offset);
+        if (o->into && !isnan(*typed))
+            *to = *typed;
         else if (o->of_a && (s->similar || !o->if_similar) && !c->given[o - rb_case_table] &&
                  (!is_b || rb_option_applies(o, &rc->b)))
             *to = *(const double *)(const void *)((char *)rc + o->of_a);

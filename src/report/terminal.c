@@ -192,7 +192,7 @@ static void print_item(list *l, const char *item)
 /* What the rows above do not say. */
 static void print_rest(FILE *out, const grid *g, const column *all, const choice *rows, int width)
 {
-    char text[WIDTH], item[3 * WIDTH];
+    char text[WIDTH], item[4 * WIDTH];
     list same = {out, "in every row:", width, 0}, missing = {out, "not shown:", width, 0};
     for (int j = 0; j < g->columns; j++) {
         const column *c = &all[j];
