@@ -69,7 +69,9 @@ typedef struct {
 
 static void write_panel(FILE *out, const view *v, const panel *p)
 {
-    static const double tops[] = {0.9, 0.634, 0.368}, height = 0.235;
+    static const double tops[] = {0.9, 0.634, 0.368};
+    /* larger tics need more between them */
+    const double height = v->place.titled ? 0.235 : 0.215;
     const double top = tops[p->k] + v->place.up;
     fprintf(out,
             "set tmargin at screen %g\nset bmargin at screen %g\n"

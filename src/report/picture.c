@@ -169,18 +169,22 @@ typedef struct {
     int zone;
 } stretch;
 
-/* Upright where the zone is narrow, left out where it is a line. */
+/* Upright, and without the arrow, where the zone is narrow; left out where it is a line. */
 static void write_zone_label(FILE *out, const view *v, const stretch *st)
 {
     const double share = (st->to - st->from) / (v->to - v->from);
-    static const char *const names[] = {"separated", "stick",   "slip →",
-                                        "← slip",    "yield →", "← yield"};
-    const char *name = names[st->zone];
+    static const char *const flat[] = {"separated", "stick",   "slip →",
+                                       "← slip",    "yield →", "← yield"},
+                             *const upright[] = {"separated", "stick", "slip",
+                                                 "slip",      "yield", "yield"};
+    /* what the letters and the arrow take of the axis: they are larger in a column */
+    const double letter = v->place.titled ? 0.013 : 0.02;
+    const double length = letter * (double)(strlen(upright[st->zone]) + (st->zone > 1 ? 2 : 0));
     if (share < 0.025)
         return;
-    const int flat = share > 0.013 * (double)strlen(name);
     fprintf(out, "set label '{/*0.85 %s}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
-            name, (st->from + st->to) / 2, flat ? "0.95 center" : "0.97 right rotate by 90");
+            share > length ? flat[st->zone] : upright[st->zone], (st->from + st->to) / 2,
+            share > length ? "0.95 center" : "0.97 right rotate by 90");
 }
 
 static void write_zones(FILE *out, const view *v, int labelled)
