@@ -190,7 +190,7 @@ TEST(bad_cylinders_are_refused)
         {{50, RB_BEM_HUB, 0, 0.0, 0, 0, 0}, 2, ends, "hub ratio"},
         {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0, 0, 0}, 2, ends, "support"},
         {{50, RB_BEM_ARC, 0.5, 0, 0, 7, 0}, 2, ends, "outer elements"},
-        {{50, RB_BEM_HUB, 0, 0.6, 0, 8, 0}, 2, ends, "cut the hub"},
+        {{50, RB_BEM_HUB, 0, 0.6, 0, 8, 0}, 2, ends, "cut through the hub"},
         {{50, RB_BEM_ARC, 0.5, 0, 0, 2000000, 0}, 2, ends, "million"},
         {{50, RB_BEM_ARC, 0.5, 0, 0, 0, -1.0}, 2, ends, "refinement"},
         {{50, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 2, wide, "radius of 50"},

@@ -519,7 +519,7 @@ TEST(carters_law_is_for_similar_half_planes)
 
 TEST(transforms_are_for_many_equal_elements_on_half_planes)
 {
-    const rb_rolling_mesh large = {.n = RB_ROLLING_LARGE}, small = {.n = large.n - 1};
+    const rb_rolling_mesh large = {.n = RB_ROLLING_TRANSFORMS_STEPS}, small = {.n = large.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
     const rb_rolling_mesh some = {.n = RB_ROLLING_TRANSFORMS}, few = {.n = some.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.creep = 0.001);

@@ -453,7 +453,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
                       "its distances depends on the solution; give a load")
         : states->n >= RB_ROLLING_LARGE
             ? rb_fail(why, RB_EINVAL,
-                      "derivatives of a history: need matrices: fewer than %d elements",
+                      "derivatives of a history need a matrix: expected fewer than %d elements",
                       RB_ROLLING_LARGE)
             : RB_OK;
 

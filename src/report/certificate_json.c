@@ -25,7 +25,7 @@ rb_status rb_certificate_head(const char *name, const json_t *root, const char *
         if (!known[k])
             return rb_fail(why, RB_EFORMAT,
                            "%s: cannot be checked: results with '%s' (only single cases, "
-                           "histories, stress and cracks without error bars can)",
+                           "histories, stress and cracks without error bars can be)",
                            name, key);
     }
     if (!json_is_object(inputs) || !json_is_object(summary) ||
@@ -33,7 +33,7 @@ rb_status rb_certificate_head(const char *name, const json_t *root, const char *
         return rb_certificate_refuse(name,
                                      "inputs, summary or table is missing (only single "
                                      "cases, histories, stress and "
-                                     "cracks without error bars can)",
+                                     "cracks without error bars can be)",
                                      why);
     if (json_is_true(json_object_get(inputs, "error")) || json_object_get(summary, "errors") ||
         json_is_number(json_object_get(inputs, "accuracy")))
