@@ -263,7 +263,7 @@ void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *cr
 /* Sets "crack", "contact", "summary", "table", and adds to "notes". */
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
 /* Sets "faces", with a list per position, and the tractions of the contact,
- * "contact_table" or "history" with its states: what a judge needs.  In mm, N, MPa. */
+ * "contact_table" or "history" with its states: what rollbem check needs.  In mm, N, MPa. */
 void rb_report_json_crack_faces(struct json_t **root, const rb_case_crack_result *r);
 /* input_hash of a case and its crack. */
 struct json_t *rb_report_json_crack_hash(const rb_case *c, const rb_case_crack *crack);

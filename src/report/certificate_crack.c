@@ -31,7 +31,7 @@ typedef struct {
     double per_D;              /* K over D next to a tip */
     rb_rolling_model wheel;    /* of a coupled contact, whose pressures are in r.history */
     double *gap, *slip, *none; /* of its elements; gap owns them */
-} judge;
+} assessment;
 
 /* ---- Inputs ------------------------------------------------------------------------ */
 
@@ -53,7 +53,7 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
 
 /* The inputs of the case alone, in mm, N, MPa; those of the crack go into j->crack. NULL:
  * refused, or no memory. */
-static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
+static json_t *split_inputs(assessment *j, rb_status *s, rb_message *why)
 {
     const json_t *inputs = json_object_get(j->root, "inputs");
     const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, &j->crack, NULL,
@@ -98,7 +98,7 @@ static json_t *split_inputs(judge *j, rb_status *s, rb_message *why)
 /* ---- Contact ----------------------------------------------------------------------- */
 
 /* The case, and whether all inputs are those of the result. */
-static rb_status settle(judge *j, rb_case *words, const json_t *inputs, rb_message *why)
+static rb_status resolve(assessment *j, rb_case *words, const json_t *inputs, rb_message *why)
 {
     rb_status s = rb_certificate_rebuild_case(j->c.name, inputs, words, why);
     json_t *hash = s == RB_OK ? rb_report_json_crack_hash(words, &j->crack) : NULL;
@@ -115,7 +115,7 @@ static rb_status settle(judge *j, rb_case *words, const json_t *inputs, rb_messa
 }
 
 /* The notes on the contact come before those on the crack. */
-static json_t *notes_of_contact(const judge *j)
+static json_t *notes_of_contact(const assessment *j)
 {
     const json_t *printed = json_object_get(j->root, "notes");
     json_t *notes = json_array();
@@ -135,7 +135,7 @@ static rb_status couple(rb_case *words, rb_message *why)
 }
 
 /* The contact as a result of its own. */
-static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
+static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
 {
     static const char *const shared[][2] = {{"schema", "schema"},   {"version", "version"},
                                             {"units", "units"},     {"conventions", "conventions"},
@@ -167,8 +167,8 @@ static rb_status check_contact(judge *j, rb_case *words, rb_message *why)
 /* ---- What is printed --------------------------------------------------------------- */
 
 /* n numbers of each of the steps, `apart` numbers from step to step. */
-static rb_status read_lists(const judge *j, const json_t *object, const char *key, int steps, int n,
-                            size_t apart, double *to, rb_message *why)
+static rb_status read_lists(const assessment *j, const json_t *object, const char *key, int steps,
+                            int n, size_t apart, double *to, rb_message *why)
 {
     const json_t *lists = json_object_get(object, key);
     rb_status s = RB_OK;
@@ -183,7 +183,7 @@ static rb_status read_lists(const judge *j, const json_t *object, const char *ke
 
 /* Elements and tractions of the contact, of one state or of all steps, where the track
  * looks for them. */
-static rb_status read_contact(judge *j, rb_message *why)
+static rb_status read_contact(assessment *j, rb_message *why)
 {
     const json_t *table = json_object_get(j->root, "contact_table"),
                  *history = json_object_get(j->root, "history"),
@@ -226,7 +226,7 @@ static rb_status read_contact(judge *j, rb_message *why)
 }
 
 /* The table, and the faces at every position. */
-static rb_status read_history(judge *j, rb_message *why)
+static rb_status read_history(assessment *j, rb_message *why)
 {
     const json_t *faces = json_object_get(j->root, "faces"),
                  *table = json_object_get(j->root, "table");
@@ -274,7 +274,7 @@ static rb_status read_history(judge *j, rb_message *why)
 
 /* K over D of the node next to a tip: from as many elements along a crack of 90 degrees
  * under unit tension, at the surface or deep below it, whose K_I is known. */
-static rb_status find_per_D(judge *j, rb_message *why)
+static rb_status find_per_D(assessment *j, rb_message *why)
 {
     rb_crack_shape straight = j->r.shape;
     const double dx = straight.path.x[1] - straight.path.x[0],
@@ -295,7 +295,7 @@ static rb_status find_per_D(judge *j, rb_message *why)
 }
 
 /* Typical displacements and forces of the nodes, as the solver scales them. */
-static void set_scales(judge *j)
+static void set_scales(assessment *j)
 {
     const int n = rb_crack_nodes(j->body);
     const double *F = rb_crack_flexibility(j->body);
@@ -319,7 +319,7 @@ static void set_scales(judge *j)
 }
 
 /* The contact that feels the crack, on the elements of contact_table. */
-static rb_status build_wheel(judge *j, rb_message *why)
+static rb_status build_wheel(assessment *j, rb_message *why)
 {
     const rb_rolling_solution *of = &j->r.contact.solution;
     j->gap = rb_alloc((size_t)of->n, 3);
@@ -331,7 +331,7 @@ static rb_status build_wheel(judge *j, rb_message *why)
         &j->resolved->rc, &(rb_rolling_elements){of->n, of->x, of->h, 1}, &j->wheel, why);
 }
 
-static rb_status rebuild(judge *j, rb_message *why)
+static rb_status rebuild(assessment *j, rb_message *why)
 {
     rb_status s = j->crack.unloaded ? RB_OK : read_contact(j, why);
 
@@ -372,7 +372,7 @@ static rb_status rebuild(judge *j, rb_message *why)
 /* ---- Laws -------------------------------------------------------------------------- */
 
 /* D = F (T + r + p_f e) of step k. */
-static rb_status displace(judge *j, int k, rb_message *why)
+static rb_status displace(assessment *j, int k, rb_message *why)
 {
     const rb_crack_history *h = &j->r.history;
     const rb_case_crack_track *t = &j->track;
@@ -394,7 +394,7 @@ static rb_status displace(judge *j, int k, rb_message *why)
 
 /* Gaps, pressures and load of a contact that feels the crack in step k: by Betti's
  * theorem the crack moves the surface of B by -C'D, C: of unit forces on the elements. */
-static rb_status check_wheel(judge *j, int k)
+static rb_status check_wheel(assessment *j, int k)
 {
     const rb_crack_history *h = &j->r.history;
     const rb_contact_problem *problem = &j->wheel.problem;
@@ -432,7 +432,7 @@ static rb_status check_wheel(judge *j, int k)
 }
 
 /* 1: the fluid comes and goes.  Where it is shut in, its pressure may open the mouth. */
-static int is_open(const judge *j, int k)
+static int is_open(const assessment *j, int k)
 {
     const rb_crack_history *h = &j->r.history;
     return h->zone[(size_t)k * (size_t)h->nodes] == RB_ZONE_SEPARATED &&
@@ -441,13 +441,13 @@ static int is_open(const judge *j, int k)
 
 /* 1: slips of step k do not count from those that are printed before it, because the
  * place where the mouth closes lies between. */
-static int follows_closing(const judge *j, int k)
+static int follows_closing(const assessment *j, int k)
 {
     return j->crack.locate_closing && k % j->track.n > 0 && is_open(j, k - 1) && !is_open(j, k);
 }
 
 /* Contact and friction of node i in step k. */
-static void check_node(judge *j, int k, int i)
+static void check_node(assessment *j, int k, int i)
 {
     const rb_crack_history *h = &j->r.history;
     const int n = h->nodes, zone = h->zone[(size_t)k * (size_t)n + (size_t)i];
@@ -477,7 +477,7 @@ static void check_node(judge *j, int k, int i)
 }
 
 /* The rule of the fluid (C7). */
-static void check_fluid(judge *j, int k)
+static void check_fluid(assessment *j, int k)
 {
     rb_crack_history *h = &j->r.history;
     const rb_case_crack_track *t = &j->track;
@@ -511,7 +511,7 @@ static void check_fluid(judge *j, int k)
                                 p_f, volume, V);
 }
 
-static void set_row(judge *j, int k)
+static void set_row(assessment *j, int k)
 {
     rb_crack_history *to = &j->again;
     const rb_crack_history *h = &j->r.history;
@@ -534,7 +534,7 @@ static void set_row(judge *j, int k)
 }
 
 /* Everything that is printed of step k against what was computed. */
-static void compare_step(judge *j, int k)
+static void compare_step(assessment *j, int k)
 {
     const rb_crack_history *h = &j->r.history, *again = &j->again;
     const int n = h->nodes;
@@ -561,7 +561,7 @@ static void compare_step(judge *j, int k)
 
 /* The largest tension ahead of the tip by trying all directions, which no formula for the
  * direction enters. */
-static void check_direction(judge *j)
+static void check_direction(assessment *j)
 {
     const rb_crack_history *h = &j->r.history;
     const double printed =
@@ -585,7 +585,7 @@ static double slack_of_summary(const rb_certificate *c, const char *key, double 
 }
 
 /* What the program would print of the printed table, notes, places of the nodes. */
-static rb_status compare_rest(judge *j)
+static rb_status compare_rest(assessment *j)
 {
     static const char *const nodes[] = {"x_mm", "y_mm", "length_mm"};
     const json_t *faces = json_object_get(j->root, "faces");
@@ -629,7 +629,7 @@ static rb_status compare_rest(judge *j)
 rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
                                rb_report_certificate *found, rb_message *why)
 {
-    judge j = {.c = {.out = out, .name = name, .found = found}, .root = root};
+    assessment j = {.c = {.out = out, .name = name, .found = found}, .root = root};
     rb_message reason = {""};
     json_t *inputs = NULL;
 
@@ -638,7 +638,7 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
     if (s == RB_OK)
         inputs = split_inputs(&j, &s, why);
     if (s == RB_OK)
-        s = settle(&j, words, inputs, why);
+        s = resolve(&j, words, inputs, why);
     if (s == RB_OK)
         s = rebuild(&j, &reason);
     if (s == RB_OK && !j.crack.unloaded)
