@@ -29,8 +29,8 @@ static inline void write_file(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* A shell line in the test's folder where $R is the program; stdout and stderr land in
- * out and err.  The exit code. */
+/* A shell line in the test's folder where $R is the program and $PROJECT the project's
+ * root; stdout and stderr land in out and err.  The exit code. */
 static inline int shell(const char *line)
 {
     char command[4000];
@@ -109,6 +109,7 @@ static inline int enter_folder(void **state)
         snprintf(program, sizeof program, "%s/rollbem", build);
     else
         snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
+    setenv("PROJECT", here, 1);
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
 }
 

@@ -1029,7 +1029,7 @@ TEST(results_of_other_commands_are_refused)
     write_file("creep.tsv", "creep_ratio\tforce_ratio\n0.2\t-0.36\n0.4\t-0.64\n"
                             "0.7\t-0.91\n");
     write_file("lcp.txt", "2\n2 1\n1 2\n-1\n-1\n");
-    assert_int_equal(shell("cp \"${R%/*}\"/../examples/friction/two-blocks.dat two-blocks.dat"), 0);
+    assert_int_equal(shell("cp \"$PROJECT\"/examples/friction/two-blocks.dat two-blocks.dat"), 0);
     for (size_t k = 0; k < sizeof other / sizeof *other; k++) {
         snprintf(line, sizeof line, "\"$R\" %s %s%s --json --quiet", other[k].command, half,
                  other[k].options);

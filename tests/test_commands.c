@@ -216,7 +216,7 @@ TEST(long_commands_say_so)
     double slowest = 0.0;
     char line[3200];
 
-    shell("cp \"${R%/*}\"/../examples/friction/two-blocks.dat . || true");
+    shell("cp \"$PROJECT\"/examples/friction/two-blocks.dat . || true");
     for (int k = from; k < from + n; k++) {
         command_of(k);
         snprintf(line, sizeof line, "ulimit -t %d; \"$R\" %s", LIMIT, command);
