@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import html
 import inspect
 import io
@@ -11,6 +12,7 @@ import os
 import sys
 import tempfile
 import warnings
+import weakref
 from typing import Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -25,6 +27,13 @@ Table = Mapping[str, Sequence[float]]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
 
 # ---- Cases --------------------------------------------------------------------------------
+
+
+def _remove(path: str, process: int) -> None:
+    """Removes a temporary file, but not from a process that was forked from the one that made it."""
+    if os.getpid() == process:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(path)
 
 
 class Case:
@@ -43,7 +52,6 @@ class Case:
 
     def _take(self, options: dict) -> None:
         self.options = options
-        self._tables: list = []  # temporary files live as long as the case
         self._texts = {name: self._as_text(name, value) for name, value in options.items()}
 
     def __getstate__(self) -> dict:
@@ -61,12 +69,11 @@ class Case:
         return self._write_table(_values.columns(name, value))
 
     def _write_table(self, columns: Table) -> str:
-        file = tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt")
-        self._tables.append(file)
-        print("#", *columns, file=file)
-        for row in zip(*columns.values()):
-            print(*(repr(float(x)) for x in row), file=file)
-        file.flush()
+        with tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt", delete=False) as file:
+            weakref.finalize(self, _remove, file.name, os.getpid())  # it lives as long as the case
+            print("#", *columns, file=file)
+            for row in zip(*columns.values()):
+                print(*(repr(float(x)) for x in row), file=file)
         return file.name
 
     def handle(self, purpose: str, **more: Value) -> Handle:

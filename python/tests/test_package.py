@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from concurrent.futures import ProcessPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
@@ -222,6 +223,19 @@ def test_notes_warn_where_the_package_is_called():
         assert {w.filename for w in warned} == {__file__}
     notes = rollbem.solve(creep=0.1, contact_elements=12, outer_elements=24).notes
     assert any("formulation='steady'" in note for note in notes) and "--" not in " ".join(notes)
+
+
+def test_tables_of_a_case_are_closed_and_removed():
+    x = np.linspace(-2.0, 2.0, 41)
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        case = rollbem.Case(load=100.0, gap={"x": x, "gap": x * x / 100.0}, support="halfplane")
+        path = case._texts["gap"]
+        assert os.path.exists(path)
+        case.itself = case
+        del case
+        gc.collect()
+    assert not os.path.exists(path) and not warned
 
 
 # ---- Copies and other processes
