@@ -122,7 +122,7 @@ check-tests: all page-where-possible $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
 # can run; make test-all: all but those that compute nothing or build by themselves
 KERNELS ?= $(shell scripts/kernels)
-KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack api)
+KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack rolling_plane rolling_shakedown api)
 KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
 kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
 	@for kernel in $(KERNELS); do echo "== OPENBLAS_CORETYPE=$$kernel"; \
