@@ -1099,6 +1099,21 @@ TEST(files_of_others_are_left_alone)
     assert_non_null(strstr(err, "g.txt: not in the folder of/"));
     assert_int_equal(shell("\"$R\" check --any-folder of/wrong.json"), 1);
     assert_non_null(strstr(out, "(input_hash)")); /* the path is one of the inputs */
+    /* but no more than regular files of any folder, without their content */
+    static const struct {
+        const char *file, *part;
+    } nowhere[] = {{"/dev/zero", "/dev/zero: expected a regular file"},
+                   {"pipe", "pipe: expected a regular file"},
+                   {"of/large", "of/large: more than 64 MB"},
+                   {"secret.txt", "secret.txt: not what is expected of this file"}};
+    for (size_t k = 0; k < sizeof nowhere / sizeof *nowhere; k++) {
+        json_object_set_new(json_object_get(root, "inputs"), "gap", json_string(nowhere[k].file));
+        assert_int_equal(json_dump_file(root, "of/wrong.json", 0), 0);
+        assert_int_equal(
+            shell("ulimit -v 4000000; timeout 20 \"$R\" check --any-folder of/wrong.json"), 65);
+        assert_non_null(strstr(err, nowhere[k].part));
+        assert_null(strstr(err, "Xy9"));
+    }
     json_decref(root);
     /* the command line in the comments of a table names files, too */
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

@@ -64,10 +64,20 @@ static rb_case_purpose purpose_of(const json_t *root)
                                              : RB_CASE_SINGLE;
 }
 
+/* A case that reads regular files of bounded size alone, in the folder or below it; NULL:
+ * in any.  NULL: no memory. */
+static rb_case *confined(rb_case_purpose purpose, const char *folder)
+{
+    rb_case *words = cli_case_create(purpose);
+    if (words)
+        rb_case_confine(words, folder);
+    return words;
+}
+
 /* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
  * RB_ENOMEM. */
 static rb_status fault_of_command(const json_t *root, char **argv, int argc, const char *folder,
-                                  int is_confined, const char **fault)
+                                  const char **fault)
 {
     const char *other = other_command(argv[1]);
     const int is_stress = other && strcmp(other, "stress") == 0,
@@ -82,11 +92,9 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         *fault = "it is another command's";
         return RB_OK;
     }
-    rb_case *words = cli_case_create(purpose_of(root));
+    rb_case *words = confined(purpose_of(root), folder);
     if (!words)
         return RB_ENOMEM;
-    if (is_confined)
-        rb_case_confine(words, folder);
     cli_exit code;
     if (is_crack) {
         code = cli_crack_inputs(argc - 1, argv + 1, words, &files, &inputs);
@@ -113,7 +121,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
 
 /* The command line that the result quotes against its inputs.  RB_ENOMEM. */
 static rb_status compare_command(const char *path, const json_t *root, const char *folder,
-                                 int is_confined, rb_report_certificate *found, rb_message *why)
+                                 rb_report_certificate *found, rb_message *why)
 {
     const char *text = json_string_value(json_object_get(root, "command"));
     const char *fault = "it is not a command line of rollbem";
@@ -123,7 +131,7 @@ static rb_status compare_command(const char *path, const json_t *root, const cha
         int argc;
         char **argv = line ? cli_split_line(line, &argc) : NULL;
         const int kept = cli_keep_failures(1);
-        s = argv ? fault_of_command(root, argv, argc, folder, is_confined, &fault) : RB_ENOMEM;
+        s = argv ? fault_of_command(root, argv, argc, folder, &fault) : RB_ENOMEM;
         cli_keep_failures(kept);
         free(argv);
         free(line);
@@ -145,8 +153,7 @@ static void *noting_malloc(size_t size)
     return memory;
 }
 
-static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder,
-                           int is_confined)
+static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder)
 {
     rb_report_certificate found = {0};
     rb_message why = {""};
@@ -165,15 +172,11 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
                         root ? 1 : error.line, root ? "no object" : error.text);
     }
     rb_case *words =
-        cli_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
-    rb_status s = RB_ENOMEM;
-    if (words) {
-        if (is_confined)
-            rb_case_confine(words, folder);
-        s = rb_report_certify_solutions(stdout, path, root, words, &found, &why);
-    }
+        confined(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE, folder);
+    rb_status s =
+        words ? rb_report_certify_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
     if (s == RB_OK)
-        s = compare_command(path, root, folder, is_confined, &found, &why);
+        s = compare_command(path, root, folder, &found, &why);
     rb_case_free(words);
     json_decref(root);
     return tell(path, s, &found, &why);
@@ -181,7 +184,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-/* Settles `words` by the command line that the table quotes. */
+/* Resolves `words` by the command line that the table quotes. */
 static cli_exit read_inputs(const char *path, char *line, rb_case *words)
 {
     int argc, files;
@@ -205,7 +208,7 @@ static cli_exit read_inputs(const char *path, char *line, rb_case *words)
                     cli_kept_failure());
 }
 
-static cli_exit check_table(const char *path, const char *text, rb_case *words)
+static cli_exit check_table(const char *path, const char *text, const char *folder)
 {
     rb_report_certificate found;
     rb_message why = {""};
@@ -218,12 +221,14 @@ static cli_exit check_table(const char *path, const char *text, rb_case *words)
                         "%s: cannot be checked: expected the JSON of a result, or a "
                         "table with its comments ('# rollbem ...')",
                         path);
-    const cli_exit code = read_inputs(path, line, words);
+    rb_case *words = confined(RB_CASE_SINGLE, folder);
+    cli_exit code = words ? read_inputs(path, line, words) : CLI_INTERNAL;
     free(line);
-    if (code != CLI_CONTINUE)
-        return code;
-    const rb_status s = rb_report_certify_table(stdout, path, text, words, &found, &why);
-    return tell(path, s, &found, &why);
+    if (code == CLI_CONTINUE)
+        code = tell(path, rb_report_certify_table(stdout, path, text, words, &found, &why), &found,
+                    &why);
+    rb_case_free(words);
+    return code;
 }
 
 /* ---- Command ----------------------------------------------------------------------- */
@@ -247,22 +252,19 @@ static cli_exit check_file(const char *path, const check_options *o)
     const rb_status s = rb_io_read_text(path, &text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
-    rb_case *words = cli_case_create(RB_CASE_SINGLE);
     /* The folder of the file. */
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     const char first = text[strspn(text, " \t\r\n")];
     cli_exit code = CLI_INTERNAL;
-    if (words && !folder)
-        code = cli_fail(code, "%s: out of memory", path);
-    if (words && folder)
-        rb_case_confine(words, o->any_folder ? NULL : folder);
+    const char *within = o->any_folder ? NULL : folder;
     cli_wait_begin();
-    if (words && folder)
-        code = first == '{' || first == '[' ? check_json(path, text, size, folder, !o->any_folder)
-                                            : check_table(path, text, words);
+    if (!folder)
+        code = cli_fail(code, "%s: out of memory", path);
+    else
+        code = first == '{' || first == '[' ? check_json(path, text, size, within)
+                                            : check_table(path, text, within);
     cli_wait_end();
-    rb_case_free(words);
     free(folder);
     free(text);
     return code;
