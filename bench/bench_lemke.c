@@ -187,8 +187,7 @@ static double power_of_two(double x)
     return x > 0.0 ? exp2(-round(0.5 * log2(x))) : 1.0;
 }
 
-/* Unit diagonal to a factor of two where there is one, without rounding (theory.md 4.4).
- */
+/* Unit diagonal to a factor of two where there is one, without rounding (theory.md 4.4). */
 static void scale(problem *p)
 {
     const size_t n = (size_t)p->n;

@@ -1,6 +1,5 @@
 /* What the program does when it starts: OpenBLAS' best kernels for this processor, which
- * it reads from the environment while it is loaded, hence the second start; one thread.
- */
+ * it reads from the environment while it is loaded, hence the second start; one thread. */
 #ifndef ROLLBEM_BENCH_FAST_BLAS_H
 #define ROLLBEM_BENCH_FAST_BLAS_H
 

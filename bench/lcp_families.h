@@ -35,8 +35,7 @@ static void lcp_begin(lcp_family *f, int n)
     f->q = calloc((size_t)n, sizeof *f->q);
 }
 
-/* ---- Long paths ---------------------------------------------------------------------
- */
+/* ---- Long paths --------------------------------------------------------------------- */
 
 /* Murty (1978): Lemke's method visits 2^n bases, as do least-index exchanges. */
 static void lcp_murty(lcp_family *f, int n)
@@ -75,8 +74,7 @@ static void lcp_kostreva(lcp_family *f, int n)
     }
 }
 
-/* ---- Discretised inequalities ---------------------------------------------------------
- */
+/* ---- Discretised inequalities --------------------------------------------------------- */
 
 /* A membrane over an obstacle on side x side points: -Laplace u >= f, u >= psi. */
 static void lcp_obstacle(lcp_family *f, int n)

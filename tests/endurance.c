@@ -1,6 +1,5 @@
 /* endurance SOLVES THREADS: so many cases in one process, by handles of rollbem/api.h,
- * shared among the threads; the memory in use after a tenth of them is that at the end.
- */
+ * shared among the threads; the memory in use after a tenth of them is that at the end. */
 #include "rollbem/rollbem.h"
 
 #include <pthread.h>
@@ -24,8 +23,7 @@ static long resident_pages(void)
     return resident;
 }
 
-/* Halfplane and wheel, the formulations, elements from 9 to 32, creepage up to sliding.
- */
+/* Halfplane and wheel, the formulations, elements from 9 to 32, creepage up to sliding. */
 static int solve(int k)
 {
     static const char *const formulation[] = {"static", "steady", "transient"};

@@ -48,8 +48,7 @@ static int is_unchecked(const void *caller)
 }
 
 /* A number of a stack: from its depth and from what lies next on it and could be a return
- * address into the program.  Two calls of one function out of one other are two stacks.
- */
+ * address into the program.  Two calls of one function out of one other are two stacks. */
 __attribute__((no_sanitize("address"))) static uintptr_t number_of(const void *caller,
                                                                    const void *frame)
 {

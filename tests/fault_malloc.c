@@ -2,8 +2,7 @@
  * too, from the start of main to its end.  In place of main a server runs, which forks a
  * process that goes on with main for every fault_request; its output goes to the files
  * out and err, FAULT_CALLS names the file that keeps the calls that have seen a failure,
- * and FAULT_CODE_END says how far in the program calls count (hexadecimal; empty: all).
- */
+ * and FAULT_CODE_END says how far in the program calls count (hexadecimal; empty: all). */
 #define _GNU_SOURCE
 #include "fault_calls.h"
 #include "fault_malloc.h"

@@ -2,8 +2,8 @@
  * arrays satisfy the equations that they stand for. */
 #include "check.h"
 #include "rollbem/api.h"
-#include "rollbem/blas.h"
 #include "rollbem/case.h"
+#include "two_threads.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -146,8 +146,7 @@ TEST(numbers_are_the_solution)
     rb_api_free(a);
 }
 
-/* What is kept from solve to solve changes no bit, and other bodies are never mixed up.
- */
+/* What is kept from solve to solve changes no bit, and other bodies are never mixed up. */
 TEST(the_next_case_is_solved_as_the_first_one)
 {
     static const char *const next[][2] = {
@@ -639,8 +638,7 @@ TEST(what_is_not_there_is_none)
     rb_api_free(a);
 }
 
-/* The solver that `solver` names, of the cones' too, and what a friction problem leaves.
- */
+/* The solver that `solver` names, of the cones' too, and what a friction problem leaves. */
 TEST(solvers_have_their_names)
 {
     static const char *const cone[] = {"support", "halfplane", "load",   "500",    "mu", "0.3",
@@ -660,46 +658,35 @@ TEST(solvers_have_their_names)
     rb_api_free(a);
 }
 
+static void call_everything(int forced)
+{
+    rb_api *a = solved(wheel);
+    const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1}, xy[] = {0.0, 1.0};
+    for (int k = 0; k < 9; k++) {
+        assert_int_equal(rb_blas_threads(2), 2);
+        CHECK_STATUS(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
+                     : k == 1 ? rb_api_stress_at(a, 1, xy)
+                     : k == 2 ? rb_api_stress_maxima(a, 0.0)
+                     : k == 3 ? rb_api_pivots(a)
+                     : k == 4 ? rb_api_newton(a)
+                     : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
+                     : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
+                     : k == 7 ? rb_api_sweep(a, 1, &a, 1)
+                              : rb_api_solve(a),
+                     RB_OK);
+    }
+    rb_api_free(a);
+    a = solved(steady);
+    rb_blas_threads(2);
+    CHECK_STATUS(rb_api_curve(a, 0.0, 1.0, 2), RB_OK);
+    assert_int_equal(rb_blas_threads(1), 2);
+    rb_api_free(a);
+}
+
 /* Whoever uses BLAS beside has his threads again when the call is over. */
 TEST(calls_leave_the_threads_alone)
 {
-    const char *given = getenv("OPENBLAS_NUM_THREADS");
-    char before[20];
-    snprintf(before, sizeof before, "%s", given ? given : "");
-    for (int forced = 0; forced < 2; forced++) {
-        if (forced)
-            setenv("OPENBLAS_NUM_THREADS", "2", 1);
-        else
-            unsetenv("OPENBLAS_NUM_THREADS");
-        rb_blas_threads(2);
-        if (rb_blas_threads(2) != 2) /* a library with one thread */
-            skip();
-        rb_api *a = solved(wheel);
-        const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1}, xy[] = {0.0, 1.0};
-        for (int k = 0; k < 9; k++) {
-            assert_int_equal(rb_blas_threads(2), 2);
-            CHECK_STATUS(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
-                         : k == 1 ? rb_api_stress_at(a, 1, xy)
-                         : k == 2 ? rb_api_stress_maxima(a, 0.0)
-                         : k == 3 ? rb_api_pivots(a)
-                         : k == 4 ? rb_api_newton(a)
-                         : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
-                         : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
-                         : k == 7 ? rb_api_sweep(a, 1, &a, 1)
-                                  : rb_api_solve(a),
-                         RB_OK);
-        }
-        rb_api_free(a);
-        a = solved(steady);
-        rb_blas_threads(2);
-        CHECK_STATUS(rb_api_curve(a, 0.0, 1.0, 2), RB_OK);
-        assert_int_equal(rb_blas_threads(1), 2);
-        rb_api_free(a);
-    }
-    if (given)
-        setenv("OPENBLAS_NUM_THREADS", before, 1);
-    else
-        unsetenv("OPENBLAS_NUM_THREADS");
+    with_two_threads(call_everything);
 }
 
 /* Bodies whose flexibility is no matrix, matrices that are asked for in another order. */

@@ -67,8 +67,7 @@ TEST(arcs_add_up_at_any_width)
         }
 }
 
-/* Largest error of the displacement under two opposite arcs of pressure, over its size.
- */
+/* Largest error of the displacement under two opposite arcs of pressure, over its size. */
 static double element_error(int n, double alpha)
 {
     OWNED(rb_bem_mesh) mesh = pressed_disc(n, alpha);

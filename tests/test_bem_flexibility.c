@@ -92,8 +92,7 @@ TEST(apply_is_the_matrix_and_ldf_is_kept)
     rb_bem_flexibility_free(&f);
 }
 
-/* Two bodies of one material: twice the compliance, no coupling, B's w0_T turned round.
- */
+/* Two bodies of one material: twice the compliance, no coupling, B's w0_T turned round. */
 TEST(identical_bodies_lose_their_coupling)
 {
     enum { n = n_uneven, m = n + 1 };

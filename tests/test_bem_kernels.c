@@ -124,8 +124,7 @@ TEST(nearly_singular_points_are_right)
             const rb_bem_segment e = {-1.0, 0.0, 1.0, 0.0};
             const rb_bem_blocks got = rb_bem_element_integrals(e, 0.0, d, 0, m);
             const double *H = got.H;
-            /* H11 = D [2 (1-nu) Th - dQ], H22 = D [2 (1-nu) Th + dQ], dQ = 2d/(1 + d^2)
-             */
+            /* H11 = D [2 (1-nu) Th - dQ], H22 = D [2 (1-nu) Th + dQ], dQ = 2d/(1 + d^2) */
             const double D = -1.0 / (4.0 * M_PI * 0.7), Th = side * (M_PI - 2.0 * atan(fabs(d)));
             const double dQ = 2.0 * d / (1.0 + d * d);
             CHECK_REL(H[0], D * (1.4 * Th - dQ), 3e-15, "H11 at %g", d);

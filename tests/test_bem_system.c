@@ -105,8 +105,7 @@ TEST(thick_ring_under_internal_pressure)
     check_first_order(thick_ring_error, 40, 5.5e-3, "ring");
 }
 
-/* Given displacements of the exact solution all round, nu = 0.3: the tractions come out.
- */
+/* Given displacements of the exact solution all round, nu = 0.3: the tractions come out. */
 static double dirichlet_error(int n)
 {
     OWNED(rb_bem_mesh) mesh = circle(n, 2.0);

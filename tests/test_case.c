@@ -96,8 +96,7 @@ static void compare(const char *file, const char *words)
     rb_case_free(c);
 }
 
-/* Bit for bit: the examples as they stand, and words that leave choices to the settling.
- */
+/* Bit for bit: the examples as they stand, and words that leave choices to the settling. */
 TEST(the_same_words_give_the_same_answer)
 {
     static const struct {
@@ -791,8 +790,7 @@ TEST(all_of_a_result_is_converted)
     }
 }
 
-/* A caller's own options stand beside those of the case; who gave them it need not ask.
- */
+/* A caller's own options stand beside those of the case; who gave them it need not ask. */
 TEST(own_options_are_read_beside_the_case)
 {
     double own = 0.0;

@@ -232,8 +232,7 @@ TEST(the_cap_is_named)
     assert_int_equal(lcp("p"), 0); /* another covering vector, or Newton */
 }
 
-/* The obstacle problem of 100 x 100 points: without a dense tableau, which takes 800 MB.
- */
+/* The obstacle problem of 100 x 100 points: without a dense tableau, which takes 800 MB. */
 TEST(a_large_sparse_problem_needs_no_dense_tableau)
 {
     char line[1500];

@@ -737,8 +737,7 @@ TEST(the_shakedown_map_shows_its_case)
     json_decref(root);
 }
 
-/* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room.
- */
+/* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room. */
 TEST(a_large_bound_leaves_room_to_the_pressure)
 {
     json_t *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),

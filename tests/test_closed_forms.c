@@ -129,8 +129,7 @@ TEST(half_cylinder_approach)
               a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0), 1e-13, "P = pi E* a^2/4R");
 }
 
-/* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress.
- */
+/* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress. */
 TEST(shakedown_limit)
 {
     CHECK_REL(rb_closed_shakedown_limit(0.0), 4.0, 1e-6, "free rolling");

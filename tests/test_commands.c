@@ -129,8 +129,7 @@ static const struct {
 } kinds[] = {{"", 24, single},  {"stress", 5, stress}, {"curve", 4, curve},   {"sweep", 3, sweep},
              {"wear", 4, wear}, {"crack", 4, crack},   {"design", 2, design}, {"fit", 2, fit}};
 
-/* ---- Problems in files --------------------------------------------------------------
- */
+/* ---- Problems in files -------------------------------------------------------------- */
 
 /* M with a dominant diagonal, or any: rays then. */
 static void write_lcp(random_case *c, const char *name)
@@ -170,8 +169,7 @@ static void problem(random_case *c)
     add("%s", examples[random_choice(c, (int)(sizeof examples / sizeof *examples))]);
 }
 
-/* ---- One command --------------------------------------------------------------------
- */
+/* ---- One command -------------------------------------------------------------------- */
 
 static void command_of(int k)
 {

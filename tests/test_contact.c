@@ -292,8 +292,7 @@ TEST(shifts_add_up)
     json_decref(once);
 }
 
-/* Of a rectangle with Hertz's pressure the load tells the half-length or the curvature.
- */
+/* Of a rectangle with Hertz's pressure the load tells the half-length or the curvature. */
 TEST(hertzian_input_is_the_grid_it_means)
 {
     const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);

@@ -845,8 +845,7 @@ static void note_attempts(const rb_lcp_pivot *pivot, void *context)
 }
 
 /* Where none is accurate enough, every form is tried once, evenly covered and unevenly,
- * in their order; Kwak's alone where it is asked for, with tableaus that are asked for.
- */
+ * in their order; Kwak's alone where it is asked for, with tableaus that are asked for. */
 TEST(every_form_is_tried)
 {
     static const int all[] = {0, 2, 2, 0, 1, 1};
@@ -873,8 +872,7 @@ TEST(every_form_is_tried)
     }
 }
 
-/* Surfaces that do not touch carry no force, with and without a layer, for every solver.
- */
+/* Surfaces that do not touch carry no force, with and without a layer, for every solver. */
 TEST(surfaces_apart_carry_nothing)
 {
     static const rb_contact_solver solvers[] = {RB_SOLVER_LEMKE, RB_SOLVER_NEWTON};
@@ -898,8 +896,7 @@ TEST(surfaces_apart_carry_nothing)
 
 enum { PROBLEMS = 5 };
 
-/* Of every kind: matrices, products, layers, both forms of the LCP, a start from pairs.
- */
+/* Of every kind: matrices, products, layers, both forms of the LCP, a start from pairs. */
 static kind kind_of(int k)
 {
     return (kind){.n = 4,

@@ -672,8 +672,7 @@ static void a_refusal_sets_every_output(void **state)
     }
 }
 
-/* Where no mesh that can be solved will do, that is said at once, with the best there is.
- */
+/* Where no mesh that can be solved will do, that is said at once, with the best there is. */
 static void an_accuracy_out_of_reach_is_said_to_be(void **state)
 {
     rb_rolling_case rc = thin_rim();

@@ -20,8 +20,7 @@ int gettimeofday(struct timeval *restrict now, void *restrict zone)
     return 0;
 }
 
-/* Unsymmetric, with an empty column and an entry per layout that tells rows from columns.
- */
+/* Unsymmetric, with an empty column and an entry per layout that tells rows from columns. */
 static void small_local(rb_io_fclib *p)
 {
     int row[] = {0, 1, 0, 3, 2, 5, 4, 0}, col[] = {0, 1, 5, 3, 2, 5, 4, 3};

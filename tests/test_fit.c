@@ -139,8 +139,7 @@ static void noise_leaves_it_in_the_intervals(void **state)
     rb_case_fit_free(&fit);
 }
 
-/* The derivative of the sum of squares is zero at the fit, in other units of force too.
- */
+/* The derivative of the sum of squares is zero at the fit, in other units of force too. */
 static void forces_and_ratios_agree(void **state)
 {
     static const char *const names[] = {"mu"};

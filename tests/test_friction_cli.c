@@ -3,8 +3,7 @@
 #include "cli_run.h"
 #include "rollbem/friction.h"
 
-/* One contact, W = 1: pressed with 2, drawn with 3 against mu = 0.5: slides, r = (2, -1).
- */
+/* One contact, W = 1: pressed with 2, drawn with 3 against mu = 0.5: slides, r = (2, -1). */
 static const char SLIDING[] = "2 1 0 2 2 2 2 1 0 0 1 -2 3 0.5";
 /* K = 0 cannot be in this format; W = 0 with q_N < 0 has no solution. */
 static const char WITHOUT_SOLUTION[] = "2 1 0 2 2 2 2 0 0 0 0 -2 3 0.5";

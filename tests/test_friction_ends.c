@@ -44,8 +44,7 @@ static void make_sparse(rb_friction_problem *p)
     p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 
-/* The same W as that of a structure: K is its inverse's place, H = 1, so that W = K^-1.
- */
+/* The same W as that of a structure: K is its inverse's place, H = 1, so that W = K^-1. */
 static void make_global(int d, rb_friction_problem *p)
 {
     const int m = d * NC;

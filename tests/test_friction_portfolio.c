@@ -78,8 +78,7 @@ TEST(auto_loses_little_to_its_members)
     }
 }
 
-/* Where one sweep is the answer the proof of it is made once: it cost 1.5 times as much.
- */
+/* Where one sweep is the answer the proof of it is made once: it cost 1.5 times as much. */
 TEST(the_first_member_costs_auto_nothing)
 {
     static const char *const files[] = {"siconos/fc2d/FrictionContactProblem00394.dat",

@@ -3,35 +3,24 @@
 #include "api/internal.h"
 #include "case/internal.h"
 #include "check.h"
-#include "rollbem/blas.h"
+#include "two_threads.h"
 
 #include <string.h>
+
+static void end_calls(int forced)
+{
+    rb_api_call_begins();
+    rb_api_call_begins();
+    rb_api_call_ends();
+    assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
+    rb_api_call_ends();
+    assert_int_equal(rb_blas_threads(1), 2);
+}
 
 /* Two at a time: the last one that ends gives the threads back. */
 TEST(the_last_call_gives_the_threads_back)
 {
-    const char *given = getenv("OPENBLAS_NUM_THREADS");
-    char before[20];
-    snprintf(before, sizeof before, "%s", given ? given : "");
-    for (int forced = 0; forced < 2; forced++) {
-        if (forced)
-            setenv("OPENBLAS_NUM_THREADS", "2", 1);
-        else
-            unsetenv("OPENBLAS_NUM_THREADS");
-        rb_blas_threads(2);
-        if (rb_blas_threads(2) != 2) /* a library with one thread */
-            skip();
-        rb_api_call_begins();
-        rb_api_call_begins();
-        rb_api_call_ends();
-        assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
-        rb_api_call_ends();
-        assert_int_equal(rb_blas_threads(1), 2);
-    }
-    if (given)
-        setenv("OPENBLAS_NUM_THREADS", before, 1);
-    else
-        unsetenv("OPENBLAS_NUM_THREADS");
+    with_two_threads(end_calls);
 }
 
 /* As many arrays as there are names in all tables, twice for the errors, fit. */

@@ -76,7 +76,7 @@ TEST(norms_hold_over_all_sizes)
         }
         CHECK_REL(rb_friction_norm(n, x), sqrt(squares), 1e-15, "norm of %zu", n);
         CHECK_ABS(rb_dot(n, x, y), product, 1e-15, "product of %zu", n);
-        CHECK_REL(rb_friction_distance(n, x, y), sqrt(apart), 1e-15, "distance of %zu", n);
+        CHECK_REL(rb_distance(n, x, y), sqrt(apart), 1e-15, "distance of %zu", n);
         for (int large = 0; large < 2; large++) {
             const double unit = large ? 1e200 : 1e-200;
             for (size_t k = 0; k < n; k++)
@@ -320,8 +320,7 @@ TEST(rho_is_the_inverse_of_a_contacts_own_compliance)
     }
 }
 
-/* Of the global form: a tenth of diag(K) in the place of K; of the tangents the softer.
- */
+/* Of the global form: a tenth of diag(K) in the place of K; of the tangents the softer. */
 TEST(rho_of_a_structure_comes_from_its_diagonal)
 {
     int rows[] = {0, 1, 2, 0, 1}, cols[] = {0, 1, 2, 1, 0};

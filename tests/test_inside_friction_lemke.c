@@ -107,8 +107,7 @@ static void make_problem(kind k, rb_friction_problem *p)
         local_problem(k, p);
 }
 
-/* u from r or v, and the imbalance of K v = H r + f; how much of Coulomb's law is broken.
- */
+/* u from r or v, and the imbalance of K v = H r + f; how much of Coulomb's law is broken. */
 static double violation(const rb_friction_problem *p, const double *r, const double *v)
 {
     double u[M], e[DOFS] = {0}, worst = 0.0;

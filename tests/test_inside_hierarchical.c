@@ -1,5 +1,4 @@
-/* Boundary elements behind a hierarchical matrix against the dense one and the integrals.
- */
+/* Boundary elements behind a hierarchical matrix against the dense one and the integrals. */
 #include "bem/hierarchical.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"

@@ -198,8 +198,7 @@ TEST(memory_for_what_is_ahead_may_be_refused)
 }
 
 /* Half-way through a half-plane without a matrix: one element ahead is the next
- * midpoint.
- */
+ * midpoint. */
 TEST(large_contacts_know_what_is_ahead)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, RB_ROLLING_LARGE);

@@ -20,8 +20,7 @@ static rb_element element_in_general_position(void)
     return rb_element_make(x, y, x + h * cos(angle), y + h * sin(angle), 1.0);
 }
 
-/* At 0.1 to 10^4 half-lengths, not nearer to an end; point 77 of ANYWHERE: the midpoint
- */
+/* At 0.1 to 10^4 half-lengths, not nearer to an end; point 77 of ANYWHERE: the midpoint */
 static void put_points(const rb_element *e, int place, double *x, double *y)
 {
     for (int i = 0; i < n_seen; i++) {

@@ -130,8 +130,7 @@ static void check_beside_lemke(rb_rolling_model *model)
     CHECK_ABS(newton.xi, lemke.xi, 1e-10 * p->slip_length / p->e_T[0], "xi");
 }
 
-/* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls.
- */
+/* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls. */
 TEST(cold_starts_end_where_lemke_does)
 {
     static const int elements[] = {101, 102, 150, 151, 400, 500, 600};

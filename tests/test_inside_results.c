@@ -394,8 +394,7 @@ TEST(slip_of_unlike_bodies_makes_edges_steep_or_flat)
         for (int i = 0; i < N; i++)
             m.q[i] = friction[k] * m.p[i];
         check_edges(&m, 5.2, 30.7, 1e-11, "in slip");
-        /* where it is steep, the neighbour of the outermost element counts as disturbed
-         */
+        /* where it is steep, the neighbour of the outermost element counts as disturbed */
         const int steep = turn < 0.0 ? 29 : 6;
         m.p[steep] *= 0.5 - fabs(turn) < 0.45 ? 1.01 : 1.0;
         m.q[steep] = friction[k] * m.p[steep];

@@ -89,8 +89,7 @@ TEST(the_power_of_an_edge_is_that_of_a_root)
 }
 
 /* Every scalar with a bar: three spreads of solutions found here, and what no mesh tells
- * apart, recomputed; of a plain case and of one whose slip turns round over few elements.
- */
+ * apart, recomputed; of a plain case and of one whose slip turns round over few elements. */
 static void check_bars(const rb_rolling_case *rc)
 {
     rb_rolling_solution own, run[2];

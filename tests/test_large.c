@@ -311,8 +311,7 @@ static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s
         }
 }
 
-/* Every 331st element: gap and slip of the printed tractions obey Signorini and Coulomb.
- */
+/* Every 331st element: gap and slip of the printed tractions obey Signorini and Coulomb. */
 static void check_rows(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     for (int i = 7; i < s->n - 1; i += 331) {

@@ -443,8 +443,7 @@ TEST(bad_input_is_refused)
     check_refused(2, M, 2, q, &opt, "max_iters = -1");
 }
 
-/* No cover is needed where q is not negative, and sums that overflow are no infinities.
- */
+/* No cover is needed where q is not negative, and sums that overflow are no infinities. */
 TEST(odd_input_is_taken)
 {
     const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0}, cover[] = {0.0, 0.0};

@@ -1,6 +1,5 @@
 /* Lemke's method for boxes on sparse matrices: against enumeration, against the dense
- * tableau, with free variables, from a given point, on large problems and on bad input.
- */
+ * tableau, with free variables, from a given point, on large problems and on bad input. */
 #include "check.h"
 
 #include "rollbem/lcp.h"
@@ -276,8 +275,7 @@ TEST(the_rule_decides_whether_kostreva_cycles)
     CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
 }
 
-/* ---- The path, as the trace sees it -------------------------------------------------
- */
+/* ---- The path, as the trace sees it ------------------------------------------------- */
 
 enum { PIVOTS = 400 };
 
@@ -551,8 +549,7 @@ TEST(a_solution_is_recognised_and_a_neighbour_is_near)
     CHECK_MAX(warm, 0.2 * cold, "pivots");
 }
 
-/* Every third z is inside its box, the others at their bounds; there every second w is 0.
- */
+/* Every third z is inside its box, the others at their bounds; there every second w is 0. */
 static void plant_at_bounds(int n, double side, problem *p, double *z)
 {
     positive_definite(n, p);

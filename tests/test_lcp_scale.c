@@ -122,8 +122,7 @@ TEST(claims_of_scaled_problems_are_right)
     assert_int_equal(solved, 3 * problems);
 }
 
-/* z = (1, 2, 0) in rows of 1e6, 1e-6, 1; without equilibration (2, 0, 0) was handed out.
- */
+/* z = (1, 2, 0) in rows of 1e6, 1e-6, 1; without equilibration (2, 0, 0) was handed out. */
 TEST(rows_in_other_units_change_nothing)
 {
     const double base[] = {2.0, 1.0, 0.0, 1.0, 3.0, 1.0, 0.0, 1.0, 2.0}, q0[] = {-4, -7, 1};

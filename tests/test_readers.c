@@ -68,8 +68,7 @@ static void check_lines(const char *command, const char *language, int k)
     CHECK_REL(got, wanted, 1e-5, "%s", command);
 }
 
-/* Every table has as many columns and rows as its lines say, and the program sees them.
- */
+/* Every table has as many columns and rows as its lines say, and the program sees them. */
 static void check_tables(const char *command, const char *script)
 {
     write_file("script", script);

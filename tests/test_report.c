@@ -541,8 +541,7 @@ TEST(picture_without_contact_says_so)
     fclose(out);
 }
 
-/* The first step, the last and those nearest to equal parts of the way; no more than fit.
- */
+/* The first step, the last and those nearest to equal parts of the way; no more than fit. */
 TEST(wear_keeps_some_profiles)
 {
     enum { STEPS = 37 };

@@ -19,8 +19,7 @@ static rb_rolling_case carter(int n)
     return rc;
 }
 
-/* Errors of physics.md P1.2, within a factor of 1.2; the largest of the three at each n.
- */
+/* Errors of physics.md P1.2, within a factor of 1.2; the largest of the three at each n. */
 TEST(carters_law_has_second_order)
 {
     static const double ratio[3] = {0.2, 0.5, 0.8};
@@ -122,8 +121,7 @@ TEST(dissimilar_bodies_roll_freely)
     CHECK_REL(s.creepage * rc.a.radius / (0.3 * 0.05), -0.715826, 2e-4, "n = 100");
 }
 
-/* Aligned and fitted elements of a wheel tend to the same force, both with second order.
- */
+/* Aligned and fitted elements of a wheel tend to the same force, both with second order. */
 TEST(wheels_take_aligned_elements_too)
 {
     double ratio[3];

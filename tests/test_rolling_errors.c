@@ -115,8 +115,7 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
     assert_true(none > 0 && some > 0);
 }
 
-/* Under a given force the creepage is what has to be accurate, in units of full sliding.
- */
+/* Under a given force the creepage is what has to be accurate, in units of full sliding. */
 TEST(a_given_force_has_an_accurate_creepage)
 {
     static const double accuracy[] = {0.1, 0.05, 0.02};

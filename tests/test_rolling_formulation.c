@@ -105,8 +105,7 @@ TEST(displacement_outside_continues_the_wheel)
     release(&wheel);
 }
 
-/* Displacements of the elements under a unit traction on element `of`, without a matrix.
- */
+/* Displacements of the elements under a unit traction on element `of`, without a matrix. */
 static void answer_to(posed *d, int of, double *answer)
 {
     const int n = d->p.n;

@@ -284,8 +284,7 @@ TEST(meaningless_cases_are_refused)
     }
 }
 
-/* Step by step heat goes along the depth only: a slow case is refused, not approximated.
- */
+/* Step by step heat goes along the depth only: a slow case is refused, not approximated. */
 TEST(slow_steps_are_refused)
 {
     rb_rolling_case rc = sliding(5.0, 60);

@@ -86,8 +86,7 @@ TEST(other_steps_on_a_wheel)
     CHECK_REL(end[2], end[0], 3e-2, "shorter");
 }
 
-/* c = h: the limit is the steady state with the upstream difference, not merely near it.
- */
+/* c = h: the limit is the steady state with the upstream difference, not merely near it. */
 TEST(the_limit_is_the_steady_state)
 {
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
@@ -530,8 +529,7 @@ TEST(a_row_s_friction_bounds_its_force)
     release(&model, &h);
 }
 
-/* Friction and force are linear between the rows of a time, what friction holds is not.
- */
+/* Friction and force are linear between the rows of a time, what friction holds is not. */
 TEST(friction_between_rows_bounds_the_force)
 {
     rb_rolling_case rc = steel_wheel(12);

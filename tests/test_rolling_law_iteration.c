@@ -315,8 +315,7 @@ TEST(several_solutions_are_told_apart)
 }
 
 /* Friction that grows with the speed to twice its value at rest: the last of it would
- * take any speed, and a force of that much is refused with what a very large one brings.
- */
+ * take any speed, and a force of that much is refused with what a very large one brings. */
 TEST(forces_that_only_great_speed_reaches_are_refused)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, -0.1, 40.0);

@@ -560,8 +560,7 @@ TEST(steps_remember_their_friction)
 
 /* ---- mu over the rolled way -------------------------------------------------------- */
 
-/* A wheel that rolls on a rigid plane (pressure and friction are coupled) or on its like.
- */
+/* A wheel that rolls on a rigid plane (pressure and friction are coupled) or on its like. */
 static rb_rolling_case on_its_way(int coupled, rb_rolling_formulation formulation)
 {
     rb_rolling_case rc = rail(100.0);

@@ -45,8 +45,7 @@ static rb_rolling_case hunter(double f, double length, int n)
 
 /* docs/theory.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). The
  * formulas were first evaluated with p_max/p0g = 0.3115114 in the last row; the maximum
- * of V3's pressure is 0.4428963, which the solution meets as it does in the other rows.
- */
+ * of V3's pressure is 0.4428963, which the solution meets as it does in the other rows. */
 static const double rows[8][6] = {
     {1, 0.1, 1.4135769, -1.3649042, 0.7078300, 0.0473514},
     {1, 1, 1.3698037, -1.0148946, 0.8318884, 0.2621595},

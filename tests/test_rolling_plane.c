@@ -116,8 +116,7 @@ TEST(nothing_presses_a_thin_disc_from_its_side)
 }
 
 /* No residual stress changes the pressure at the surface, and none acts across a disc:
- * p0/k = 2.  Where friction decides at the surface the disc bears less than plane strain.
- */
+ * p0/k = 2.  Where friction decides at the surface the disc bears less than plane strain. */
 TEST(a_thin_disc_shakes_down_below_two_k)
 {
     for (int k = 0; k < 2; k++) {

@@ -31,8 +31,7 @@ static double modulus(const rb_rolling_case *rc)
 }
 
 /* p, gap, friction and its bound, from the printed columns; the gap from the
- * displacements.
- */
+ * displacements. */
 static void check_laws(const rb_rolling_case *rc, const rb_rolling_model *model)
 {
     OWNED(rb_rolling_solution) s;
@@ -143,8 +142,7 @@ TEST(a_held_approach_relaxes)
 /* ---- Lee and Radok: the contact grows ---------------------------------------------- */
 
 /* a^2 = (4R/pi) int J dP of a load that rises to P at once, J E* = 1 + f (1 -
- * exp(-t/tau)).
- */
+ * exp(-t/tau)). */
 static double held_width(double E, double P, double t)
 {
     return sqrt(4.0 * 50.0 * P / (M_PI * E) * (1.0 - F * expm1(-t / TAU)));
@@ -579,8 +577,7 @@ TEST(what_fades_is_known_to_rounding)
 }
 
 /* Under a given approach a step that is long beside tau/(1 + f) leaves less pressure than
- * the relaxed bodies have, or none; that is said, with the remedy, and of no other step.
- */
+ * the relaxed bodies have, or none; that is said, with the remedy, and of no other step. */
 TEST(a_step_that_relaxes_too_much_is_said)
 {
     static const struct {

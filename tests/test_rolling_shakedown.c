@@ -23,8 +23,7 @@ static void stress_below(double mu, double x, double z, double *half, double *sh
     *shear = sxz + mu * sxx;
 }
 
-/* Smallest radius about the axis that holds the path at this depth: by scanning centres.
- */
+/* Smallest radius about the axis that holds the path at this depth: by scanning centres. */
 static double needed_at(double mu, double z)
 {
     static double s[N], t[N];

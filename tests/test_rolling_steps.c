@@ -323,8 +323,7 @@ TEST(histories_end_on_their_last_row)
         }
 }
 
-/* Under a given force the last creepage does not jump with the place where the way ends.
- */
+/* Under a given force the last creepage does not jump with the place where the way ends. */
 TEST(the_last_creepage_is_one_of_many)
 {
     rb_rolling_case rc = spence(50);

@@ -41,8 +41,7 @@ static void check_parts(const rb_rolling_stress *s, double nu)
               "Mises");
 }
 
-/* McEwen on the axis: sxx = -p0 [(1 + 2 y^2)/sqrt(1 + y^2) - 2 y], syy = -p0/sqrt(1+y^2).
- */
+/* McEwen on the axis: sxx = -p0 [(1 + 2 y^2)/sqrt(1 + y^2) - 2 y], syy = -p0/sqrt(1+y^2). */
 TEST(the_axis_has_its_closed_form)
 {
     const rb_rolling_case rc = hertz(200);

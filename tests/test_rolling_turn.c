@@ -197,8 +197,7 @@ static void figures(const rb_rolling_case *rc, double value[3])
     value[2] = s.creepage * rc->a.radius;
 }
 
-/* The nip is 2 mm wide and the wheels grow: deviations from the half-plane fall like 1/R.
- */
+/* The nip is 2 mm wide and the wheels grow: deviations from the half-plane fall like 1/R. */
 TEST(a_large_wheel_is_a_halfplane)
 {
     double plane[3], before[3] = {0.0}, value[3];
@@ -474,8 +473,7 @@ TEST(either_body_may_relax)
         rb_rolling_solution_free(&s[k]);
 }
 
-/* Resistance of a covered roll over the speed: one maximum, and each point is its case.
- */
+/* Resistance of a covered roll over the speed: one maximum, and each point is its case. */
 TEST(resistance_has_a_maximum_over_the_speed)
 {
     OWNED(rb_rolling_curve) c;

@@ -1,5 +1,4 @@
-/* Wear of one small contact: each step recomputed from the one before it, and refusals.
- */
+/* Wear of one small contact: each step recomputed from the one before it, and refusals. */
 #include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"

@@ -34,8 +34,7 @@ static const rb_case_derivative *of(const rb_case_derivatives *all, const char *
     return NULL;
 }
 
-/* ---- Against differences of solutions ------------------------------------------------
- */
+/* ---- Against differences of solutions ------------------------------------------------ */
 
 #define PLANES "support", "halfplane", "load", "500", "mesh", "uniform", "zone", "1.2"
 #define ROLLING "formulation", "steady"

@@ -297,8 +297,7 @@ TEST(what_is_no_row_of_the_study_is_refused)
     check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
 }
 
-/* What is in the file when the disk is full is whole, and the study goes on from there.
- */
+/* What is in the file when the disk is full is whole, and the study goes on from there. */
 TEST(a_full_disk_leaves_whole_rows)
 {
     static const char study[] = STUDY "--contact-elements 30 --vary-1 'mu 0.1:0.3:12' ";

@@ -17,8 +17,7 @@ typedef struct {
     double number[NUMBERS];
 } job;
 
-/* Wheels, half-planes, fitted meshes, Lemke, Newton, transforms, layers, a cone solver.
- */
+/* Wheels, half-planes, fitted meshes, Lemke, Newton, transforms, layers, a cone solver. */
 static const char *const words[CASES][16] = {
     {"contact-elements", "20", NULL},
     {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4", NULL},

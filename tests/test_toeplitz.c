@@ -227,8 +227,7 @@ static void turn(double angle, double way, const double in[2], double out[2])
     out[1] = s * in[0] + c * in[1];
 }
 
-/* The obstacle's frame is the surface's, turned by the angle of each point and element.
- */
+/* The obstacle's frame is the surface's, turned by the angle of each point and element. */
 TEST(the_obstacles_frame_is_turned_by_the_angle)
 {
     enum { n = 24, m = n + 1 };

@@ -46,8 +46,7 @@ TEST(units_are_as_defined)
         CHECK_REL(read_unit(all[k].text, all[k].unit), all[k].wanted, 1e-15, "%s", all[k].text);
 }
 
-/* What the table does not know stays as it is: ratios, and units of a kind of their own.
- */
+/* What the table does not know stays as it is: ratios, and units of a kind of their own. */
 TEST(units_of_no_kind_are_their_own)
 {
     double value = 0.0;
@@ -87,8 +86,7 @@ TEST(powers_of_ten_are_exact)
 
 /* ---- Results ----------------------------------------------------------------------- */
 
-/* The unit that a column of a table in mm, N, MPa ends with; "": none that is converted.
- */
+/* The unit that a column of a table in mm, N, MPa ends with; "": none that is converted. */
 static const char *unit_of(const char *column)
 {
     static const char *const units[] = {"mm", "mm2", "MPa", "N/mm", "N", "mm/s", "mm/MPa"};
@@ -246,8 +244,7 @@ TEST(files_take_units)
     CHECK_REL(p0[1], 1e6 * p0[0], 1e-9, "p0 over the same worn depths");
 }
 
-/* Numbers of a command's own options, which a case file gives, are in the file's units.
- */
+/* Numbers of a command's own options, which a case file gives, are in the file's units. */
 TEST(studies_and_curves_of_files_have_the_units_of_the_file)
 {
     write_file("study.ini", "units = inch\nsupport = halfplane\n[sweep]\n"

@@ -46,8 +46,7 @@ int rb_api_resolve(rb_api *a);
 int rb_api_solve(rb_api *a);
 /* May be called from another thread or a signal handler.  The running call ends with
  * RB_INTERRUPTED after its current step, point of a curve, case of a sweep or iterate of
- * a friction solver.
- */
+ * a friction solver. */
 void rb_api_stop(rb_api *a);
 /* Steps of a history or of wear, points of a curve, or cases of a sweep, that the running
  * call has done, of so many; 0 of 0 where the call does not count.  May be asked from
@@ -156,8 +155,7 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
 int rb_api_pivots(rb_api *a);
 /* Newton's method from a contact that sticks everywhere. */
 int rb_api_newton(rb_api *a);
-/* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none.
- */
+/* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none. */
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size);
 /* Solves the linear equations for the given zones (0 separated, 1 stick, 2 and 3 slip),
  * whether they are right or wrong. */

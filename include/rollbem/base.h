@@ -152,6 +152,8 @@ double rb_norm_1(size_t n, const double *x, size_t stride);
 
 /* sum x_i y_i over n, in an order that does not depend on addresses. */
 double rb_dot(size_t n, const double *x, const double *y);
+/* ||x - y|| */
+double rb_distance(size_t n, const double *x, const double *y);
 
 /* Anderson's acceleration of a fixed-point iteration.  init: memory for m numbers; free
  * it in any case. */

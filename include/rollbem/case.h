@@ -245,8 +245,7 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
  * entry per element. */
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);
 
-/* ---- Derivatives in columns: along a curve, over a study, step by step --------------
- */
+/* ---- Derivatives in columns: along a curve, over a study, step by step -------------- */
 
 typedef struct {
     const rb_rolling_result *result;
@@ -454,8 +453,7 @@ extern const rb_rolling_results rb_case_crack_scalars, rb_case_crack_columns,
  * are no more. */
 const rb_rolling_result_table *rb_case_result_table(int k);
 
-/* ---- Fits to measured creep curves (theory.md, D5) ----------------------------------
- */
+/* ---- Fits to measured creep curves (theory.md, D5) ---------------------------------- */
 
 enum { RB_CASE_FIT_MAX = 12 };
 

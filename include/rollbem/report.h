@@ -463,8 +463,7 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
  * an entry per row. */
 void rb_report_json_slopes(struct json_t **owner, const rb_case_slopes *s);
 
-/* ---- Fits (case.h) ------------------------------------------------------------------
- */
+/* ---- Fits (case.h) ------------------------------------------------------------------ */
 
 typedef struct {
     const rb_case_fit *fit; /* borrowed, as the data; in mm, N, MPa */

@@ -9,8 +9,7 @@ RB_PUBLIC_BEGIN
 
 /* ---- Pictures: statuses as in rollbem/report.h ---------- */
 
-/* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6).
- */
+/* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6). */
 rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
                                 const rb_fem_history *history, rb_message *why);
 

@@ -58,8 +58,7 @@ rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part);
  * 20 (rows + cols) eps max column norm. */
 rb_status rb_sparse_rank(const rb_sparse *a, int *rank);
 
-/* ---- LU of square matrices with one fixed pattern (UMFPACK) ---------------------------
- */
+/* ---- LU of square matrices with one fixed pattern (UMFPACK) --------------------------- */
 
 typedef struct rb_sparse_lu rb_sparse_lu;
 

@@ -1,5 +1,4 @@
-/* A case, its results and the steps of its solution as numbers, text and arrays by name.
- */
+/* A case, its results and the steps of its solution as numbers, text and arrays by name. */
 #include "api/internal.h"
 
 #include "rollbem/blas.h"
@@ -584,8 +583,7 @@ static api_array *series_array(rb_api *a, const char *name)
     return made;
 }
 
-/* Of result `name` with respect to all inputs, the two sides of each beside each other.
- */
+/* Of result `name` with respect to all inputs, the two sides of each beside each other. */
 static api_array *derivative_array(rb_api *a, const char *name, const char *result)
 {
     const rb_case_derivatives *all = &a->derivatives;
@@ -1033,8 +1031,7 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
 
 /* ---- Cracks ------------------------------------------------------------------------ */
 
-/* Typed values as they are given: rb_case_store reads plain numbers in the case's units.
- */
+/* Typed values as they are given: rb_case_store reads plain numbers in the case's units. */
 rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name, const char *const *value,
                            rb_case_crack *crack, rb_message *why)
 {

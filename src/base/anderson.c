@@ -13,14 +13,6 @@
 /* An extrapolation after which the step is this much longer led astray. */
 #define WORST_GROWTH 2.0
 
-static double distance(size_t n, const double *x, const double *y)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; k++)
-        sum += (x[k] - y[k]) * (x[k] - y[k]);
-    return sqrt(sum);
-}
-
 rb_status rb_anderson_init(int m, rb_anderson *a)
 {
     const size_t size = (size_t)m;
@@ -77,7 +69,7 @@ void rb_anderson_forget(rb_anderson *a)
 void rb_anderson_step(rb_anderson *a, const double *start, double *r, double *u)
 {
     const size_t m = (size_t)a->m, bytes = m * sizeof(double);
-    const double size = distance(m, r, start);
+    const double size = rb_distance(m, r, start);
     if (a->used && size > WORST_GROWTH * a->size) {
         memcpy(r, a->r, bytes);
         if (u)

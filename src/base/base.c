@@ -200,6 +200,14 @@ double rb_dot(size_t n, const double *x, const double *y)
     return sum[0] + sum[1] + (sum[2] + sum[3]);
 }
 
+double rb_distance(size_t n, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; k++)
+        sum += (x[k] - y[k]) * (x[k] - y[k]);
+    return sqrt(sum);
+}
+
 uint64_t rb_hash(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *byte = data;

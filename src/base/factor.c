@@ -232,8 +232,7 @@ static rb_status factorize(const rb_sparse *k, rb_sparse_cholesky *f)
     if (f->c.status < 0) /* no memory, or more entries than its indices count */
         return RB_ENOMEM;
     /* cholmod_rcond: (smallest/largest diagonal of L)^2.  A structure condensed to its
-     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0.
-     */
+     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0. */
     if (f->l->minor < f->l->n || cholmod_rcond(f->l, &f->c) < 1e-11)
         return RB_SINGULAR;
     return RB_OK;

@@ -27,8 +27,7 @@ typedef double complex rb_bond_field(rb_bem_material material, double complex z,
                                      const void *context);
 
 /* Where the strips of a load are subtracted (B10), in cover and core each in its own
- * material, the rest of the cover moves by value - C t_rest on the interface: value, 2n.
- */
+ * material, the rest of the cover moves by value - C t_rest on the interface: value, 2n. */
 rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover, rb_bem_material material,
                             rb_bond_field *field, const void *context, double *value);
 

@@ -196,8 +196,7 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
     return status;
 }
 
-/* ---- The same on long boundaries, by products of a tree -----------------------------
- */
+/* ---- The same on long boundaries, by products of a tree ----------------------------- */
 
 /* Elements near the contact, whose values every load decides by itself, and those far
  * from it, where a few loads stand for all. */

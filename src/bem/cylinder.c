@@ -234,8 +234,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         layout.hub_n = layout.interface.middle_n + layout.interface.right.free_n +
                        layout.interface.left.free_n;
     } else if (cylinder->support == RB_BEM_HUB) {
-        /* The hub's elements are as small as the largest outer ones, and resolve the rim.
-         */
+        /* The hub's elements are as small as the largest outer ones, and resolve the rim. */
         const double rho = cylinder->hub_ratio;
         const double size = fmin(largest_angle, fmin(2.0 * M_PI * rho / 36.0,
                                                      fmax((1.0 - rho) / 4.0, smallest_feature)));

@@ -1,5 +1,4 @@
-/* Flexibilities of the contact (B5): the interface, the dense matrix, the pair of bodies.
- */
+/* Flexibilities of the contact (B5): the interface, the dense matrix, the pair of bodies. */
 #include "bem/internal.h"
 
 #include <cblas.h>

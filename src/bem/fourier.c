@@ -49,8 +49,6 @@ int rb_fourier_make(int least, rb_fourier *f)
             prepared = fftw_init_threads();
 #ifdef _OPENMP
         fftw_plan_with_nthreads(f->size >= THREADS_FROM ? rb_blas_loop_threads() : 1);
-#else
-        (void)f->size;
 #endif
         f->forward = fftw_plan_dft_r2c_1d(f->size, work, transform, FFTW_ESTIMATE);
         f->backward = fftw_plan_dft_c2r_1d(f->size, transform, work, FFTW_ESTIMATE);

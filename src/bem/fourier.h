@@ -16,8 +16,7 @@ void rb_fourier_free(rb_fourier *f);
 /* Room for one sequence and its transform, size/2 + 1 numbers; fftw_free(). */
 double *rb_fourier_alloc(const rb_fourier *f);
 
-/* x (n values, zeros behind them) to its transform, and back without the factor 1/size.
- */
+/* x (n values, zeros behind them) to its transform, and back without the factor 1/size. */
 fftw_complex *rb_fourier_forward(const rb_fourier *f, int n, const double *x, double *work);
 void rb_fourier_backward(const rb_fourier *f, double *work);
 

@@ -13,8 +13,7 @@ typedef struct rb_hierarchical rb_hierarchical;
 
 /* Unknowns in the order of the dofs: displacements where the traction is given or kept,
  * else tractions over `unit` (n, one per element).  tolerance: relative, of what a
- * cluster's skeleton says of the others.  RB_SINGULAR, RB_ENOMEM.  Uses every processor.
- */
+ * cluster's skeleton says of the others.  RB_SINGULAR, RB_ENOMEM.  Uses every processor. */
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                  const double *unit, double tolerance, rb_hierarchical **h);
 /* X: 2n x columns, leading dimension 2n, overwritten by the solutions. */

@@ -32,8 +32,7 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
 
     w->k = al / body->thickness;
     rb_bem_layer_wave_at(body, al, &bond);
-    /* Transforms of the tractions, which are linear between the nodes, times the weight.
-     */
+    /* Transforms of the tractions, which are linear between the nodes, times the weight. */
     const double share = weight / (M_PI * body->thickness);
     double complex p = 0.0, q = 0.0;
     for (int j = 0; j + 1 < load->n; j++) {

@@ -30,8 +30,7 @@ static double entire_part(double z)
 }
 
 /* Phi(y) = int_0^inf exp(-r/L) ln|y + r| dr, less the constant L (ln L - gamma): only
- * differences count, and elements that are short against L would lose their digits in it.
- */
+ * differences count, and elements that are short against L would lose their digits in it. */
 static double log_average(double y, double L)
 {
     const double z = y / L;

@@ -49,8 +49,7 @@ typedef struct {
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns, const int *column,
                          rb_matrix_view out);
 
-/* The same for loads along x and y on each of `points` parts of the circle; of order one.
- */
+/* The same for loads along x and y on each of `points` parts of the circle; of order one. */
 rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle, int points,
                        rb_matrix_view out);
 

@@ -1,5 +1,4 @@
-/* Interpolative decomposition: a few columns of a matrix and what the others are made of.
- */
+/* Interpolative decomposition: a few columns of a matrix and what the others are made of. */
 #ifndef ROLLBEM_BEM_SKELETON_H
 #define ROLLBEM_BEM_SKELETON_H
 

@@ -19,8 +19,7 @@ static void hold(held_direction *d, double at, double tolerance)
 }
 
 /* A body held in x at two heights cannot turn, nor one held in y at two abscissae; held
- * in x at one height and in y at one abscissa it turns about the point where they meet.
- */
+ * in x at one height and in y at one abscissa it turns about the point where they meet. */
 rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why)
 {
     const double tolerance = 1e-9 * rb_bem_mesh_size(mesh);

@@ -154,8 +154,7 @@ static rb_status fix_pressures(rb_bem_system *s)
     return status;
 }
 
-/* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C).
- */
+/* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C). */
 static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
 {
     const rb_bond *bond = s->bond;
@@ -339,8 +338,7 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
 {
     if (!s->A) {
-        /* Solutions come in the order of the dofs, the unknowns are turned by `offset`.
-         */
+        /* Solutions come in the order of the dofs, the unknowns are turned by `offset`. */
         const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
         double *turned = rb_alloc(dofs, 1);
         rb_status status = turned ? rb_hierarchical_solve(s->h, columns, X) : RB_ENOMEM;

@@ -18,8 +18,7 @@ enum { N, T };
  * with memory have neither.  Those whose surface is alike everywhere have one t for both.
  * Transforms of length >= 2n + 1 let nothing wrap around.  `base`, the mean of t, times
  * the sum of the tractions is added apart: with a deep datum it would drown the rest in
- * rounding.  work: room for one product, so that an operator serves one thread at a time.
- */
+ * rounding.  work: room for one product, so that an operator serves one thread at a time. */
 typedef struct {
     int n, coupled, alike; /* alike: t_T is t_N */
     int symmetric;         /* t even and s odd */
@@ -142,8 +141,7 @@ static void apply_coupled(const toeplitz *o, const double *r, double *w)
 
     for (int k = 0; k <= f->size / 2; k++)
         if (o->symmetric) {
-            /* Mode k of both, p and q, for real transforms of t and imaginary ones of s.
-             */
+            /* Mode k of both, p and q, for real transforms of t and imaginary ones of s. */
             const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
             const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
 
@@ -219,8 +217,7 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
     for (size_t j = 0; j < n; j++) {
         double *column_N = F + j * ld, *column_T = F + (j + n) * ld, e[4];
         for (size_t i = 0; i < m; i++) {
-            /* Entries of point i and element j in the surface's frames: NN, TN, NT, TT.
-             */
+            /* Entries of point i and element j in the surface's frames: NN, TN, NT, TT. */
             const size_t k = (size_t)o->n + i - j;
 
             e[0] = o->t[N][k];

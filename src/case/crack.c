@@ -241,18 +241,6 @@ static rb_status set_loads(int n, const double *x, const double *h, const double
     return RB_OK;
 }
 
-static rb_crack_shape shape_of(const rb_resolved_case *c, const rb_case_crack *k, double a)
-{
-    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
-    return (rb_crack_shape){
-        .path = rb_crack_straight(k->mouth * a, k->depth * a, k->length * a, k->angle),
-        .elements = k->elements,
-        .friction = k->friction,
-        .shear = 0.5 * b->young / (1.0 + b->poisson),
-        /* of plane stress: the same kappa */
-        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
-}
-
 static void note(rb_case_crack_result *r, const char *text, double value)
 {
     if (r->notes < RB_CASE_CRACK_NOTES)
@@ -309,7 +297,15 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
 
     memset(t, 0, sizeof *t);
     r->half_width = has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
-    r->shape = shape_of(c, k, r->half_width);
+    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
+    const double a = r->half_width;
+    r->shape = (rb_crack_shape){
+        .path = rb_crack_straight(k->mouth * a, k->depth * a, k->length * a, k->angle),
+        .elements = k->elements,
+        .friction = k->friction,
+        .shear = 0.5 * b->young / (1.0 + b->poisson),
+        /* of plane stress: the same kappa */
+        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
     r->passes = k->unloaded ? 1 : k->passes;
     t->n = k->unloaded ? 1 : has_steps ? steps->steps : intervals(c) + 1;
     t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;

@@ -259,8 +259,7 @@ void rb_case_derivatives_free(rb_case_derivatives *all)
     *all = (rb_case_derivatives){0};
 }
 
-/* ---- Names, and uncertain inputs ----------------------------------------------------
- */
+/* ---- Names, and uncertain inputs ---------------------------------------------------- */
 
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column)
 {

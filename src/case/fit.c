@@ -69,8 +69,7 @@ static const double *column(const problem *p, int j)
     return p->J + (size_t)j * (size_t)p->points;
 }
 
-/* ---- One point -----------------------------------------------------------------------
- */
+/* ---- One point ----------------------------------------------------------------------- */
 
 /* A point with its parameters; number `varied` (-1: none) has another value. */
 typedef struct {
@@ -125,12 +124,13 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc, rb_me
     while (known < p->known + p->known_n && !(known->varied == varied && known->value == x &&
                                               are_alike(p->data, known->point, at->point)))
         known++;
-    if (known < p->known + p->known_n)
+    if (known < p->known + p->known_n) {
         *rc = known->rc;
-    else
+    } else {
         s = resolve(at, value, rc, why);
-    if (s == RB_OK && known == p->known + p->known_n && p->known_n < RESOLVED_MAX)
-        p->known[p->known_n++] = (resolved){varied, at->point, x, *rc};
+        if (s == RB_OK && p->known_n < RESOLVED_MAX)
+            p->known[p->known_n++] = (resolved){varied, at->point, x, *rc};
+    }
     const double offset = p->offset < 0 ? 0.0 : of_creep ? value : at->theta[p->offset];
     *(double *)(void *)((char *)rc + p->creep->offset - offsetof(rb_resolved_case, rc)) =
         p->data->creep[at->point] + offset;
@@ -204,7 +204,7 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
     const double enough = 0.01 * v->rc->contact.tol;
     rb_contact_state step = {0};
     rb_sensitivity_rate left = {0};
-    rb_contact_violation violation;
+    rb_contact_violation violation = {.scaled = NAN};
     double change = INFINITY;
     rb_status status = rb_contact_state_alloc(last->mesh.n, &step);
 
@@ -543,8 +543,7 @@ static void say(rb_case_fit *fit, const char *format, const char *name, const ch
         snprintf(fit->sentences + used, sizeof fit->sentences - used, format, name, more);
 }
 
-/* How many points lie where the force falls beyond its largest, by more than the noise.
- */
+/* How many points lie where the force falls beyond its largest, by more than the noise. */
 static int falling_points(const problem *p)
 {
     const rb_case_data *d = p->data;

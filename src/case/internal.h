@@ -83,8 +83,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *cra
                              const rb_crack_passage *passage, rb_case_crack_result *r,
                              rb_message *why);
 
-/* ---- resolve.c ----------------------------------------------------------------------
- */
+/* ---- resolve.c ---------------------------------------------------------------------- */
 
 /* How options that exclude each other are resolved. */
 typedef struct {

@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In rolling a force stands in the place of a creepage; static contact knows no rolling.
- */
+/* In rolling a force stands in the place of a creepage; static contact knows no rolling. */
 unsigned rb_case_alike(rb_rolling_formulation formulation)
 {
     return formulation == RB_STATIC ? 0 : RB_ONE_CREEPAGE | RB_ONE_LOADING;

@@ -292,8 +292,7 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
 /* A part of an input's scale, as for single solutions. */
 static const double STEP = 5e-4;
 
-/* A number, and the history at values of it nearby, whose states lie along the tangent.
- */
+/* A number, and the history at values of it nearby, whose states lie along the tangent. */
 typedef struct {
     const rb_case_number *number;
     double step;

@@ -77,8 +77,7 @@ typedef struct {
 
 enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
-/* What is the command's own.  Functions may be NULL, but for check, solve, table, json.
- */
+/* What is the command's own.  Functions may be NULL, but for check, solve, table, json. */
 struct cli_case_command {
     const char *synopsis, *about, *notes;
     rb_case_purpose purpose;

@@ -47,8 +47,7 @@ void cli_end(void);
 
 /* Of command k = 0, 1, ...; NULL: there are no more. */
 const char *cli_command_name(int k);
-/* The line of a command in the list; "" is the one without a name; NULL: there is none.
- */
+/* The line of a command in the list; "" is the one without a name; NULL: there is none. */
 const char *cli_command_help(const char *name);
 
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */
@@ -81,8 +80,7 @@ typedef enum {
     CLI_CANTWRITE = 73
 } cli_exit;
 
-/* RB_EINVAL is CLI_USAGE: a command that knows the value came from a file says CLI_DATA.
- */
+/* RB_EINVAL is CLI_USAGE: a command that knows the value came from a file says CLI_DATA. */
 cli_exit cli_exit_of(rb_status s);
 
 /* Prints the line "rollbem: ..." on stderr and returns code. */

@@ -7,8 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* --from and --to are texts because what they are values of is known from --over alone.
- */
+/* --from and --to are texts because what they are values of is known from --over alone. */
 typedef struct {
     const char *end[2]; /* NULL: the default */
     double from, to;    /* creepages, or speeds [mm/s] */

@@ -1,5 +1,4 @@
-/* A line of help: a name and the text beside it, of options by their tables; the pager.
- */
+/* A line of help: a name and the text beside it, of options by their tables; the pager. */
 #include "cli/cli.h"
 
 #include <fcntl.h>

@@ -465,8 +465,7 @@ int cli_example(int argc, char **argv)
     return code;
 }
 
-/* ---- rollbem examples ----------------------------------------------------------------
- */
+/* ---- rollbem examples ---------------------------------------------------------------- */
 
 static const struct {
     const char *name, *about;

@@ -115,8 +115,7 @@ const char *cli_other_name(const char *name, size_t length)
     return NULL;
 }
 
-/* ---- Options ------------------------------------------------------------------------
- */
+/* ---- Options ------------------------------------------------------------------------ */
 
 static int is_new(const rb_option *options)
 {
@@ -201,8 +200,7 @@ const char *cli_commands_with(const char *name, size_t length)
     return wanted.commands;
 }
 
-/* ---- Everything else ----------------------------------------------------------------
- */
+/* ---- Everything else ---------------------------------------------------------------- */
 
 static void find_commands(void)
 {
@@ -287,13 +285,13 @@ static void find_everything(const rb_option_set *options)
 }
 
 /* Words that a question has besides those that it is about. */
-static int is_small(const char *word)
+static int is_stop_word(const char *word)
 {
-    static const char *const small[] = {
+    static const char *const words[] = {
         "a",  "an", "and", "are", "can", "do", "does", "for",  "how",   "i",     "in",   "is",
         "it", "my", "of",  "on",  "the", "to", "what", "when", "where", "which", "with", "why"};
-    for (size_t k = 0; k < sizeof small / sizeof *small; k++)
-        if (strcasecmp(word, small[k]) == 0)
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (strcasecmp(word, words[k]) == 0)
             return 1;
     return 0;
 }
@@ -312,10 +310,10 @@ int cli_find(int n, char **words)
     memset(&search, 0, sizeof search);
     strcpy(split, all);
     for (char *word; search.n < MOST && (word = strtok_r(rest, " ?", &rest)) != NULL;)
-        if (!is_small(word))
+        if (!is_stop_word(word))
             asked[search.n++] = word;
     search.word = asked;
-    if (search.n == 0) { /* small words alone, such as: it */
+    if (search.n == 0) { /* stop words alone, such as: it */
         search.n = n;
         search.word = words;
     }

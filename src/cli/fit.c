@@ -61,8 +61,7 @@ static const char notes[] =
     "66,\n"
     "70, 73 as of the other commands.\n";
 
-/* ---- What is asked for ---------------------------------------------------------------
- */
+/* ---- What is asked for --------------------------------------------------------------- */
 
 static rb_case_parameter *parameter_of(fitting *f, const char *name, size_t n)
 {
@@ -178,8 +177,7 @@ static cli_exit read_data(fitting *f, const char *path, rb_units units)
     return CLI_CONTINUE;
 }
 
-/* ---- Results -------------------------------------------------------------------------
- */
+/* ---- Results ------------------------------------------------------------------------- */
 
 typedef struct {
     const fitting *f;

@@ -51,8 +51,7 @@ static void print_text(const char *text)
     putchar('\n');
 }
 
-/* ---- --help -------------------------------------------------------------------------
- */
+/* ---- --help ------------------------------------------------------------------------- */
 
 static void print_group_title(const rb_option *group)
 {

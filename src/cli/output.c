@@ -57,8 +57,8 @@ int cli_reader_is_person(void)
 }
 
 static int lines_above; /* of a table on the terminal */
-/* Summary and table of a terminal: what is longer than the window is read page by page.
- */
+
+/* Summary and table of a terminal: what is longer than the window is read page by page. */
 static struct {
     FILE *text; /* NULL: everything goes straight to the terminal */
     char *at;

@@ -8,8 +8,7 @@
 
 #include <stdint.h>
 
-/* Before anything is read: argv as the command got it.  CLI_CONTINUE, or the exit code.
- */
+/* Before anything is read: argv as the command got it.  CLI_CONTINUE, or the exit code. */
 cli_exit cli_pool_begin(int argc, char **argv);
 
 /* 1: this process solves what another one hands out, and writes nothing. */

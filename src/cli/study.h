@@ -90,8 +90,7 @@ double cli_study_value(const study *st, const study_column *c, int k);
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
 /* The option of a case or of a crack; NULL: there is none. */
 const rb_option *cli_study_option(const char *name);
-/* Sets st->one, and st->one_crack, to that case; says nothing of what is wrong with it.
- */
+/* Sets st->one, and st->one_crack, to that case; says nothing of what is wrong with it. */
 rb_status cli_study_try_one(study *st, int k, rb_message *why);
 /* The first case that is one: of a sample not every case may be. */
 int cli_study_first(study *st, const rb_case *c);

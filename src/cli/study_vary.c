@@ -75,8 +75,7 @@ static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows
     return CLI_CONTINUE;
 }
 
-/* Values of one option as they are typed: where they stand and what is wrong with them.
- */
+/* Values of one option as they are typed: where they stand and what is wrong with them. */
 typedef struct {
     const char *source; /* vary-1, cases */
     const rb_option *option;

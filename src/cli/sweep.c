@@ -243,8 +243,7 @@ static cli_exit choose_results(study *st)
                                   RB_ROW_OWN, &st->slopes, &why) != RB_OK)
             code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     }
-    /* Not every body's stress is known; what else is wrong is known with the first case.
-     */
+    /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
         return code;
     rb_message why = {""};

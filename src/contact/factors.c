@@ -173,8 +173,7 @@ static void make_plan(const rb_contact_problem *p, const int *zone, const rb_con
 {
     const int tractions = r->contacts + r->sticks;
 
-    /* Where both groups are unknown, friction of a slipping element follows its pressure.
-     */
+    /* Where both groups are unknown, friction of a slipping element follows its pressure. */
     traction *unknown = pl->unknown;
     for (int c = 0; c < r->contacts; c++) {
         const int i = r->contact[c];

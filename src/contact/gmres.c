@@ -19,7 +19,7 @@ typedef struct {
     int size;
     double *image[BORDERS];          /* A~^-1 B; owned */
     double schur[BORDERS * BORDERS]; /* -C A~^-1 B */
-    double **basis;                  /* of the scratch, as work */
+    double **basis;                  /* in the scratch memory, as work */
     double *work;
     size_t length; /* of a vector */
 } solver;
@@ -96,8 +96,7 @@ static double *basis_vector(const solver *s, int j)
     return *v;
 }
 
-/* Column j: orthogonalised, its length in the last row; 0 where the space is exhausted.
- */
+/* Column j: orthogonalised, its length in the last row; 0 where the space is exhausted. */
 static int orthogonalise(const solver *s, int j, double *column)
 {
     double *const *v = s->basis, *last = v[j + 1];

@@ -304,8 +304,7 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem, rb_contact_lc
         return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n, rb_status_text(s));
     }
     /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
-     * below the first touch, also for a half-plane whose datum is close to the surface.
-     */
+     * below the first touch, also for a half-plane whose datum is close to the surface. */
     double lowest = problem->d_N[0];
 
     for (int i = 1; i < problem->n; i++)

@@ -168,7 +168,8 @@ static rb_status follow(path *k)
     rb_status s = solve_for(k, 0.0, &k->none);
 
     if (s == RB_OK) {
-        /* What violates the laws of its zones changes its sign */
+        /* What violates the laws of its zones changes its sign, of each element by a factor of
+         * its own, so that they do not reach their bounds all at once. */
         static const double golden = 0.6180339887498949;
 
         for (int i = 0; i < k->problem->n; i++) {

@@ -55,7 +55,7 @@ typedef struct {
     const int *zone;
 } system_of;
 
-/* Tractions of the unknowns into the scratch for products. */
+/* Tractions of the unknowns into the memory for products. */
 static void scatter(const system_of *s, const double *x)
 {
     const rb_contact_problem *p = s->p;

@@ -145,6 +145,7 @@ rb_contact_options rb_contact_defaults(void)
 static int plan_forms(const rb_contact_problem *problem, const rb_contact_options *options,
                       attempt at[FORMS])
 {
+    /* Direction in which A's surface slides, of the given creepage or against the force. */
     double sum = 0.0;
 
     for (int i = 0; i < problem->n; i++)

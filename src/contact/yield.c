@@ -165,7 +165,7 @@ static void control_rows(const laws *k, const motion *m, int constants, double *
              rb_contact_force_scale(p);
 }
 
-/* Tractions of the unknowns x, which the motion has scratch for; no motion. */
+/* Tractions of the unknowns x, for which the motion has memory; no motion. */
 static void set_tractions(const laws *k, const double *x, motion *m)
 {
     const rb_contact_problem *p = k->p;

@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points per element; per half of it, graded towards an end where the stress is singular.
- */
+/* Points per element; per half of it, graded towards an end where the stress is singular. */
 enum { POINTS = 10, GRADED = 24, PIECE_ELEMENTS = 3, LEAST_ELEMENTS = 4, MOST_ELEMENTS = 2000 };
 /* Below this angle [degrees] the faces of so few elements would be wrong. */
 enum { SHALLOW_ANGLE = 15, SHALLOW_ELEMENTS = 40 };

@@ -6,22 +6,6 @@
 
 enum { POINTS = 6 };
 
-/* Adds the forces of the stress at a point of element k. */
-static void add_forces(const rb_crack *c, int k, const rb_crack_point *at, const double stress[3],
-                       double *T)
-{
-    const double complex n = I * c->element[k].t;
-    const double complex traction = stress[0] * creal(n) + stress[2] * cimag(n) +
-                                    I * (stress[2] * creal(n) + stress[1] * cimag(n));
-    for (int end = 0; end < 2; end++) {
-        const int j = k + end - c->first;
-        if (j < 0 || j >= c->n)
-            continue;
-        T[j] += at->weight * at->hat[end] * creal(traction * conj(I * c->t[j]));
-        T[j + c->n] += at->weight * at->hat[end] * creal(traction * conj(c->t[j]));
-    }
-}
-
 rb_status rb_crack_load(const rb_crack *c, const rb_bem_edge_load *load, double x, double tension,
                         double *T)
 {
@@ -49,9 +33,20 @@ rb_status rb_crack_load(const rb_crack *c, const rb_bem_edge_load *load, double 
     }
     memset(T, 0, 2 * (size_t)c->n * sizeof *T);
     for (size_t k = 0; k < points && s == RB_OK; k++) {
-        stress[3 * k] += tension;
-        stress[3 * k + 2] *= -1.0;
-        add_forces(c, (int)k / POINTS, &point[k], stress + 3 * k, T);
+        const int element = (int)k / POINTS;
+        const double sxx = stress[3 * k] + tension, syy = stress[3 * k + 1],
+                     sxy = -stress[3 * k + 2];
+        const double complex n = I * c->element[element].t;
+        const double complex traction =
+            sxx * creal(n) + sxy * cimag(n) + I * (sxy * creal(n) + syy * cimag(n));
+        for (int end = 0; end < 2; end++) {
+            const int j = element + end - c->first;
+            if (j < 0 || j >= c->n)
+                continue;
+            const double weight = point[k].weight * point[k].hat[end];
+            T[j] += weight * creal(traction * conj(I * c->t[j]));
+            T[j + c->n] += weight * creal(traction * conj(c->t[j]));
+        }
     }
     if (rule[0])
         gsl_integration_glfixed_table_free(rule[0]);

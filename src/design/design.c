@@ -191,8 +191,7 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
 
 /* ---- The case as a function -------------------------------------------------------- */
 
-/* One evaluation: all functions (the result, then the constraints) and their gradients.
- */
+/* One evaluation: all functions (the result, then the constraints) and their gradients. */
 typedef struct {
     const rb_case *c;
     rb_design *d;
@@ -264,6 +263,30 @@ static double weight_of(const rb_rolling_solution *s, double span, int i)
     return span == 0.0 || fabs(s->x[i]) < span ? s->h[i] : 0.0;
 }
 
+/* The ripple, and its derivative along p_rate (NULL: 0). */
+static double ripple(const rb_rolling_solution *s, double span, const double *p_rate, double *rate)
+{
+    double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double h = weight_of(s, span, i);
+        length += h;
+        mean += h * s->p[i];
+        mean_rate += p_rate ? h * p_rate[i] : 0.0;
+    }
+    mean /= length;
+    mean_rate /= length;
+    for (int i = 0; i < s->n; i++) {
+        const double off = s->p[i] / mean - 1.0, h = weight_of(s, span, i);
+        sum += h / length * off * off;
+        sum_rate +=
+            p_rate ? 2.0 * h / length * off * (p_rate[i] - s->p[i] * mean_rate / mean) / mean : 0.0;
+    }
+    const double r = sqrt(sum);
+    *rate = r > 0.0 ? 0.5 * sum_rate / r : 0.0;
+    return r;
+}
+
 /* Values of all functions; along a derivative: their rates. */
 static void read_functions(const rb_design *d, const rb_rolling_solution *s,
                            const rb_rolling_solution *along, double *f, int stride)
@@ -274,28 +297,7 @@ static void read_functions(const rb_design *d, const rb_rolling_solution *s,
         if (r)
             *to = rb_rolling_number(r, along ? along : s);
         else {
-            /* The ripple, and its derivative along p_rate. */
-            const double *p_rate = along ? along->p : NULL;
-            double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
-
-            for (int i = 0; i < s->n; i++) {
-                const double h = weight_of(s, d->span, i);
-                length += h;
-                mean += h * s->p[i];
-                mean_rate += p_rate ? h * p_rate[i] : 0.0;
-            }
-            mean /= length;
-            mean_rate /= length;
-            for (int i = 0; i < s->n; i++) {
-                const double off = s->p[i] / mean - 1.0, h = weight_of(s, d->span, i);
-                sum += h / length * off * off;
-                sum_rate += p_rate ? 2.0 * h / length * off *
-                                         (p_rate[i] - s->p[i] * mean_rate / mean) / mean
-                                   : 0.0;
-            }
-            const double at = sqrt(sum);
-            rate = at > 0.0 ? 0.5 * sum_rate / at : 0.0;
-            *to = at;
+            *to = ripple(s, d->span, along ? along->p : NULL, &rate);
             if (along)
                 *to = rate;
         }

@@ -1,5 +1,4 @@
-/* *Kanno* 3.1: a double-layer grid of bars on an obstacle, loaded once, unloaded slowly.
- */
+/* *Kanno* 3.1: a double-layer grid of bars on an obstacle, loaded once, unloaded slowly. */
 #include "rollbem/fem.h"
 
 static const double spacing[3] = {2000.0, 3000.0, 2000.0}; /* mm */

@@ -7,8 +7,7 @@
  * long as the penalty stays, and an inverse however redundant the contacts are; the
  * penalty follows the balance of the two residuals, ||r - z|| and the change of z, at
  * iterations that lie ever farther apart.  The iteration is accelerated as the sweeps
- * are.
- */
+ * are. */
 #include "friction/internal.h"
 
 #include <math.h>

@@ -22,14 +22,6 @@ double rb_friction_norm(size_t n, const double *x)
     return largest * sqrt(sum);
 }
 
-double rb_friction_distance(size_t n, const double *x, const double *y)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; k++)
-        sum += (x[k] - y[k]) * (x[k] - y[k]);
-    return sqrt(sum);
-}
-
 /* Inline, so that loops over contacts are compiled for each dimension. */
 static inline double tangential(int d, const double *x)
 {

@@ -31,8 +31,6 @@ double rb_friction_natural_norm(const rb_friction_problem *problem, const double
 double rb_friction_size(const rb_friction_problem *problem, const double *rho, const double *r,
                         double *work);
 double rb_friction_norm(size_t n, const double *x);
-/* ||x - y|| */
-double rb_friction_distance(size_t n, const double *x, const double *y);
 
 /* ---- Units (rho.c) ----------------------------------------------------------------- */
 
@@ -126,8 +124,7 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
 
-/* ---- The state of one solve (task.c) ------------------------------------------------
- */
+/* ---- The state of one solve (task.c) ------------------------------------------------ */
 
 /* Data shared by all methods that solve one problem. */
 typedef struct {

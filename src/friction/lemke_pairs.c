@@ -65,8 +65,7 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
     if (s != RB_OK || !left)
         return s != RB_OK ? s : RB_MAXITER;
     double *q = rb_alloc(4 * (size_t)nc, 2), *z = q ? q + 4 * (size_t)nc : NULL;
-    /* W's mean diagonal: with W and q divided by it all unknowns but lambda are forces.
-     */
+    /* W's mean diagonal: with W and q divided by it all unknowns but lambda are forces. */
     double sum = 0.0;
     for (int c = 0; c < w->contacts; c++) {
         const double *x = w->x + 4 * (size_t)w->diag[c];

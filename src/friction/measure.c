@@ -159,8 +159,6 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
          * does not. */
         const int n = p->dofs, m = p->dimension * p->contacts;
         double *dv = measure->dv;
-        s = RB_OK;
-        correction = 0.0;
         for (int pass = 0; s == RB_OK && pass < (measure->spring > 0.0 ? 1 : 2); pass++) {
             for (int i = 0; i < n; i++)
                 measure->e[i] = p->f[i];

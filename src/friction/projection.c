@@ -95,16 +95,15 @@ static rb_status go_on_projecting(void *state)
         for (;;) {
             project_all(s, s->uhat, s->p);
             uhat_at(s, s->p, s->up);
-            step = rb_friction_distance((size_t)t->m, s->p, t->r);
-            ratio = step > 0.0 ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
-                               : 0.0;
+            step = rb_distance((size_t)t->m, s->p, t->r);
+            ratio = step > 0.0 ? s->rho * rb_distance((size_t)t->m, s->up, s->uhat) / step : 0.0;
             if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
                 break;
             s->rho *= RB_FRICTION_UPK_SHRINK;
         }
         if (s->extragradient) {
             project_all(s, s->up, s->p);
-            step = rb_friction_distance((size_t)t->m, s->p, t->r);
+            step = rb_distance((size_t)t->m, s->p, t->r);
             uhat_at(s, s->p, s->up);
         }
         memcpy(t->r, s->p, (size_t)t->m * sizeof(double));

@@ -1,6 +1,5 @@
 /* rho: the inverse of each contact's own compliance, [force/velocity].  It brings
- * velocities to forces, so that neither the solvers nor what they accept depend on units.
- */
+ * velocities to forces, so that neither the solvers nor what they accept depend on units. */
 #include "friction/internal.h"
 
 #include <math.h>

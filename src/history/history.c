@@ -305,8 +305,7 @@ static double largest(const double *column, int n, double own)
     return max;
 }
 
-/* A mesh that holds the contact of the largest load, solved at rest; zone: 0, automatic.
- */
+/* A mesh that holds the contact of the largest load, solved at rest; zone: 0, automatic. */
 static rb_status widest_contact(const history_state *r, double zone, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
@@ -418,14 +417,6 @@ static void run_free(history_state *r)
     rb_rolling_particles_free(&r->particles);
 }
 
-/* Where nothing rolls, no distance is measured by a: it is that of the largest load. */
-static double half_width_at_rest(const history_state *r)
-{
-    const rb_rolling_history *h = r->history;
-
-    return rb_rolling_hertz_half_width(r->rc, fmax(0.0, largest(h->normal_load, h->n, 0.0)));
-}
-
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of
  * the largest load at rest: *wider is the zone with which to start again, or 0. */
 static rb_status run_on_zone(history_state *r, double zone, double *wider, rb_message *why)
@@ -436,7 +427,9 @@ static rb_status run_on_zone(history_state *r, double zone, double *wider, rb_me
     if (s == RB_OK) {
         s = rb_rolling_check_layer_resolved(r->model, all_steps(r, why), why);
         if (s == RB_OK && r->history->step == 0.0 && !r->model->problem.load_given)
-            r->history->half_width = half_width_at_rest(r);
+            /* nothing rolls, no distance is measured by a: it is that of the largest load */
+            r->history->half_width = rb_rolling_hertz_half_width(
+                r->rc, fmax(0.0, largest(r->history->normal_load, r->history->n, 0.0)));
         if (s == RB_ZONE && r->rc->zone == 0.0) {
             const rb_rolling_mesh *mesh = &r->model->mesh;
             const double now = fmax(-mesh->ends[0], mesh->ends[mesh->n]);

@@ -62,8 +62,7 @@ void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
     memset(r, 0, sizeof *r);
 }
 
-/* The mesh with so many more elements behind it, where particles are that have left it.
- */
+/* The mesh with so many more elements behind it, where particles are that have left it. */
 static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *longer)
 {
     const double h = mesh->ends[1] - mesh->ends[0];

@@ -78,8 +78,7 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
     return s;
 }
 
-/* ---- One step alone -----------------------------------------------------------------
- */
+/* ---- One step alone ----------------------------------------------------------------- */
 
 /* Equal elements between from and to, with nothing solved on them. */
 static rb_status set_up_between(const rb_rolling_case *rc, double from, double to,

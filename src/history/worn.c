@@ -119,8 +119,7 @@ static rb_status widen(wear_state *r, rb_message *why)
 
 /* ---- One implicit step ------------------------------------------------------------- */
 
-/* The bodies, whose arrays are borrowed, softer under each element by what a step wears.
- */
+/* The bodies, whose arrays are borrowed, softer under each element by what a step wears. */
 static rb_rolling_bodies softened(wear_state *r)
 {
     const size_t n = (size_t)r->n, m = n + 1;

@@ -1,5 +1,4 @@
-/* Work in a process of its own, for libraries that may crash.  Private to the folder io.
- */
+/* Work in a process of its own, for libraries that may crash.  Private to the folder io. */
 #ifndef IO_CHILD_H
 #define IO_CHILD_H
 

@@ -18,8 +18,7 @@ typedef struct {
 
 /* ---- Lines ------------------------------------------------------------------------- */
 
-/* What the next line that is neither blank nor a comment begins with; "": there is none.
- */
+/* What the next line that is neither blank nor a comment begins with; "": there is none. */
 static char *find_line(reading *r)
 {
     for (;;) {

@@ -1,5 +1,4 @@
-/* Linear complementarity problems and vectors: the kind of file is told by its content.
- */
+/* Linear complementarity problems and vectors: the kind of file is told by its content. */
 #include "io/readers.h"
 
 #include <ctype.h>

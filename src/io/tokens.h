@@ -36,8 +36,7 @@ __attribute__((format(printf, 2, 3)))
 void
 rb_io_tokens_fail(io_tokens *t, const char *format, ...);
 
-/* `what` names the number in messages: "M", "q".  An integer may have a comma behind it.
- */
+/* `what` names the number in messages: "M", "q".  An integer may have a comma behind it. */
 int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what);
 double rb_io_tokens_real(io_tokens *t, const char *what);
 void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what);

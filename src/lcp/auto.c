@@ -52,8 +52,7 @@ static structure read_structure(const rb_sparse *M)
     return s;
 }
 
-/* ---- Members -------------------------------------------------------------------------
- */
+/* ---- Members ------------------------------------------------------------------------- */
 
 enum { TABLEAU, SPARSE, NEWTON, MEMBERS };
 
@@ -268,8 +267,7 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
     return s;
 }
 
-/* ---- By name -------------------------------------------------------------------------
- */
+/* ---- By name ------------------------------------------------------------------------- */
 
 static const rb_lcp_solver solvers[] = {
     {"auto", "the methods below in turns, first the one that suits the structure of M"},

@@ -61,8 +61,7 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
 /* RB_OK: the path of a problem of order n may go on.  RB_MAXITER, RB_INTERRUPTED with
  * their messages; start: on rb_seconds(). */
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start);
-/* RB_INACCURATE where info->scaled is not below 1e-10, with a message that names the row.
- */
+/* RB_INACCURATE where info->scaled is not below 1e-10, with a message that names the row. */
 rb_status rb_lcp_assess(rb_lcp_info *info);
 
 /* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
@@ -93,8 +92,7 @@ static inline double rb_lcp_upper(const double *upper, int i)
  * iterative refinement, or a new tableau where it has drifted too far for that.
  * RB_ENOMEM. */
 rb_status rb_lcp_lemke_keep_accurate(lemke *l);
-/* The tableau from the original matrix.  RB_ENOMEM, RB_SINGULAR (the tableau as before).
- */
+/* The tableau from the original matrix.  RB_ENOMEM, RB_SINGULAR (the tableau as before). */
 rb_status rb_lcp_lemke_rebuild(lemke *l);
 /* 1 when the column of `entering` in l->a satisfies w = M z + d z0. */
 int rb_lcp_lemke_column_holds(lemke *l, int entering);

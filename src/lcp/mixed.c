@@ -223,8 +223,7 @@ static rb_status choose_cover(mixed *p)
     return RB_OK;
 }
 
-/* The slot that needs the largest t, and that t; NONE: the basic point is the solution.
- */
+/* The slot that needs the largest t, and that t; NONE: the basic point is the solution. */
 static int first_slot(const mixed *p, double *t)
 {
     int best = NONE;
@@ -254,8 +253,7 @@ static double distance(const mixed *p, int s, double delta)
     return far > 0.0 ? far : 0.0;
 }
 
-/* Of the slots that tie the one that blocks first under the perturbation, t before all.
- */
+/* Of the slots that tie the one that blocks first under the perturbation, t before all. */
 static int resolve_tie(const mixed *p, int count, double sign, double own)
 {
     int best = isfinite(own) ? OPPOSITE : NONE;

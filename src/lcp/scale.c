@@ -285,8 +285,7 @@ void rb_lcp_scale_back(const lcp_scale *scale, int n, double *z)
         z[i] *= scale->col[i];
 }
 
-/* ---- The residual of each row in its own scale --------------------------------------
- */
+/* ---- The residual of each row in its own scale -------------------------------------- */
 
 /* most[i] = the largest terms, in the scale, of the rows that share an unknown with row
  * i: where row i has nothing but their rounding, they are its size.  felt[i]: the same by

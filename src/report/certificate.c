@@ -373,8 +373,7 @@ static double displacement_without_bases(const rb_certificate *c)
 }
 
 /* The residual that the result prints is believed where it is below what was asked for.
- * Hierarchical matrices approximate: other ends of elements, by a rounding, other digits.
- */
+ * Hierarchical matrices approximate: other ends of elements, by a rounding, other digits. */
 void rb_certificate_tolerances(rb_certificate *c, double residual)
 {
     const rb_contact_problem *p = &c->model.problem;
@@ -568,8 +567,7 @@ static double slack_of_summary(const rb_certificate *c, const char *key, double 
     return 1e-9 * fabs(want) + rounding_of(c, key);
 }
 
-/* Which one of several it was is not known, but what it may be, and what was asked for.
- */
+/* Which one of several it was is not known, but what it may be, and what was asked for. */
 static void compare_solver(rb_certificate *c)
 {
     const rb_contact_options *asked = &c->model.rc->contact;

@@ -114,26 +114,6 @@ static rb_status resolve(assessment *j, rb_case *words, const json_t *inputs, rb
     return s;
 }
 
-/* The notes on the contact come before those on the crack. */
-static json_t *notes_of_contact(const assessment *j)
-{
-    const json_t *printed = json_object_get(j->root, "notes");
-    json_t *notes = json_array();
-
-    for (size_t k = 0; k + (size_t)j->r.notes < json_array_size(printed); k++)
-        rb_report_json_append(&notes, json_incref(json_array_get(printed, k)));
-    return notes;
-}
-
-/* A coupled contact has equal elements, whatever the case says of a steady one. */
-static rb_status couple(rb_case *words, rb_message *why)
-{
-    rb_status s = rb_case_set(words, "mesh", "uniform", RB_GIVEN_ARGUMENT, why);
-    if (s == RB_OK)
-        s = rb_case_set(words, "slip-operator", "upstream", RB_GIVEN_ARGUMENT, why);
-    return s == RB_OK ? rb_case_resolve(words, why) : s;
-}
-
 /* The contact as a result of its own. */
 static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
 {
@@ -142,17 +122,27 @@ static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
                                             {"contact", "summary"}, {"contact_table", "table"},
                                             {"history", "history"}};
     rb_report_certificate own = {0};
-    json_t *one = json_object();
+    const json_t *printed = json_object_get(j->root, "notes");
+    json_t *one = json_object(), *notes = json_array();
     rb_status s = RB_OK;
 
-    if (j->crack.coupled && j->resolved->rc.formulation == RB_STEADY)
-        s = couple(words, why);
+    /* a coupled contact has equal elements, whatever the case says of a steady one */
+    if (j->crack.coupled && j->resolved->rc.formulation == RB_STEADY) {
+        s = rb_case_set(words, "mesh", "uniform", RB_GIVEN_ARGUMENT, why);
+        if (s == RB_OK)
+            s = rb_case_set(words, "slip-operator", "upstream", RB_GIVEN_ARGUMENT, why);
+        if (s == RB_OK)
+            s = rb_case_resolve(words, why);
+    }
     for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
         json_t *part = json_object_get(j->root, shared[k][0]);
         if (part)
             rb_report_json_set(&one, shared[k][1], json_incref(part));
     }
-    rb_report_json_set(&one, "notes", notes_of_contact(j));
+    /* the notes on the contact come before those on the crack */
+    for (size_t k = 0; k + (size_t)j->r.notes < json_array_size(printed); k++)
+        rb_report_json_append(&notes, json_incref(json_array_get(printed, k)));
+    rb_report_json_set(&one, "notes", notes);
     rb_report_json_set(&one, "inputs", rb_report_json_inputs(words));
     rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
     if (s == RB_OK)

@@ -201,8 +201,7 @@ static rb_status compare_hash(rb_certificate *c, const json_t *printed, const rb
     return RB_OK;
 }
 
-/* Two texts in which numbers may differ by one in their second digit: they are rounded.
- */
+/* Two texts in which numbers may differ by one in their second digit: they are rounded. */
 static int is_same_note(const char *a, const char *b)
 {
     while (*a && *b) {

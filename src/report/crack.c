@@ -116,7 +116,7 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
     }
 }
 
-/* A list per step: the N or T half of values of 2n nodes over `by`, or zones. */
+/* A list per step: the N or T half of values of 2n nodes, over `by` if there is one, or zones. */
 static json_t *lists_of(const rb_crack_history *h, const double *values, const int *zones,
                         const double *by)
 {
@@ -126,9 +126,9 @@ static json_t *lists_of(const rb_crack_history *h, const double *values, const i
     for (size_t k = 0; k < (size_t)h->n; k++) {
         json_t *list = json_array();
         for (size_t j = 0; j < n; j++)
-            rb_report_json_append(&list,
-                                  zones ? json_integer(zones[k * n + j])
-                                        : rb_report_json_number(values[k * 2 * n + j] / by[j]));
+            rb_report_json_append(
+                &list, zones ? json_integer(zones[k * n + j])
+                             : rb_report_json_number(values[k * 2 * n + j] / (by ? by[j] : 1.0)));
         rb_report_json_append(&lists, list);
     }
     return lists;
@@ -143,14 +143,11 @@ void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
 
     if (see(r, &v, NULL) == RB_OK) {
         faces = json_object();
-        double *const one = v.t_x;
         rb_report_json_set(&faces, "x_mm", rb_report_json_numbers(n, v.x));
         rb_report_json_set(&faces, "y_mm", rb_report_json_numbers(n, v.y));
         rb_report_json_set(&faces, "length_mm", rb_report_json_numbers(n, v.hat));
-        for (int j = 0; j < n; j++)
-            one[j] = 1.0;
-        rb_report_json_set(&faces, "opening_mm", lists_of(h, h->D, NULL, one));
-        rb_report_json_set(&faces, "sliding_mm", lists_of(h, h->D + n, NULL, one));
+        rb_report_json_set(&faces, "opening_mm", lists_of(h, h->D, NULL, NULL));
+        rb_report_json_set(&faces, "sliding_mm", lists_of(h, h->D + n, NULL, NULL));
         rb_report_json_set(&faces, "p_MPa", lists_of(h, h->r, NULL, v.hat));
         rb_report_json_set(&faces, "q_MPa", lists_of(h, h->r + n, NULL, v.hat));
         rb_report_json_set(&faces, "zone", lists_of(h, NULL, h->zone, NULL));
@@ -219,8 +216,7 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
     fprintf(out, "  residual  %.2g\n", s->residual);
 }
 
-/* ---- Picture: K over the position, zones below ---------------------------------------
- */
+/* ---- Picture: K over the position, zones below --------------------------------------- */
 
 /* Where the crack is open: pale, beside the strong colours of faces that touch. */
 static const char *colour_of(int zone)
@@ -376,8 +372,7 @@ rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_c
     return s;
 }
 
-/* ---- Picture: K_II over K_I ----------------------------------------------------------
- */
+/* ---- Picture: K_II over K_I ---------------------------------------------------------- */
 
 static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
 {
@@ -409,8 +404,7 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_orbit, &v, why);
 }
 
-/* ---- Picture: the crack open and torn ------------------------------------------------
- */
+/* ---- Picture: the crack open and torn ------------------------------------------------ */
 
 static int nearest(const rb_case_crack_result *r, double at)
 {

@@ -30,8 +30,7 @@ static const char *unit_name(const rb_report_fit *f, const char *unit)
     return strcmp(unit, "-") == 0 ? "1" : rb_unit_name(f->units, unit);
 }
 
-/* ---- JSON ----------------------------------------------------------------------------
- */
+/* ---- JSON ---------------------------------------------------------------------------- */
 
 /* A number that the data do not tell is null. */
 static json_t *json_of(const rb_report_fit *f, int j)
@@ -110,8 +109,7 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
     rb_report_json_set(root, "fit", curve);
 }
 
-/* ---- Words ---------------------------------------------------------------------------
- */
+/* ---- Words --------------------------------------------------------------------------- */
 
 /* Behind a number: a blank and its unit, or nothing. */
 static const char *unit_behind(const rb_report_fit *f, const char *unit, char text[20])
@@ -186,8 +184,7 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
     fputs(f->fit->sentences, out);
 }
 
-/* ---- Picture -------------------------------------------------------------------------
- */
+/* ---- Picture ------------------------------------------------------------------------- */
 
 static int by_creepage(const void *a, const void *b)
 {

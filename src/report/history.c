@@ -78,8 +78,7 @@ json_t *rb_report_json_states(const rb_rolling_states *s)
 }
 
 /* The relaxation time of the stress that the steps of a static history resolve least:
- * longer than half of it, and not so long that its end is all that is seen.  NAN: none.
- */
+ * longer than half of it, and not so long that its end is all that is seen.  NAN: none. */
 static double unresolved(const rb_rolling_memory *m, const rb_rolling_history *h)
 {
     double most = 0.5, time = NAN;

@@ -237,8 +237,7 @@ static void write_results(FILE *out, const view *v)
     if (!isnan(s->creepage) && moves)
         fprintf(out, ",  ξ = %.4g", s->creepage);
     if (!isnan(s->creep_ratio) && moves) {
-        /* With the a and R of its formula where they are not those that the title shows.
-         */
+        /* With the a and R of its formula where they are not those that the title shows. */
         const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
         fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
         if (other_a(v) || other_radius(v)) {

@@ -248,8 +248,7 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
         int width = 0;
         measure(&g, &rows, all);
         /* Columns that differ, from the left, as many as fit; those of `minor` only where
-         * all do.
-         */
+         * all do. */
         int wanted = 0;
         for (int j = 0; j < g.columns; j++)
             wanted += all[j].is_constant ? 0 : GAP + all[j].width;

@@ -81,8 +81,7 @@ void rb_report_wear_free(rb_report_wear *w)
     w->profiles = 0;
 }
 
-/* The first step, the last one, and in between those nearest to equal parts of the way.
- */
+/* The first step, the last one, and in between those nearest to equal parts of the way. */
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps)
 {

@@ -6,8 +6,7 @@
 
 /* ---- results.c --------------------------------------------------------------------- */
 
-/* A solution without columns: of numbers that are not there (NAN), or those of another.
- */
+/* A solution without columns: of numbers that are not there (NAN), or those of another. */
 rb_rolling_solution rb_rolling_no_scalars(rb_status status);
 /* The same of a row: NAN throughout. */
 rb_rolling_row rb_rolling_no_row(rb_status status);

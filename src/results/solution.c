@@ -97,8 +97,7 @@ static double unless_tiny(double x, double tiny)
     return fabs(x) <= tiny ? 0.0 : x;
 }
 
-/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction.
- */
+/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction. */
 static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;

@@ -22,8 +22,7 @@ double rb_closed_hertz_load(double half_width, double radius, double modulus)
     return M_PI * modulus * half_width * half_width / (4.0 * radius);
 }
 
-/* E* int_0^a x g'(x)/sqrt(a^2 - x^2) dx of the gap g; K - E = k^2/3 R_D(0, 1 - k^2, 1).
- */
+/* E* int_0^a x g'(x)/sqrt(a^2 - x^2) dx of the gap g; K - E = k^2/3 R_D(0, 1 - k^2, 1). */
 double rb_closed_circle_load(double half_width, double radius, double modulus)
 {
     const double k = half_width / radius;

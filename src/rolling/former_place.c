@@ -72,8 +72,7 @@ static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies 
                 rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
         /* What the bodies have over half-planes is smooth along the surface: linear in
          * between, at `ahead` elements from each of the m = n + 1 midpoints, the last
-         * one's line going on.
-         */
+         * one's line going on. */
         const double ahead = step / h;
         const size_t rows = (size_t)n, all = rows + 1;
 

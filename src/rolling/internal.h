@@ -20,8 +20,7 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc);
  * rolling, with equal elements, solved by Newton's method. */
 int rb_rolling_has_transforms(const rb_rolling_case *rc);
 
-/* ---- options.c: the ranges of the option table ---------------------------------------
- */
+/* ---- options.c: the ranges of the option table --------------------------------------- */
 
 /* Checks the numbers of a case: RB_EINVAL "young: expected a number > 0, got -1".  What
  * has its default is not given. */

@@ -131,6 +131,33 @@ typedef struct {
     double *step;             /* n: of the round before */
 } relaxation;
 
+static void relax(relaxation *r, const rb_contact_problem *p, double change, double *mu)
+{
+    enum { TURNS = 4, WAITED = 40, FELL = 20 };
+    const int less = change < 0.95 * r->least;
+    double turns = 0.0;
+
+    for (int i = 0; i < p->n; i++)
+        turns += (mu[i] - p->bound[i]) * r->step[i];
+    r->turned += turns < 0.0 && !less;
+    r->waited = less ? 0 : r->waited + 1;
+    r->fell = change < r->before ? r->fell + 1 : 0;
+    r->least = fmin(r->least, change);
+    r->before = change;
+    if (r->fell == FELL) {
+        r->part = fmin(2.0 * r->part, 1.0);
+        r->fell = r->waited = 0;
+    } else if (r->turned == TURNS || r->waited == WAITED) {
+        r->part = fmax(0.5 * r->part, 1.0 / 256.0);
+        r->turned = r->waited = 0;
+        r->least = change;
+    }
+    for (int i = 0; i < p->n; i++) {
+        r->step[i] = mu[i] - p->bound[i];
+        mu[i] = p->bound[i] + r->part * r->step[i];
+    }
+}
+
 static rb_status measure(rb_rolling_model *model, rb_message *why)
 {
     const double allowed = fmax(model->rc->contact.tol, model->problem.rounding);
@@ -188,29 +215,7 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
         for (int i = 0; i < p->n; i++)
             change = fmax(change, fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
         if (change > enough) {
-            enum { TURNS = 4, WAITED = 40, FELL = 20 };
-            const int less = change < 0.95 * r.least;
-            double turns = 0.0;
-
-            for (int i = 0; i < p->n; i++)
-                turns += (mu[i] - p->bound[i]) * r.step[i];
-            r.turned += turns < 0.0 && !less;
-            r.waited = less ? 0 : r.waited + 1;
-            r.fell = change < r.before ? r.fell + 1 : 0;
-            r.least = fmin(r.least, change);
-            r.before = change;
-            if (r.fell == FELL) {
-                r.part = fmin(2.0 * r.part, 1.0);
-                r.fell = r.waited = 0;
-            } else if (r.turned == TURNS || r.waited == WAITED) {
-                r.part = fmax(0.5 * r.part, 1.0 / 256.0);
-                r.turned = r.waited = 0;
-                r.least = change;
-            }
-            for (int i = 0; i < p->n; i++) {
-                r.step[i] = mu[i] - p->bound[i];
-                mu[i] = p->bound[i] + r.part * r.step[i];
-            }
+            relax(&r, p, change, mu);
             if (large && r.part == 1.0 && change < NEAR && change < FALLS * before)
                 rb_anderson_step(&faster, p->bound, mu, NULL);
             else

@@ -129,8 +129,7 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
     return s;
 }
 
-/* Half-width of the lower half of every round body.  Half-planes under a table are flat.
- */
+/* Half-width of the lower half of every round body.  Half-planes under a table are flat. */
 static double lower_half(const rb_rolling_case *rc)
 {
     return rc->gap == RB_GAP_TABLE && rb_rolling_can(rc, RB_BODY_FLAT)

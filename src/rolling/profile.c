@@ -1,7 +1,6 @@
 /* A measured gap as a curve: the cubic spline through its points or, where they carry
  * noise, through the smoothest curve that stays as close to them as the noise is large.
- * The pressure follows the curvature of the gap, which a cubic spline keeps continuous.
- */
+ * The pressure follows the curvature of the gap, which a cubic spline keeps continuous. */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

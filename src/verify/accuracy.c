@@ -117,8 +117,7 @@ void rb_verify_accuracy(rb_verify *v)
     bentall_johnson_at(v, 10.0, -rough, 1e-3);
     bentall_johnson_at(v, 1e-4, -smooth, 5e-3);
     bentall_johnson_at(v, 1e-6, -smooth, 5e-3);
-    /* Dissimilar bodies also do work against the pressure: D = -xi Q + (1/R) int x p dx.
-     */
+    /* Dissimilar bodies also do work against the pressure: D = -xi Q + (1/R) int x p dx. */
     rb_rolling_case rc = rb_verify_aluminium_on_steel(0.1);
     rb_rolling_solution s;
     double moment = 0.0;

@@ -181,8 +181,7 @@ void rb_verify_contact(rb_verify *v)
     hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
     hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
     for (int k = 0; k < 3; k++) {
-        /* A journal in its bearing, the gap of both circles, half-planes up to any arc.
-         */
+        /* A journal in its bearing, the gap of both circles, half-planes up to any arc. */
         const double part = arcs[k];
         rb_rolling_case rc = rb_verify_uncoupled();
         rb_rolling_solution s;

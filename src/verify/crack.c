@@ -9,8 +9,7 @@
 static const double PI = 3.14159265358979323846;
 enum { ELEMENTS = 40 };
 
-/* A crack of length 1 with its mouth in the surface, or of that length in the full plane.
- */
+/* A crack of length 1 with its mouth in the surface, or of that length in the full plane. */
 static rb_crack *crack_of(rb_verify *v, double angle, int full_plane)
 {
     static rb_message why;

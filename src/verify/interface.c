@@ -84,6 +84,33 @@ static void brushes(rb_verify *v, int elements, double bound)
     rb_rolling_solution_free(&it);
 }
 
+/* Wheel and rail of CONTACT's veldep_fric, whose friction falls with the slip. */
+static void falling_friction(rb_verify *v)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.a = (rb_rolling_body){.young = 2.0 * 82000.0 * 1.28,
+                             .poisson = 0.28,
+                             .radius = 460.0,
+                             .support = RB_BEM_HALFPLANE};
+    rb_verify_on_same(&rc);
+    rc.load = 3111.08;
+    rc.formulation = RB_STEADY;
+    rc.creep = 0.0009999;
+    rc.speed = 45000.0;
+    rc.contact_elements = 93;
+    rc.zone = 4.65;
+    rc.mu = 0.18;
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_exponential, .fall = {0.12, 0.0}, .slip_scale = {100.0, 100.0}};
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_absolute(v, s.force_ratio, -0.5941, 5e-4,
+                       "falling friction, %d elements: Q/(mu P) of CONTACT", 93);
+    rb_verify_absolute(v, s.stick, 45, 0.0, "falling friction, %d elements: elements that stick",
+                       93);
+    rb_rolling_solution_free(&s);
+}
+
 /* Brushes that yield: q grows by xi/L_T per length from the leading edge to the yield
  * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory.md Y2). */
 static void yielding_brushes(rb_verify *v, int elements, double bound)
@@ -133,29 +160,7 @@ static void yielding_half_planes(rb_verify *v, double hardening, double want)
 
 void rb_verify_interface(rb_verify *v)
 {
-    /* Wheel and rail of CONTACT's veldep_fric, whose friction falls with the slip. */
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
-    rc.a = (rb_rolling_body){.young = 2.0 * 82000.0 * 1.28,
-                             .poisson = 0.28,
-                             .radius = 460.0,
-                             .support = RB_BEM_HALFPLANE};
-    rb_verify_on_same(&rc);
-    rc.load = 3111.08;
-    rc.formulation = RB_STEADY;
-    rc.creep = 0.0009999;
-    rc.speed = 45000.0;
-    rc.contact_elements = 93;
-    rc.zone = 4.65;
-    rc.mu = 0.18;
-    rc.friction = (rb_rolling_friction){
-        .law = RB_FRICTION_exponential, .fall = {0.12, 0.0}, .slip_scale = {100.0, 100.0}};
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_absolute(v, s.force_ratio, -0.5941, 5e-4,
-                       "falling friction, %d elements: Q/(mu P) of CONTACT", 93);
-    rb_verify_absolute(v, s.stick, 45, 0.0, "falling friction, %d elements: elements that stick",
-                       93);
-    rb_rolling_solution_free(&s);
+    falling_friction(v);
     brushes(v, 50, 3e-4);
     brushes(v, 200, 1.9e-5);
     yielding_brushes(v, 50, 8e-4);
