@@ -155,7 +155,7 @@ double rb_dot(size_t n, const double *x, const double *y);
 /* ||x - y|| */
 double rb_distance(size_t n, const double *x, const double *y);
 
-/* Anderson's acceleration of a fixed-point iteration.  init: memory for m numbers; free
+/* Anderson's acceleration of a fixed-point iteration.  init: memory for m numbers, RB_ENOMEM; free
  * it in any case. */
 #define RB_ANDERSON_DEPTH 5
 

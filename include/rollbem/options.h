@@ -72,7 +72,7 @@ typedef struct {
                              next argument is an option, a file, or has a dot or slash; NULL:
                              a value is required */
     size_t into;          /* number of a case: its place in rb_rolling_case if this is not
-                             `offset`;       0: it is */
+                             `offset`; 0: it is */
     size_t of_a;          /* number of body B: place in rb_rolling_case of A's value, which it has
                              if none is given; 0: none */
     int if_similar;       /* 1: only with the option `similar` */
