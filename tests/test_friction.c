@@ -2,6 +2,7 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
+#include "sparse_friction.h"
 
 #include <string.h>
 
@@ -84,13 +85,6 @@ static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *
     for (int j = 0; j < m; j++)
         for (int i = 0; i < m; i++)
             p->q[i] -= p->W[i + j * m] * r[j];
-}
-
-static void make_sparse(rb_friction_problem *p)
-{
-    const int m = p->dimension * p->contacts;
-    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
-    p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 
 /* 1e-14 of the sums |q| + |W| |r|, as (13) counts them. */

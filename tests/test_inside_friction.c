@@ -5,6 +5,7 @@
 #include "friction/smoothing.h"
 #include "packing.h"
 #include "numbers.h"
+#include "sparse_friction.h"
 
 #include <string.h>
 
@@ -164,13 +165,6 @@ static void random_problem(int d, int nc, unsigned *seed, rb_friction_problem *p
         for (int i = 0; i < m; i++)
             if ((i / d + 2 * (j / d)) % 3 == 0 && i / d + j / d != 2)
                 p->W[i + j * m] = (i + j) % 4 ? uniform_from(seed) : 0.0;
-}
-
-static void make_sparse(rb_friction_problem *p)
-{
-    const int m = p->dimension * p->contacts;
-    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
-    p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 
 TEST(blocks_multiply_as_the_matrix_does)

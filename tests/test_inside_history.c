@@ -479,12 +479,6 @@ TEST(a_transient_rolls_under_its_loads)
 
 /* ---- What rides along -------------------------------------------------------------- */
 
-static void release(rb_rolling_model *model, rb_rolling_history *history)
-{
-    rb_rolling_model_free(model);
-    rb_rolling_history_free(history);
-}
-
 /* Whole elements ahead are rows of F, which does not know of half-planes. */
 TEST(whole_elements_ahead_are_known)
 {
@@ -575,7 +569,8 @@ TEST(what_has_yielded_rides_along)
         fail_msg("%s", why.text);
     assert_true(most > 0.0);
     assert_true(h.step > 1.5 * model.bodies.f.h[0]);
-    release(&model, &h);
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&h);
 }
 
 static const double F = 3.0, TAU = 1.0; /* of the bodies with one term */

@@ -222,22 +222,16 @@ TEST(bad_tables_are_refused)
     assert_non_null(strstr(why.text, "interlayer-tangential: expected a number >= 0"));
 }
 
-static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.formulation = RB_STEADY;
-    rc.friction = (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
-    return rc;
-}
-
 /* Whichever row has it; mu beside a table counts for nothing. */
 TEST(the_largest_of_a_table_is_that_of_any_row)
 {
     const double x[] = {-1.0, 0.0, 3.0};
     for (int at = 0; at < 3; at++) {
         const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1, at == 2 ? 0.2 : 0.05};
-        rb_rolling_case rc = law(RB_FRICTION_table, 0.0, 0.0);
-        rc.friction.table = (rb_rolling_table){3, x, y};
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rc.formulation = RB_STEADY;
+        rc.friction =
+            (rb_rolling_friction){.law = RB_FRICTION_table, .table = (rb_rolling_table){3, x, y}};
         CHECK_ABS(rb_rolling_largest_mu(&rc), 0.2, 0.0, "row %d", at);
     }
 }
