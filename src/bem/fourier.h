@@ -5,8 +5,9 @@
 #include <fftw3.h>
 
 typedef struct {
-    int size; /* even, quick to transform */
-    fftw_plan forward, backward;
+    int size;                    /* even, quick to transform */
+    fftw_plan forward, backward; /* of half as many complex numbers */
+    fftw_complex *turn;          /* size/4 + 1 roots of unity */
 } rb_fourier;
 
 /* Length at least `least`; 0 without memory, f is then empty. */

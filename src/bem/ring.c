@@ -8,7 +8,7 @@
 
 typedef double complex cplx;
 
-enum { TERMS = 20 }; /* of the exponential series, of matrices with a norm of about 2 */
+enum { TERMS = 24 }; /* of the exponential series, of matrices with a norm of about 2 */
 
 /* E = exp(M step), row by row. */
 static void transfer(double m, double nu, double step, double E[4][4])
@@ -42,7 +42,7 @@ rb_ring_compliance rb_ring_across(double m, double nu, double inner, double oute
         thickness = RB_RING_REACH / m;
         K = (rb_ring_compliance){0.0, 0.0, 0.0, 0.0};
     }
-    const int steps = (int)ceil(fmax(1.0, (m + 1.0) * thickness / 0.25));
+    const int steps = (int)ceil(fmax(1.0, (m + 1.0) * thickness));
     double E[4][4];
 
     transfer(m, nu, thickness / steps, E);

@@ -38,7 +38,8 @@ typedef struct {
 typedef void rb_ring_waves(const rb_bem_wheel *wheel, double m, double complex c[3]);
 enum { rb_ring_smooth_from = 512 };
 
-/* A primitive over x of an answer that is not summed, analytic on either side of 0. */
+/* A primitive over x of an answer that is not summed, analytic on either side of 0; N and T
+ * are odd, C is even. */
 typedef rb_ring_answer rb_ring_primitive(const rb_bem_wheel *wheel, double x);
 
 /* The primitive over x of the sum of waves m <= last, and of `rest` (NULL: nothing), for
@@ -46,6 +47,7 @@ typedef rb_ring_answer rb_ring_primitive(const rb_bem_wheel *wheel, double x);
 typedef struct {
     double smallest;   /* from there on panels grow with abs(x); rest is not resolved below */
     int panels;        /* on either side of 0 */
+    int sides;         /* 1: N and T are odd, C is even, and x > 0 stands for both */
     double *chebyshev; /* owned */
 } rb_ring_table;
 

@@ -22,6 +22,7 @@ enum { NODES = 16, SINGLE = rb_ring_smooth_from, TO_OCTAVE = 8, SHORT = SINGLE /
 
 typedef struct {
     double linear[3]; /* the primitive of wave 0 over x */
+    int real;         /* all coefficients are: N and T are odd in x, C is even */
     int singles;
     cplx (*single)[3]; /* of waves 1 ... singles */
     int octaves;
@@ -55,11 +56,14 @@ static void lagrange(double t, double value[NODES])
 }
 
 /* Coefficients of the primitive over x. */
-static void primitive_of(const rb_bem_wheel *wheel, rb_ring_waves *waves, double m, cplx c[3])
+static void primitive_of(const rb_bem_wheel *wheel, rb_ring_waves *waves, double m, wave_sum *s,
+                         cplx c[3])
 {
     waves(wheel, m, c);
-    for (int k = 0; k < 3; k++)
-        c[k] /= I * m;
+    for (int k = 0; k < 3; k++) {
+        s->real = s->real && cimag(c[k]) == 0.0;
+        c[k] *= -I / m;
+    }
 }
 
 static void wave_sum_free(wave_sum *s)
@@ -78,6 +82,7 @@ static wave_sum *wave_sum_make(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
 
     if (!s)
         return NULL;
+    s->real = 1;
     s->singles = last < SINGLE ? last : SINGLE - 1;
     for (double m = SINGLE; m <= last; m *= 2.0)
         s->octaves++;
@@ -92,12 +97,12 @@ static wave_sum *wave_sum_make(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
     s->linear[1] = creal(zero[1]);
     s->linear[2] = cimag(zero[2]);
     for (int m = 1; m <= s->singles; m++)
-        primitive_of(wheel, waves, m, s->single[m - 1]);
+        primitive_of(wheel, waves, m, s, s->single[m - 1]);
     for (int p = 0; p < s->octaves * TO_OCTAVE; p++) {
         const double length = ldexp(SHORT, p / TO_OCTAVE),
                      first = (TO_OCTAVE + p % TO_OCTAVE) * length;
         for (int k = 0; k < NODES; k++)
-            primitive_of(wheel, waves, first - 0.5 + 0.5 * length * (1.0 + node(k)),
+            primitive_of(wheel, waves, first - 0.5 + 0.5 * length * (1.0 + node(k)), s,
                          s->panel[p][k]);
     }
     for (int r = 0; r < SHORT; r++)
@@ -222,11 +227,11 @@ rb_status rb_ring_table_create(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
     const int panels = find(1.001 * reach / smallest, &t) + 1;
     wave_sum *sum = wave_sum_make(wheel, waves, last);
 
-    *table = (rb_ring_table){smallest, panels,
+    *table = (rb_ring_table){smallest, panels, sum && sum->real ? 1 : 2,
                              rb_alloc((size_t)panels * 2, sizeof(chebyshev) / sizeof(double))};
     const rb_status s = sum && table->chebyshev ? RB_OK : RB_ENOMEM;
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
-    for (int k = 0; k < 2 * panels; k++)
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static) if (panels > 32)
+    for (int k = 0; k < table->sides * panels; k++)
         if (s == RB_OK)
             fill_panel(wheel, sum, rest, table, k / panels, k % panels);
     wave_sum_free(sum);
@@ -237,7 +242,8 @@ rb_ring_answer rb_ring_table_at(const rb_ring_table *table, double x)
 {
     double t, b[3] = {0.0}, before[3] = {0.0};
     const int k = find(fabs(x) / table->smallest, &t);
-    chebyshev *const c = panel_of(table, x < 0.0, k);
+    const int mirrored = x < 0.0 && table->sides == 1;
+    chebyshev *const c = panel_of(table, x < 0.0 && !mirrored, k);
 
     for (int j = ORDER - 1; j > 0; j--) /* Clenshaw */
         for (int d = 0; d < 3; d++) {
@@ -247,5 +253,5 @@ rb_ring_answer rb_ring_table_at(const rb_ring_table *table, double x)
         }
     for (int d = 0; d < 3; d++)
         b[d] = t * b[d] - before[d] + (*c)[0][d];
-    return (rb_ring_answer){b[0], b[1], b[2]};
+    return mirrored ? (rb_ring_answer){-b[0], -b[1], b[2]} : (rb_ring_answer){b[0], b[1], b[2]};
 }

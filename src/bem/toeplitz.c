@@ -4,6 +4,7 @@
  * numbers. */
 #include "bem/fourier.h"
 #include "bem/internal.h"
+#include "bem/wheel.h"
 
 #include <float.h>
 #include <gsl/gsl_math.h>
@@ -390,7 +391,20 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_
     return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements", n_c);
 }
 
-/* ---- Disc -------------------------------------------------------------------------- */
+/* ---- Disc and wheel ---------------------------------------------------------------- */
+
+/* The first element that begins a part `tol` of an arc elsewhere than equal arcs do; 0:
+ * none. */
+static int other_arc(int n_c, const double *ends, double radius, double tol)
+{
+    const double first = asin(ends[0] / radius);
+    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
+
+    for (int i = 1; i <= n_c; i++)
+        if (!(fabs(asin(ends[i] / radius) - (first + i * h)) <= tol * h))
+            return i;
+    return 0;
+}
 
 static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc, rb_message *why)
 {
@@ -404,13 +418,10 @@ static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc
                     ends[0], ends[n_c + 1]);
     if (s != RB_OK)
         return s;
-    const double first = asin(ends[0] / radius);
-    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
-    for (int i = 1; i <= n_c; i++)
-        if (!(fabs(asin(ends[i] / radius) - (first + i * h)) <= 1e-6 * h))
-            return rb_fail(why, RB_EINVAL,
-                           "disc: contact element %d has another length than the others", i);
-    return RB_OK;
+    const int other = other_arc(n_c, ends, radius, 1e-6);
+    return other ? rb_fail(why, RB_EINVAL,
+                           "disc: contact element %d has another length than the others", other)
+                 : RB_OK;
 }
 
 /* Turns by the angle from the lowest point; arcs are longer than their projections. */
@@ -477,4 +488,30 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc
         return s;
     rb_bem_flexibility_free(f);
     return rb_fail(why, s, "disc: out of memory for %d contact elements", n_c);
+}
+
+/* To rounding, which is that of angles up to pi/2 beside an arc. */
+int rb_wheel_has_equal_arcs(int n_c, const double *ends, double radius)
+{
+    const double h = (asin(ends[n_c + 1] / radius) - asin(ends[0] / radius)) / (n_c + 1);
+    return other_arc(n_c, ends, radius, 1e-12 + 8.0 * DBL_EPSILON / h) == 0;
+}
+
+rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                                 rb_bem_normals normals, rb_bem_flexibility *f)
+{
+    const double radius = wheel->radius, first = asin(ends[0] / radius);
+    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
+    toeplitz *o = start(n_c, ends, 0, f);
+    rb_status s = o ? set_frames(o, first, h, radius, normals, f) : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = rb_wheel_response(wheel, n_c, h, o->t[N] + n_c, o->t[T] + n_c, o->s + n_c);
+    if (s == RB_OK) {
+        o->symmetric = 1;
+        o->s[n_c] = 0.0;
+        mirror(o);
+        set_transforms(o);
+    }
+    return s;
 }

@@ -276,6 +276,44 @@ rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x)
                                 (inner.C + 0.5 * M_PI * (kernel->kappa - 1.0) * fabs(x))};
 }
 
+/* The waves that the inner contour changes are as long as the ring is thick, so that few
+ * panels hold their sum; the disc is added in closed form. */
+rb_status rb_wheel_response(const rb_bem_wheel *w, int n, double h, double *N, double *T, double *C)
+{
+    const double scale = w->radius / (4.0 * M_PI * w->material.shear), length = h * w->radius,
+                 strip[2] = {-0.5 * length, 0.5 * length};
+    const rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);
+    const size_t points = (size_t)n + 1;
+    double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
+    rb_ring_table inner = {0};
+    rb_status s = x && W ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        for (int k = 0; k <= n; k++)
+            x[k] = k * length;
+        s = rb_bem_surface_displacement(&plane, 1, strip, n + 1, x, W);
+    }
+    if (s == RB_OK)
+        s = rb_ring_table_create(w, glassy_waves, last_wave(w), NULL, log(w->radius / w->inner),
+                                 (n + 1) * h, &inner);
+    rb_ring_answer before = {0.0, 0.0, 0.0};
+    for (int k = -1; k <= n && s == RB_OK; k++) {
+        const double end = (k + 0.5) * h;
+        const rb_ring_answer disc = disc_primitive(w, end), rest = rb_ring_table_at(&inner, end);
+        const rb_ring_answer at = {disc.N + rest.N, disc.T + rest.T, disc.C + rest.C};
+        if (k >= 0) {
+            N[k] = W[k] + scale * (at.N - before.N);
+            T[k] = W[3 * points + (size_t)k] + scale * (at.T - before.T);
+            C[k] = W[2 * points + (size_t)k] + scale * (at.C - before.C);
+        }
+        before = at;
+    }
+    rb_ring_table_free(&inner);
+    free(W);
+    free(x);
+    return s;
+}
+
 /* ---- The matrix -------------------------------------------------------------------- */
 
 typedef struct {

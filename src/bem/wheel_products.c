@@ -332,6 +332,13 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     rb_status s = rb_wheel_check(n_c, ends, wheel, why);
     if (s != RB_OK)
         return s;
+    if (rb_wheel_has_equal_arcs(n_c, ends, wheel->radius)) {
+        s = rb_wheel_on_equal_arcs(n_c, ends, wheel, normals, f);
+        if (s == RB_OK)
+            return s;
+        rb_bem_flexibility_free(f);
+        return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+    }
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
     if (!angles)
         return rb_fail(why, RB_ENOMEM, "wheel: out of memory for %d contact elements", n_c);
