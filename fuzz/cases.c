@@ -12,7 +12,7 @@ static rb_case *new_case(void)
         untouched = rb_case_create(RB_CASE_SINGLE);
     rb_case *c = untouched ? rb_case_copy(untouched) : NULL;
     fuzz_require(c != NULL, "there is memory");
-    rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
+    rb_case_use_cone_solvers(c, rb_friction_cone_solver);
     return c;
 }
 

@@ -139,6 +139,7 @@ static inline void random_problem(const kind *of, rb_contact_problem *p)
     p->load = 0.5 * STRESS * total;
     p->delta = 0.1 * GAP;
     p->xi = SLIP * uniform(-2.0, 2.0);
+    p->sliding = 10.0 * SLIP;
     p->force_given = of->force_given > 0;
     if (of->force_given == 1)
         p->force_ratio = uniform(-0.6, 0.6);
@@ -156,7 +157,6 @@ static inline rb_contact_options options_of(rb_contact_solver solver)
 
     options.solver = solver;
     options.tol = 1e-9;
-    options.sliding = 10.0 * SLIP;
     return options;
 }
 
@@ -361,11 +361,6 @@ static inline void use_products(rb_contact_problem *p, by_products *k)
     rb_contact_operator_free(p->op);
     p->op = op;
     p->rounding = 1e-9;
-}
-
-static inline int knows_it(const char *name)
-{
-    return strcmp(name, "it") == 0;
 }
 
 #endif

@@ -61,8 +61,8 @@ TEST(full_sliding_has_the_least_creepage)
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         double least = INFINITY;
-        options.sliding = k / 2 % 2 ? options.sliding : 1e-2 * SLIP; /* too small to slide */
         random_problem(&of, &p);
+        p.sliding = k / 2 % 2 ? p.sliding : 1e-2 * SLIP;    /* too small to slide */
         memset(p.load_T, 0, sizeof(double) * (size_t)of.n); /* level: P has no friction in it */
         memset(p.force_N, 0, sizeof(double) * (size_t)of.n);
         memcpy(p.force_T, p.load_N, sizeof(double) * (size_t)of.n);
@@ -634,7 +634,7 @@ TEST(the_lcp_of_a_state_is_the_one_that_gave_it)
         for (int with = 0; with < 2; with++) {
             CHECK_STATUS(rb_contact_lcp_first(&p, &options, with ? &s : NULL, &lcp, NULL), RB_OK);
             assert_int_equal(lcp.form, options.lcp_form);
-            CHECK_ABS(lcp.xi0, -options.sliding, 0.0, "against a positive force");
+            CHECK_ABS(lcp.xi0, -p.sliding, 0.0, "against a positive force");
             assert_int_equal(lcp.mirrored, k < 2);
             rb_contact_lcp_free(&lcp);
         }
@@ -678,7 +678,6 @@ TEST(the_residual_judges_cone_solvers)
         rb_status wanted;
     } all[] = {{RB_OK, 0.0, RB_OK},          {RB_OK, 1e-7, RB_OK},   {RB_MAXITER, 1e-7, RB_OK},
                {RB_OK, -1.0, RB_INACCURATE}, {RB_RAY, -1.0, RB_RAY}, {RB_ENOMEM, 0.0, RB_ENOMEM}};
-    static const rb_contact_cone_solvers by = {knows_it, hand_back};
 
     for (size_t k = 0; k < 4 * sizeof all / sizeof *all; k++) {
         const kind of = {
@@ -693,8 +692,7 @@ TEST(the_residual_judges_cone_solvers)
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &known, NULL), RB_OK);
         options.solver = RB_SOLVER_CONE;
-        options.cone_solvers = &by;
-        options.cone_solver = "it";
+        options.cone_solver = (rb_contact_cone_solver){"it", hand_back};
         says = all[k % 6].says;
         noise = all[k % 6].noise;
         const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
@@ -793,7 +791,7 @@ TEST(forces_that_nothing_carries_are_refused)
         p.force = all[k].force * of.mu * p.load;
         p.force_ratio = all[k].ratio;
         p.axle = all[k].axle;
-        options.force_unit = " N/mm";
+        p.force_unit = " N/mm";
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
         if (all[k].said) {
@@ -860,9 +858,9 @@ TEST(every_form_is_tried)
         random_problem(&of, &p);
         options.tol = 0.0;
         options.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        options.trace = note_attempts;
-        options.trace_context = &tried;
-        options.trace_tableau = kwak;
+        p.pivot_trace = note_attempts;
+        p.trace_context = &tried;
+        p.trace_tableau = kwak;
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         assert_true(rb_contact_solve(&p, &options, 0, &s, NULL) > 0);
         assert_true(tried.paths >= (kwak ? 2 : 6));

@@ -338,10 +338,9 @@ TEST(bounds_start_where_they_are_told)
     rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
     rc.creep_ratio = 0.5;
     OWNED(rb_rolling_model) model = solved_model(&rc);
-    case_of_model(&model)->friction.start = &start;
     for (int k = 0; k < 2; k++) {
         case_of_model(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
-        rb_rolling_start_bounds(model.rc, &model.bodies, &model.problem);
+        rb_rolling_start_bounds(model.rc, &start, &model.bodies, &model.problem);
         for (int i = 0; i < model.problem.n; i++) {
             const double at = model.bodies.f.x[i];
             CHECK_ABS(model.problem.bound[i], k ? 0.4 : 0.26 + 0.5 * fmin(0.1, fmax(-0.1, at)),

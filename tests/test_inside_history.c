@@ -351,9 +351,7 @@ TEST(results_refer_to_the_largest_mu)
     const rb_rolling_program with = {.n = 3, .mu = mu}, without = {.n = 3},
                              empty = {.n = 0, .mu = mu};
     CHECK_ABS(rb_rolling_program_base(&with, &rc).mu, 0.4, 0.0, "largest");
-    assert_int_equal(rb_rolling_program_base(&with, &rc).friction.follows_way, 1);
     CHECK_ABS(rb_rolling_program_base(&without, &rc).mu, 0.3, 0.0, "the case's");
-    assert_int_equal(rb_rolling_program_base(&without, &rc).friction.follows_way, 0);
     CHECK_ABS(rb_rolling_program_base(&empty, &rc).mu, 0.3, 0.0, "the case's");
 }
 

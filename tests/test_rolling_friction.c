@@ -64,8 +64,7 @@ TEST(each_element_has_its_bound)
         rb_rolling_case rc = steady();
         rc.contact.solver = k == 2 ? RB_SOLVER_NEWTON : k == 3 ? RB_SOLVER_CONE : RB_SOLVER_LEMKE;
         rc.contact.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        rc.contact.cone_solvers = rb_friction_cone_solvers();
-        rc.contact.cone_solver = "nsn-ac";
+        rc.contact.cone_solver = rb_friction_cone_solver("nsn-ac");
         if (k == 4)
             rc.mesh = RB_MESH_FITTED;
         if (k >= 5)

@@ -159,8 +159,10 @@ TEST(steep_laws_have_two_solutions)
         rb_rolling_case rc = rail(scale[k]);
         OWNED(rb_rolling_model) rest = solved_model(&rc);
         double kappa;
-        rc.friction.start = &sliding;
-        OWNED(rb_rolling_model) fast = solved_model(&rc);
+        rb_rolling_plan plan = rb_rolling_plan_of(&rc);
+        plan.start = &sliding;
+        OWNED(rb_rolling_model) fast = {0};
+        CHECK_STATUS(rb_rolling_model_reuse(&rc, &plan, &fast, NULL), RB_OK);
         check_state(&rest, NULL, "from rest");
         check_state(&fast, NULL, "from sliding");
         CHECK_STATUS(rb_rolling_law_kappa(&rest, &kappa), RB_OK);
@@ -776,8 +778,7 @@ TEST(bad_ways_are_refused)
  * (case 2 and 3 of veldep_fric.inp): from below CONTACT has 0.5977, 77 stick, 4 slip. */
 TEST(a_step_has_two_starts)
 {
-    static const double kinetic = 0.18, place = 0.0;
-    static const rb_rolling_table sliding = {1, &place, &kinetic};
+    static const double kinetic = 0.18;
     double ratio[2];
     for (int start = 0; start < 2; start++) {
         rb_rolling_case rc = rail(100.0);
@@ -793,11 +794,12 @@ TEST(a_step_has_two_starts)
         rb_contact_problem_free(&model.problem);
         case_of_model(&model)->formulation = RB_TRANSIENT;
         case_of_model(&model)->creep = 0.001;
-        case_of_model(&model)->friction.start = start ? &sliding : NULL;
         model.carried.mu = before;
         CHECK_STATUS(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies, &past,
                                                &model.problem, &why),
                      RB_OK);
+        for (int i = 0; i < n && start; i++)
+            model.problem.bound[i] = kinetic;
         const rb_status s = rb_rolling_model_resolve(&model, 1, &why);
         if (s != RB_OK)
             print_error("%s\n", why.text);

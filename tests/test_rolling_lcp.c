@@ -127,14 +127,14 @@ static void keep_attempt(const rb_lcp_pivot *pivot, void *context)
 TEST(pivots_tell_their_attempt)
 {
     for (int kwak = 0; kwak < 2; kwak++) {
-        OWNED(rb_rolling_model) model = dissimilar_model(0, 0), again;
+        OWNED(rb_rolling_model) model = dissimilar_model(0, 0);
         rb_rolling_case rc = *model.rc;
         int attempt = -1;
         rc.contact.solver = RB_SOLVER_LEMKE;
         rc.contact.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        rc.contact.trace = keep_attempt;
-        rc.contact.trace_context = &attempt;
-        CHECK_STATUS(rb_rolling_model_create(&rc, &again, NULL), RB_OK);
+        model.problem.pivot_trace = keep_attempt;
+        model.problem.trace_context = &attempt;
+        CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL), RB_OK);
         assert_int_equal(attempt, kwak ? 2 : 0);
     }
 }

@@ -176,7 +176,7 @@ static rb_status use_again(task *t)
     if (s == RB_OK)
         s = rb_rolling_model_friction(&t->model, &t->why);
     rc.load *= 1.1;
-    return s == RB_OK ? rb_rolling_model_reuse(&rc, &t->model, &t->why) : s;
+    return s == RB_OK ? rb_rolling_model_reuse(&rc, NULL, &t->model, &t->why) : s;
 }
 
 static rb_status solutions(void *context)

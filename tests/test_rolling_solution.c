@@ -140,7 +140,7 @@ TEST(a_model_solves_the_next_case_as_the_first)
         next.contact_elements += k == 5 ? 2 : 0;
         if (k != 3)
             model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_model_reuse(&next, &model, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_model_reuse(&next, NULL, &model, NULL), RB_OK);
         OWNED(rb_rolling_model) fresh = solved_model(&next);
         assert_int_equal(model.state.n, fresh.state.n);
         for (int i = 0; i < fresh.state.n; i++) {

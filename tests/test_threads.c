@@ -40,7 +40,7 @@ static void solve(job *j)
     OWNED(rb_case_result) r = {0};
     rb_message why = {""};
 
-    rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
+    rb_case_use_cone_solvers(c, rb_friction_cone_solver);
     j->status = RB_OK;
     for (const char *const *w = words[j->k]; *w && j->status == RB_OK; w += 2)
         j->status = rb_case_set(c, w[0], w[1], 0, &why);

@@ -95,9 +95,8 @@ rb_case *rb_case_create(rb_case_purpose purpose);
 /* Changes a curve over the creepage into one over the speed and back; call
  * rb_case_resolve afterwards. */
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
-/* Sets cone solvers that the option `solver` may name in addition to the solvers of
- * contact.h; borrowed. */
-void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers);
+/* The option `solver` may also name the cone solvers that `find` knows (NULL: none). */
+void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find);
 /* Restricts files, for options from an untrusted source such as a result to be checked.
  * A file that an option names must then be a regular file of at most 64 MB in the folder
  * or below it, after links are followed (folder: borrowed; NULL: anywhere).  Messages do

@@ -113,10 +113,17 @@ typedef struct {
     double rounding; /* rounding error of the scaled residual with products, where
                         differences of neighbouring gaps are small compared with the
                         displacements; 0 with matrices */
+    double sliding;  /* > 0: an |xi| at which the whole contact slides; searches start there */
+    const char *force_unit; /* printed after forces in error messages; NULL: none */
+
     /* Called in each step of Newton's method, before the zones are corrected, with the
      * zones and the tractions that follow from them; NULL: not called. */
     rb_contact_newton_trace *trace;
-    void *trace_context;
+    /* Called after every pivot of Lemke's method; pivot->attempt is 0 for the pivoted
+     * form, 1 for its mirror image, 2 for Kwak's form; NULL: not called. */
+    rb_lcp_trace *pivot_trace;
+    int trace_tableau;   /* 1: pass the whole tableau to pivot_trace */
+    void *trace_context; /* of both; borrowed */
 } rb_contact_problem;
 
 /* Allocates the arrays, all zero, for the elements of the operator.  The problem takes
@@ -254,35 +261,27 @@ rb_status rb_contact_cone_create(const rb_contact_problem *problem, double delta
                                  rb_contact_cone *cone, rb_message *why);
 void rb_contact_cone_free(rb_contact_cone *cone);
 
-/* A set of cone solvers, called by their names; rb_friction_cone_solvers() returns
- * one. */
+/* A cone solver: a name, and the function that solves by the method of this name. */
 typedef struct {
-    int (*knows)(const char *name);
-    /* r: 2n, written; the iterations are added to *iterations. */
+    const char *name; /* borrowed; NULL: none */
+    /* r: 2n, written; the iterations are added to *iterations.  NULL: no solver has this
+     * name. */
     rb_status (*solve)(const char *name, const rb_contact_cone *cone, double tol, double *r,
                        int *iterations, rb_message *why);
-} rb_contact_cone_solvers;
+} rb_contact_cone_solver;
+
+/* Finds a cone solver by its name, as rb_friction_cone_solver does. */
+typedef rb_contact_cone_solver rb_contact_cone_finder(const char *name);
 
 typedef struct {
     rb_contact_solver solver;
-    const rb_contact_cone_solvers *cone_solvers; /* RB_SOLVER_CONE; borrowed, as the next */
-    const char *cone_solver;                     /* name of the cone solver */
-    rb_contact_lcp_form lcp_form;                /* the first one that Lemke tries */
+    rb_contact_cone_solver cone_solver; /* RB_SOLVER_CONE */
+    rb_contact_lcp_form lcp_form;       /* the first one that Lemke tries */
     double tol; /* tolerance of the scaled natural residual; at least problem->rounding is
                    used */
-    const char *force_unit; /* unit printed after forces in error messages; NULL: none */
-    double sliding;         /* > 0: an |xi| at which the whole contact slides; searches start
-                               there */
-    /* called after every pivot of Lemke's method with trace_context; pivot->attempt is 0
-     * for the pivoted form, 1 for its mirror image, 2 for Kwak's form; NULL: not
-     * called */
-    rb_lcp_trace *trace;
-    void *trace_context;
-    int trace_tableau; /* 1: pass the whole tableau to trace */
 } rb_contact_options;
 
-/* The defaults: RB_SOLVER_AUTO, the pivoted form first, a tolerance of 1e-10, no
- * trace. */
+/* The defaults: RB_SOLVER_AUTO, the pivoted form first, a tolerance of 1e-10. */
 rb_contact_options rb_contact_defaults(void);
 
 /* Solves with the chosen solver and, if it fails, with another one; state->solver is the

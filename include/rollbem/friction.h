@@ -220,8 +220,9 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                             const rb_friction_options *opt, const rb_friction_solution *solution,
                             rb_friction_info *info);
 
-/* The solvers for rolling contact (rb_rolling_case, rb_case_use_cone_solvers). */
-const rb_contact_cone_solvers *rb_friction_cone_solvers(void);
+/* The solver of this name for rolling contact (rb_rolling_case, rb_case_use_cone_solvers);
+ * borrows the name. */
+rb_contact_cone_solver rb_friction_cone_solver(const char *name);
 /* Converts a contact problem to a problem of this header; borrows the arrays of the
  * cone. */
 rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);

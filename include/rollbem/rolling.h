@@ -162,12 +162,6 @@ typedef struct {
     /* mu changes linearly by heat while the surface temperature rises from heat_from to
      * heat_from + heat_range. */
     double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
-    int follows_way; /* 1: mu of the case is taken from each row of a history; set by
-                        rb_rolling_program if it has a column mu */
-    /* First coefficients of the iteration; NULL: those at rest.  A law that falls steeply
-     * has several solutions (kappa > 1), and the iteration then finds one close to its
-     * start. */
-    const rb_rolling_table *start; /* borrowed */
 } rb_rolling_friction;
 
 /* All inputs of one case.  Of quantities with the comment "one of" at most one is given;
@@ -235,9 +229,7 @@ typedef struct {
     rb_rolling_near_field near_field;       /* of wheels */
     rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
 
-    /* How the contact problem is solved (contact.h); force_unit and sliding are ignored,
-     * because the formulation sets them. */
-    rb_contact_options contact;
+    rb_contact_options contact; /* how the contact problem is solved */
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);
@@ -290,13 +282,17 @@ double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
 /* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
-/* How a case is discretised.  A search for the mesh varies these values and leaves the
- * case unchanged. */
+/* How a case is discretised, and where its solution begins.  A search for the mesh varies
+ * these values and leaves the case unchanged. */
 typedef struct {
     int elements; /* in the potential contact, or across that of a fitted mesh */
     rb_rolling_near_field near_field;
     int outer_elements;
     double outer_refinement; /* all four: as in rb_rolling_case */
+    /* First coefficients of the iteration of a friction law; NULL: those at rest.  A law
+     * that falls steeply has several solutions (kappa > 1), and the iteration then finds
+     * one close to its start. */
+    const rb_rolling_table *start; /* borrowed */
 } rb_rolling_plan;
 
 /* The plan with the values of the case; functions that get plan NULL use it. */
@@ -577,8 +573,8 @@ typedef struct {
 } rb_rolling_result_table;
 extern const rb_rolling_result_table rb_rolling_result_tables[];
 
-/* 1 if the case has this result. */
-int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
+/* 1 if the case has this result.  mu_varies: 1: in a history with a column mu. */
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies);
 /* 1 if the struct `owner` has this column. */
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
 /* The numbers of a solution without its columns, which remain with it. */
@@ -648,6 +644,7 @@ typedef struct rb_rolling_model {
     rb_contact_state state;
     double shift;      /* in a history: rigid shift of the earlier steps, to be added to the
                           state's [length] */
+    int mu_varies;     /* in a history: 1: the program has a column mu */
     int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
                           contact edges did not converge */
     double first_from, first_to; /* ends of the equal elements with which the search for the edges
@@ -675,12 +672,12 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
  * case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
-/* The same for a model that has solved a case which differs at most in friction, load,
- * approach, shift, creepage or force.  Its flexibility is used again if the equal
- * elements have the same ends.  The result is bitwise the same as that of
- * rb_rolling_model_create. */
-rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
-                                 rb_message *why);
+/* The same by another plan (NULL: that of the case), for a model of zeros, or one that has
+ * solved a case which differs at most in friction, load, approach, shift, creepage or
+ * force.  Its flexibility is used again if the equal elements have the same ends.  The
+ * result is bitwise the same as without it. */
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why);
 /* Makes an empty model with a copy of the case; mesh and bodies are built later.  plan
  * NULL: that of the case. RB_ENOMEM; model: overwritten. */
 rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -1167,11 +1164,11 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
  * slip of the solution `before` on the same elements, in mm, N, MPa (NULL: no contact
  * before): rolling by `step` [length] (RB_TRANSIENT), or a shift or load at rest
  * (RB_STATIC, step 0). The iteration of a friction law starts from the coefficients
- * before, or from friction.start.  RB_EINVAL: steady rolling, other elements,
- * viscoelastic bodies, or temperatures. */
+ * `start` (rb_rolling_plan), or from those before (NULL).  RB_EINVAL: steady rolling,
+ * other elements, viscoelastic bodies, or temperatures. */
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
-                                  const rb_rolling_solution *before, double step,
-                                  rb_rolling_solution *solution, rb_message *why);
+                                  const rb_rolling_solution *before, const rb_rolling_table *start,
+                                  double step, rb_rolling_solution *solution, rb_message *why);
 
 /* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
 

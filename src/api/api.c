@@ -3,6 +3,7 @@
 
 #include "rollbem/blas.h"
 #include "rollbem/closed_forms.h"
+#include "rollbem/friction.h"
 
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
@@ -164,7 +165,7 @@ rb_api *rb_api_create_for(const char *purpose)
         a = NULL;
     }
     if (a)
-        rb_case_use_cone_solvers(a->words, rb_api_cone_solvers());
+        rb_case_use_cone_solvers(a->words, rb_friction_cone_solver);
     return a;
 }
 

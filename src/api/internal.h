@@ -63,8 +63,6 @@ api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 /* NULL also where x is. */
 api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x);
 void rb_api_forget_arrays(rb_api *a, const char *beginning);
-/* problems.c: the solvers that the option `solver` may name. */
-const rb_contact_cone_solvers *rb_api_cone_solvers(void);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
 

@@ -10,11 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const rb_contact_cone_solvers *rb_api_cone_solvers(void)
-{
-    return rb_friction_cone_solvers();
-}
-
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);

@@ -41,9 +41,9 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
     c->defaults = default_words(purpose);
 }
 
-void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers)
+void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find)
 {
-    c->words.rc.contact.cone_solvers = c->resolved.rc.contact.cone_solvers = solvers;
+    c->find_cone_solver = find;
 }
 
 rb_case *rb_case_copy(const rb_case *c)
@@ -645,6 +645,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         rc->contact_elements = 100;
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
+    if (rc->contact.solver == RB_SOLVER_CONE && c->find_cone_solver)
+        rc->contact.cone_solver = c->find_cone_solver(rc->contact.cone_solver.name);
     rb_rolling_case checked = c->resolved.rc;
     if (c->purpose == RB_CASE_SPEEDS)
         checked.speed = 1.0; /* the curve has its own */

@@ -162,7 +162,6 @@ static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
     if (in->start != 0.0 && in->digit.T == 2) {
         c->start_mu = in->start < 0.0 ? in->fkin : in->fstat;
         c->start = (rb_rolling_table){1, &c->centre, &c->start_mu};
-        rc->friction.start = &c->start;
     }
 }
 
@@ -251,7 +250,7 @@ rb_status rb_case_contact_solve(const rb_case_contact *c, const rb_rolling_solut
 {
     return c->goes_on || c->step > 0.0
                ? rb_rolling_step_between(&c->rc, c->from, c->to, c->goes_on ? before : NULL,
-                                         c->step, solution, why)
+                                         c->start.n > 0 ? &c->start : NULL, c->step, solution, why)
                : rb_rolling_solve_between(&c->rc, c->from, c->to, solution, why);
 }
 

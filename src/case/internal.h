@@ -32,9 +32,10 @@ struct rb_case {
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table table[CASE_TABLES];
     case_profile profile;
-    int confined;       /* 1: rb_case_confine was called */
-    const char *folder; /* of it; borrowed */
-    char **text;        /* copies of values; owned */
+    rb_contact_cone_finder *find_cone_solver; /* NULL: there are none */
+    int confined;                             /* 1: rb_case_confine was called */
+    const char *folder;                       /* of it; borrowed */
+    char **text;                              /* copies of values; owned */
     int texts;
 };
 

@@ -35,11 +35,11 @@ static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
 }
 
 /* "RESULT", by all numbers, or "RESULT:OPTION". */
-static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *word, int numbers,
+static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *word, int numbers,
                           const rb_case_number *number, int most, rb_message *why)
 {
     char *input = strchr(word, ':');
-    const int all = strcmp(word, "all") == 0;
+    const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
     rb_status status = RB_OK;
     int found = 0;
 
@@ -55,12 +55,12 @@ static rb_status add_word(const rb_rolling_case *rc, rb_case_slopes *s, char *wo
                        s->table == &rb_rolling_history_columns ? " step by step" : "", word,
                        rb_guess_text(&guess, ""));
     }
-    if (!all && !rb_rolling_has_result(find_result(s->table, word), rc))
+    if (!all && !rb_rolling_has_result(find_result(s->table, word), &c->rc, mu_varies))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
     for (int r = 0; r < s->table->n; r++) {
         const rb_rolling_result *result = &s->table->row[r];
         if (!rb_sensitivity_has(result) || (!all && strcmp(result->name, word) != 0) ||
-            !rb_rolling_has_result(result, rc))
+            !rb_rolling_has_result(result, &c->rc, mu_varies))
             continue;
         for (int k = 0; k < numbers && status == RB_OK; k++)
             if (!input || strcmp(number[k].name, input) == 0) {
@@ -87,7 +87,7 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
         char word[100];
         n = strcspn(words, ",");
         snprintf(word, sizeof word, "%.*s", (int)(n < 99 ? n : 99), words);
-        status = add_word(&c->resolved.rc, s, word, numbers, number, most, why);
+        status = add_word(&c->resolved, s, word, numbers, number, most, why);
     }
     free(number);
     return status;

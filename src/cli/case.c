@@ -13,7 +13,7 @@ rb_case *cli_case_create(rb_case_purpose purpose)
 {
     rb_case *c = rb_case_create(purpose);
     if (c)
-        rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
+        rb_case_use_cone_solvers(c, rb_friction_cone_solver);
     else
         cli_fail(CLI_INTERNAL, "out of memory");
     return c;

@@ -212,7 +212,7 @@ static cli_exit choose_results(study *st)
         if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0}))
             choose(st, (study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0});
     for (int k = 1; (r = rb_rolling_study_column(k)) && !st->has_crack; k++)
-        if (rb_rolling_has_result(r, &one->rc) &&
+        if (rb_rolling_has_result(r, &one->rc, 0) &&
             !is_given(st, rb_rolling_heading(r, one->units, heading)))
             choose(st, (study_result){r, OF_SOLUTION, 0});
     for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;) {

@@ -48,17 +48,16 @@ rb_status rb_contact_cone_create(const rb_contact_problem *p, double delta, doub
 rb_status rb_contact_cone_solve(const rb_contact_problem *p, const rb_contact_options *options,
                                 rb_contact_state *state, rb_message *why)
 {
-    const rb_contact_cone_solvers *by = options->cone_solvers;
+    const rb_contact_cone_solver *by = &options->cone_solver;
     rb_contact_cone cone;
 
-    if (!by || !options->cone_solver || !by->knows(options->cone_solver))
-        return rb_fail(why, RB_EINVAL, "there is no cone solver '%.60s'",
-                       options->cone_solver ? options->cone_solver : "");
+    if (!by->solve)
+        return rb_fail(why, RB_EINVAL, "there is no cone solver '%.60s'", by->name ? by->name : "");
     rb_status s = rb_contact_cone_create(p, state->delta, state->xi, &cone, why);
     if (s != RB_OK)
         return s;
     double *r = rb_alloc(2 * (size_t)p->n, 1);
-    s = r ? by->solve(options->cone_solver, &cone, 1e-12, r, &state->iterations, why) : RB_ENOMEM;
+    s = r ? by->solve(by->name, &cone, 1e-12, r, &state->iterations, why) : RB_ENOMEM;
     for (int i = 0; i < p->n && s >= 0; i++) {
         state->p[i] = p->stress * r[2 * i];
         state->q[i] = p->stress * r[2 * i + 1];

@@ -152,7 +152,7 @@ static int plan_forms(const rb_contact_problem *problem, const rb_contact_option
         sum += problem->d_T[i] + problem->xi * problem->e_T[i];
     const int backwards =
         problem->force_given ? problem->force + problem->force_ratio > 0.0 : sum < 0.0;
-    const double xi0 = (backwards ? -1.0 : 1.0) * options->sliding;
+    const double xi0 = (backwards ? -1.0 : 1.0) * problem->sliding;
 
     at[OWN] = (attempt){0, RB_LCP_PIVOTED, backwards, xi0};
     at[MIRRORED] = (attempt){1, RB_LCP_PIVOTED, !backwards, xi0};
@@ -188,9 +188,9 @@ static rb_status solve_lemke(rb_contact_problem *problem, const rb_contact_optio
         if (s == RB_OK) {
             pivoting.cover = cover;
             pivoting.max_iters = round + 1 < ROUNDS ? (round ? 15 : 5) * lcp.size + 100 : 0;
-            pivoting.trace = options->trace;
-            pivoting.trace_context = options->trace_context;
-            pivoting.trace_tableau = options->trace_tableau;
+            pivoting.trace = problem->pivot_trace;
+            pivoting.trace_context = problem->trace_context;
+            pivoting.trace_tableau = problem->trace_tableau;
             pivoting.attempt = at->number;
             const rb_lcp_problem p = {lcp.size, lcp.M, lcp.size, lcp.b};
             s = rb_lcp_lemke(&p, &pivoting, z, &info);
@@ -496,7 +496,7 @@ static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_opt
     rb_status s = RB_OK;
 
     given.force_given = 0;
-    given.xi = sign * options->sliding;
+    given.xi = sign * problem->sliding;
     for (int k = 0; k < 40 && s == RB_OK; k++, given.xi *= 2.0) {
         s = solve_given(&given, options, 0, state, why);
         const double spare = slowest_slip(&given, state);
@@ -532,7 +532,7 @@ static rb_status check_layer(rb_contact_problem *problem, const rb_contact_optio
                              rb_contact_state *state, rb_message *why)
 {
     enum { POINTS = 40 };
-    const char *unit = options->force_unit ? options->force_unit : "";
+    const char *unit = problem->force_unit ? problem->force_unit : "";
     const int backwards = problem->force + problem->force_ratio > 0.0;
     rb_contact_problem given = *problem; /* arrays stay the problem's */
     double most = 0.0;
@@ -541,7 +541,7 @@ static rb_status check_layer(rb_contact_problem *problem, const rb_contact_optio
     given.force_given = 0;
     if (problem->hardening < 0.0)
         for (int k = 1; k <= POINTS && s == RB_OK; k++) {
-            given.xi = (backwards ? -1.0 : 1.0) * options->sliding * k / POINTS;
+            given.xi = (backwards ? -1.0 : 1.0) * problem->sliding * k / POINTS;
             s = solve_given(&given, options, k > 1, state, NULL);
             most = fmax(most, fabs(rb_contact_force(problem, state)));
         }
@@ -564,7 +564,7 @@ static rb_status check_layer(rb_contact_problem *problem, const rb_contact_optio
 static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
                                 rb_message *why)
 {
-    const char *unit = options->force_unit ? options->force_unit : "";
+    const char *unit = problem->force_unit ? problem->force_unit : "";
     rb_contact_state sliding;
     double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);

@@ -14,11 +14,6 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone)
                                  .q = cone->q};
 }
 
-static int knows(const char *name)
-{
-    return rb_friction_solver_named(name) != NULL;
-}
-
 static rb_status solve(const char *name, const rb_contact_cone *cone, double tol, double *r,
                        int *iterations, rb_message *why)
 {
@@ -39,8 +34,7 @@ static rb_status solve(const char *name, const rb_contact_cone *cone, double tol
     return s;
 }
 
-const rb_contact_cone_solvers *rb_friction_cone_solvers(void)
+rb_contact_cone_solver rb_friction_cone_solver(const char *name)
 {
-    static const rb_contact_cone_solvers solvers = {knows, solve};
-    return &solvers;
+    return (rb_contact_cone_solver){name, rb_friction_solver_named(name) ? solve : NULL};
 }

@@ -66,7 +66,7 @@ static void follow_way(rb_rolling_model *model, double mu_before)
     if (rb_rolling_law_depends_on_state(model->rc))
         rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
     else
-        rb_rolling_start_bounds(model->rc, &model->bodies, p);
+        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
 }
 
 static void record(history_state *r, double distance)
@@ -228,8 +228,6 @@ static rb_status begin_rolled(history_state *r, rb_message *why)
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
-    if (from == 0.0 && model->rc->friction.start)
-        rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
     rb_rolling_set_past(model->rc, &model->bodies, &past, &model->problem);
     rb_rolling_set_control(model->rc, &model->problem);
     return RB_OK;
@@ -384,6 +382,7 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     if (s != RB_OK)
         return s;
     r->shift = 0.0;
+    r->model->mu_varies = r->program->mu != NULL;
     r->history->half_width = half_width(r);
     if (r->found) /* as solving would have left it */
         r->model->half_width = r->history->half_width;
@@ -404,7 +403,8 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         s = r->q ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps, r->history);
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->model->mu_varies,
+                                     r->steps, r->history);
     r->history->step = step;
     r->history->steady_from = -1;
     return s;

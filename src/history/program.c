@@ -127,8 +127,7 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 {
     rb_rolling_case base = *rc;
 
-    base.friction.follows_way = program->n > 0 && program->mu;
-    if (base.friction.follows_way)
+    if (program->n > 0 && program->mu)
         base.mu = 0.0;
     for (int r = 0; r < program->n && program->mu; r++)
         base.mu = fmax(base.mu, program->mu[r]);

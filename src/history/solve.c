@@ -33,7 +33,8 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
         rb_rolling_model_free(model);
         s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
     } else {
-        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, model, why), why);
+        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, NULL, model, why),
+                                            why);
     }
     rb_rolling_history_free(&history);
     s = take_solution(model, s, solution, why);
@@ -101,10 +102,10 @@ static rb_status set_up_between(const rb_rolling_case *rc, double from, double t
 }
 
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
-                                  const rb_rolling_solution *before, double step,
-                                  rb_rolling_solution *solution, rb_message *why)
+                                  const rb_rolling_solution *before, const rb_rolling_table *start,
+                                  double step, rb_rolling_solution *solution, rb_message *why)
 {
-    const double start = rb_seconds();
+    const double begun = rb_seconds();
     rb_rolling_model model = {0};
     rb_rolling_particles particles = {
         .rc = rc, .model = &model, .step = step, .steps = 1, .keeps_elements = 1};
@@ -144,8 +145,8 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
         s = rb_rolling_particles_bring(&particles, &stride, why);
     if (s == RB_OK) {
         const rb_rolling_past past = {particles.w_T, model.carried.yielded, step};
-        if (!before || rc->friction.start)
-            rb_rolling_start_bounds(rc, &model.bodies, &model.problem);
+        if (!before || start)
+            rb_rolling_start_bounds(rc, start, &model.bodies, &model.problem);
         rb_rolling_set_past(rc, &model.bodies, &past, &model.problem);
         rb_rolling_set_control(rc, &model.problem);
         s = rb_rolling_model_resolve(&model, 0, why);
@@ -153,7 +154,7 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
     s = take_solution(&model, s, solution, why);
     if (s >= 0)
         solution->status = s;
-    solution->seconds_total = rb_seconds() - start;
+    solution->seconds_total = rb_seconds() - begun;
     rb_rolling_particles_free(&particles);
     rb_rolling_model_free(&model);
     return s;

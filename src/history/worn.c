@@ -424,7 +424,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     r.rc.half_width = NAN;
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1, history);
+        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
     if (s == RB_OK) {
         if (wear->share == 0.0) {
             free(history->worn_b);

@@ -578,7 +578,8 @@ static void compare_solver(rb_certificate *c)
     const int is_plain = strcmp(solver, rb_case_word("solver", RB_SOLVER_LEMKE)) == 0 ||
                          strcmp(solver, rb_case_word("solver", RB_SOLVER_NEWTON)) == 0;
 
-    if (!is_plain && !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver) == 0))
+    if (!is_plain &&
+        !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver.name) == 0))
         rb_certificate_violated(c, "summary.solver is none that this case may have");
     if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
         rb_certificate_violated(c, "summary.lcp_form is none");

@@ -14,7 +14,7 @@ rb_rolling_row rb_rolling_no_row(rb_status status);
 /* Zeros for every column of the table that the case has; the owner's others stay NULL.
  * What there is on RB_ENOMEM is freed as if it were complete. */
 rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
-                                   int rows, void *owner);
+                                   int mu_varies, int rows, void *owner);
 void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
 /* A column of numbers. */
 double *rb_rolling_column(const rb_rolling_result *r, const void *owner);

@@ -322,7 +322,7 @@ static void *column_of(const rb_rolling_result *r, const void *owner)
     return column;
 }
 
-int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies)
 {
     switch (r->condition) {
     case RB_FOR_HEAT:
@@ -330,12 +330,11 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
     case RB_FOR_WORN:
         return rc->worn.n > 0;
     case RB_FOR_LAW:
-        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 ||
-               rc->friction.follows_way;
+        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 || mu_varies;
     case RB_FOR_MOVING_LAW:
         return rb_rolling_law_depends_on_state(rc);
     case RB_FOR_WAY:
-        return rc->friction.follows_way;
+        return mu_varies;
     case RB_FOR_MEMORY:
         return rb_rolling_relaxes(rc);
     case RB_FOR_YIELD:
@@ -507,12 +506,12 @@ rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
 }
 
 rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
-                                   int rows, void *owner)
+                                   int mu_varies, int rows, void *owner)
 {
     rb_status s = RB_OK;
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
-        if (!rb_rolling_has_result(r, rc))
+        if (!rb_rolling_has_result(r, rc, mu_varies))
             continue;
         void *column = r->kind == RB_RESULT_WHOLE ? (void *)rb_alloc_int((size_t)rows)
                                                   : rb_alloc((size_t)rows, 1);

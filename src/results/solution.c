@@ -198,7 +198,7 @@ static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
 
     s->status = state->status;
     s->solver = state->solver;
-    s->cone_solver = model->rc->contact.cone_solver;
+    s->cone_solver = model->rc->contact.cone_solver.name;
     s->large = !model->bodies.F;
     add_boundary(model->bodies.system_a, s);
     add_boundary(model->bodies.system_b, s);
@@ -245,8 +245,8 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
-    rb_status status =
-        rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc, model->mesh.n, s);
+    rb_status status = rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc,
+                                                model->mu_varies, model->mesh.n, s);
 
     if (status == RB_OK) {
         s->formulation = model->rc->formulation;

@@ -217,7 +217,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
 {
     return (rb_rolling_plan){rc->contact_elements, rc->near_field, rc->outer_elements,
-                             rc->outer_refinement};
+                             rc->outer_refinement, NULL};
 }
 
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan)
@@ -420,7 +420,7 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "solver %s: solves Coulomb's law only, expected lemke, newton or "
                        "auto with --yield-stress",
-                       rc->contact.cone_solver);
+                       rc->contact.cone_solver.name);
     return RB_OK;
 }
 
@@ -507,12 +507,10 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
-    if (rc->contact.solver == RB_SOLVER_CONE &&
-        !(rc->contact.cone_solvers && rc->contact.cone_solver &&
-          rc->contact.cone_solvers->knows(rc->contact.cone_solver)))
+    if (rc->contact.solver == RB_SOLVER_CONE && !rc->contact.cone_solver.solve)
         return rb_fail(why, RB_EINVAL,
                        "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
-                       rc->contact.cone_solver ? rc->contact.cone_solver : "");
+                       rc->contact.cone_solver.name ? rc->contact.cone_solver.name : "");
     return RB_OK;
 }
 

@@ -9,13 +9,13 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
                                   rb_message *why)
 {
     memset(model, 0, sizeof *model);
-    return rb_rolling_model_reuse(rc, model, why);
+    return rb_rolling_model_reuse(rc, NULL, model, why);
 }
 
-rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
-                                 rb_message *why)
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why)
 {
-    rb_rolling_model kept = {.plan = rb_rolling_plan_of(rc)};
+    rb_rolling_model kept = {.plan = plan ? *plan : rb_rolling_plan_of(rc)};
     const int equal = model->rc && model->rc->mesh == RB_MESH_UNIFORM;
 
     if (equal && rc->mesh == RB_MESH_UNIFORM && model->mesh.ends && model->bodies.f.m) {

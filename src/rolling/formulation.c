@@ -283,8 +283,9 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     if (set_yield(rc, p) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
                        mesh->n);
-    rb_rolling_start_bounds(rc, bodies, p);
+    rb_rolling_start_bounds(rc, NULL, bodies, p);
     p->differences = rc->formulation == RB_STEADY;
+    p->force_unit = " N/mm";
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, p);
     /* Vertical and horizontal force of unit tractions along n and t. */
@@ -423,24 +424,17 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }
 
-static rb_contact_options options_of(const rb_rolling_case *rc, const rb_contact_problem *p)
-{
-    rb_contact_options options = rc->contact;
-
-    options.force_unit = " N/mm";
-    options.sliding = rb_rolling_sliding_creepage(rc, p);
-    return options;
-}
-
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
                                    rb_contact_state *state, rb_message *why)
 {
-    const rb_contact_options options = options_of(rc, problem);
-    return rb_contact_solve(problem, &options, warm, state, why);
+    problem->sliding = rb_rolling_sliding_creepage(rc, problem);
+    return rb_contact_solve(problem, &rc->contact, warm, state, why);
 }
 
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why)
 {
-    const rb_contact_options options = options_of(model->rc, &model->problem);
-    return rb_contact_lcp_first(&model->problem, &options, &model->state, lcp, why);
+    rb_contact_problem problem = model->problem; /* arrays stay the model's */
+
+    problem.sliding = rb_rolling_sliding_creepage(model->rc, &problem);
+    return rb_contact_lcp_first(&problem, &model->rc->contact, &model->state, lcp, why);
 }

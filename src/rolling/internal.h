@@ -210,8 +210,8 @@ double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
 /* Largest -dmu/dv, or an upper bound if two terms have different slip scales. */
 double rb_rolling_law_steepest(const rb_rolling_case *rc);
 /* First bounds of the elements for the iteration: those at rest, or the given start. */
-void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                             rb_contact_problem *p);
+void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
+                             const rb_rolling_bodies *bodies, rb_contact_problem *p);
 /* The coefficients (n) of the law for the state. */
 rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu, rb_message *why);
 /* Sets first bounds: coefficients of fast sliding up to x, and those at rest beyond. */

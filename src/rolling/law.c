@@ -202,13 +202,12 @@ double rb_rolling_law_steepest(const rb_rolling_case *rc)
     return steepest;
 }
 
-void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                             rb_contact_problem *p)
+void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
+                             const rb_rolling_bodies *bodies, rb_contact_problem *p)
 {
-    const rb_rolling_table *start = rc->formulation == RB_STATIC ? NULL : rc->friction.start;
-
     for (int i = 0; i < p->n; i++)
-        p->bound[i] = start ? rb_rolling_friction_at(start, bodies->f.x[i])
-                            : rb_rolling_law_at_rest(rc, bodies->f.x[i]);
+        p->bound[i] = start && rc->formulation != RB_STATIC
+                          ? rb_rolling_friction_at(start, bodies->f.x[i])
+                          : rb_rolling_law_at_rest(rc, bodies->f.x[i]);
     rb_contact_set_friction(p, rb_rolling_largest_mu(rc), p->bound);
 }

@@ -467,7 +467,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
     if (model->problem.force_given && follows) {
         s = follow_force(model);
         if (s > 0)
-            rb_rolling_start_bounds(model->rc, &model->bodies, &model->problem);
+            rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, &model->problem);
     }
     if (s > 0)
         s = model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);

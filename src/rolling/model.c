@@ -140,6 +140,8 @@ static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
     if (s == RB_OK)
         s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
+    if (s == RB_OK && model->plan.start)
+        rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, &model->problem);
     return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
 }
 

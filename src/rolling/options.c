@@ -306,7 +306,7 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("solver", RC(contact.solver), solvers,
                    "method for the complementarity problem; or the name of a cone "
                    "solver, see rollbem help friction",
-                   .path = RC(contact.cone_solver), .path_value = RB_SOLVER_CONE,
+                   .path = RC(contact.cone_solver.name), .path_value = RB_SOLVER_CONE,
                    .path_name = "NAME"),
     RB_CHOICE_LINE("lcp-form", RC(contact.lcp_form), lcp_forms,
                    "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),

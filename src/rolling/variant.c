@@ -182,6 +182,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
 
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
+    v->mu_varies = of->mu_varies;
     if (s == RB_OK)
         s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
     if (s == RB_OK && borrows)

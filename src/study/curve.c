@@ -92,9 +92,11 @@ static rb_status start_anew(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_case rc = *model->rc;
     const int iterations = model->iterations;
+    rb_rolling_plan plan = rb_rolling_plan_of(&rc);
 
+    plan.start = model->plan.start;
     rb_rolling_model_free(model);
-    const rb_status s = rb_rolling_model_create(&rc, model, why);
+    const rb_status s = rb_rolling_model_reuse(&rc, &plan, model, why);
     model->iterations += iterations;
     return s;
 }
@@ -174,10 +176,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         if (s == RB_OK)
             s = rb_rolling_model_control(model, why);
         if (moves && s >= 0) {
-            rb_status t = remember_branch(model, &start);
-            steady.friction.start = &start.table;
-            if (t == RB_OK)
-                t = rb_rolling_model_set_case(model, &steady, why);
+            const rb_status t = remember_branch(model, &start);
+            model->plan.start = &start.table;
             s = t == RB_OK ? s : t;
         }
         if (s == RB_OK || s == RB_ZONE)
@@ -187,9 +187,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             s = t < 0 ? t : s;
         }
     }
-    steady.friction.start = rc->friction.start;
-    const rb_status t = rb_rolling_model_set_case(model, &steady, why);
-    s = s == RB_OK ? t : s;
+    model->plan.start = NULL;
     free(start.scratch);
     if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
@@ -259,7 +257,7 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_r
     steady.formulation = RB_STEADY;
     const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady,
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady, 0,
                                      returns ? 2 * range->points : range->points, curve);
     curve->rising = range->points;
     if (s == RB_OK)

@@ -49,7 +49,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
         s = rb_rolling_curve_observe(&coarser, range, point, context, &run[k], why);
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, curve->n, errors);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, 0, curve->n, errors);
     if (s == RB_OK) {
         const void *found[RB_ERROR_RUNS];
         double free_creepage[RB_ERROR_RUNS];
@@ -145,7 +145,7 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
     const int runs = rb_rolling_error_runs(rc);
     const rb_rolling_results *columns = &rb_rolling_history_columns;
     const void *run[RB_ERROR_RUNS];
-    rb_status s = rb_rolling_columns_alloc(columns, rc, own->n, errors);
+    rb_status s = rb_rolling_columns_alloc(columns, rc, 0, own->n, errors);
 
     if (s != RB_OK)
         return s;
@@ -197,7 +197,7 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
             /* What of the history has error bars, at the steps of another one. */
             rb_rolling_history *out = &placed[k];
             const rb_rolling_results *columns = &rb_rolling_history_columns;
-            s = rb_rolling_columns_alloc(columns, rc, own->n, out);
+            s = rb_rolling_columns_alloc(columns, rc, 0, own->n, out);
 
             for (int i = 0; i < columns->n && s == RB_OK; i++) {
                 const rb_rolling_result *r = &columns->row[i];

@@ -8,6 +8,7 @@
 #include "bem/skeleton.h"
 #include "study/internal.h"
 #include "rollbem/blas.h"
+#include "rollbem/friction.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -237,9 +238,9 @@ int rb_blas_loop_threads(void)
     return 1;
 }
 
-const rb_contact_cone_solvers *rb_api_cone_solvers(void)
+rb_contact_cone_solver rb_friction_cone_solver(const char *name)
 {
-    return NULL;
+    return (rb_contact_cone_solver){name, NULL};
 }
 
 /* No file of the page's is somebody else's. */
