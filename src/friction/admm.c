@@ -101,48 +101,6 @@ static rb_status start_admm(rb_friction_task *task, int variant, void *state)
     return st;
 }
 
-/* One iteration from z, y and s, which belong to the state `before`. */
-static rb_status iterate(admm *a)
-{
-    rb_friction_task *t = a->task;
-    const double *q = t->shared->local->q;
-    const int d = t->d;
-    memcpy(a->before, a->x, (size_t)t->m * sizeof(double));
-    for (int i = 0; i < t->m; i++)
-        a->r[i] = a->penalty / t->measure->rho[2 * (i / d)] * (a->z[i] - a->y[i]) - q[i] - a->s[i];
-    const rb_status st = rb_friction_local_solve(&a->system, a->r);
-    if (st != RB_OK)
-        return st;
-    for (int i = 0; i < t->m; i++) {
-        const double unit = a->penalty / t->measure->rho[2 * (i / d)], z = a->z[i];
-        a->x[i] = ALPHA * a->r[i] + (1.0 - ALPHA) * z + a->y[i];
-        a->primal += unit * unit * (a->r[i] - z) * (a->r[i] - z);
-        a->dual += unit * unit * (a->x[i] - a->before[i]) * (a->x[i] - a->before[i]);
-    }
-    rb_anderson_step(&a->anderson, a->before, a->x, a->r);
-    split(a);
-    t->info->flops += a->system.flops + (46.0 + 8.0 * a->anderson.used) * t->m;
-    a->system.flops = 0.0;
-    return RB_OK;
-}
-
-/* A larger penalty holds r and z together, a smaller one lets z move. */
-static rb_status balance(admm *a)
-{
-    const double ratio = sqrt(a->primal / a->dual);
-    a->primal = a->dual = 0.0;
-    a->next = 2 * a->k;
-    if (!isfinite(ratio) || (ratio < BALANCE && ratio > 1.0 / BALANCE))
-        return RB_OK;
-    const double before = a->penalty;
-    a->penalty *= fmax(0.02, fmin(50.0, ratio));
-    for (int i = 0; i < a->task->m; i++) /* P y, the velocity, stays */
-        a->x[i] = a->z[i] + a->y[i] * before / a->penalty;
-    split(a);
-    rb_anderson_forget(&a->anderson);
-    return factor(a);
-}
-
 static rb_status assess(admm *a)
 {
     rb_friction_task *t = a->task;
@@ -172,11 +130,41 @@ static rb_status go_on_alternating(void *state)
         st = RB_MAXITER;
     }
     while (st == RB_MAXITER && a->k < a->limit && rb_friction_task_goes_on(t)) {
-        st = iterate(a);
+        /* One iteration from z, y and s, which belong to the state `before`. */
+        const double *q = t->shared->local->q, *rho = t->measure->rho;
+        const int d = t->d;
+        memcpy(a->before, a->x, (size_t)t->m * sizeof(double));
+        for (int i = 0; i < t->m; i++)
+            a->r[i] = a->penalty / rho[2 * (i / d)] * (a->z[i] - a->y[i]) - q[i] - a->s[i];
+        st = rb_friction_local_solve(&a->system, a->r);
+        if (st != RB_OK)
+            return st;
+        for (int i = 0; i < t->m; i++) {
+            const double unit = a->penalty / rho[2 * (i / d)], z = a->z[i];
+            a->x[i] = ALPHA * a->r[i] + (1.0 - ALPHA) * z + a->y[i];
+            a->primal += unit * unit * (a->r[i] - z) * (a->r[i] - z);
+            a->dual += unit * unit * (a->x[i] - a->before[i]) * (a->x[i] - a->before[i]);
+        }
+        rb_anderson_step(&a->anderson, a->before, a->x, a->r);
+        split(a);
+        t->info->flops += a->system.flops + (46.0 + 8.0 * a->anderson.used) * t->m;
+        a->system.flops = 0.0;
         a->k++;
         t->info->iters++;
-        if (st == RB_OK && a->k == a->next)
-            st = balance(a);
+        if (a->k == a->next) {
+            /* A larger penalty holds r and z together, a smaller one lets z move. */
+            const double ratio = sqrt(a->primal / a->dual), former = a->penalty;
+            a->primal = a->dual = 0.0;
+            a->next = 2 * a->k;
+            if (isfinite(ratio) && (ratio >= BALANCE || ratio <= 1.0 / BALANCE)) {
+                a->penalty *= fmax(0.02, fmin(50.0, ratio));
+                for (int i = 0; i < t->m; i++) /* P y, the velocity, stays */
+                    a->x[i] = a->z[i] + a->y[i] * former / a->penalty;
+                split(a);
+                rb_anderson_forget(&a->anderson);
+                st = factor(a);
+            }
+        }
         if (st == RB_OK)
             st = a->k % LOOK_EVERY == 0 || a->k == a->limit ? assess(a) : RB_MAXITER;
     }

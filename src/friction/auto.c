@@ -152,22 +152,6 @@ static member *add_member(portfolio *p, const plan *its)
     return a;
 }
 
-static rb_status add_others(portfolio *p)
-{
-    const size_t m = (size_t)p->task->m, n = (size_t)p->task->n;
-    const plan *plans = p->member[0].plan;
-    p->memory = rb_alloc(2 * m + n, MEMBERS - 1);
-    if (!p->memory)
-        return RB_ENOMEM;
-    for (int k = 1; k < MEMBERS; k++) {
-        rb_friction_task *t = &add_member(p, &plans[k])->task;
-        t->r = p->memory + (size_t)(k - 1) * (2 * m + n);
-        t->u = t->r + m;
-        t->v = t->u + m;
-    }
-    return RB_OK;
-}
-
 static void end_stage(member *a)
 {
     if (a->state)
@@ -183,42 +167,21 @@ static void end_stage(member *a)
 /* Dense tableaus beyond this take longer than what comes after. */
 #define MOST_FOR_LEMKE 1000
 
-/* W is condensed when the first stage asks for it. */
-static int fits(rb_friction_task *task, const rb_friction_solver *solver)
-{
-    if ((solver->needs & RB_FRICTION_ONLY_2D) && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
-        return 0;
-    if (!(solver->needs & RB_FRICTION_NEEDS_W) || task->shared->local)
-        return 1;
-    return task->measure->spring == 0.0 && rb_friction_task_condense(task) == RB_OK;
-}
-
-/* Operations of a method that cannot pause, roughly: as many pivots as unknowns, on a
- * tableau of order 3 n_c where there is no W, or twenty factorisations. */
-static double cost_of(const rb_friction_task *task, const rb_friction_solver *solver)
-{
-    const double m = task->m, tableau = 3.0 * task->contacts, order = m + task->n;
-    if (solver->needs & RB_FRICTION_ONLY_2D)
-        return task->shared->local ? rb_friction_lemke_pairs_flops(task, 2.0 * m)
-                                   : 5.0 * tableau * tableau * tableau;
-    return 20.0 * order * fmin(order * order, 1e4);
-}
-
-/* The solver of the member's stage, or of the next one that fits; NULL: none is left. */
-static const rb_friction_solver *next_that_fits(member *a)
-{
-    for (const stage *s; (s = &a->plan->stages[a->stage])->method; a->stage++) {
-        const rb_friction_solver *solver = rb_friction_solver_of(s->method, s->variant);
-        if (fits(&a->task, solver))
-            return solver;
-    }
-    return NULL;
-}
-
-/* The next stage, ready to go on; none is left: over. */
+/* The next stage that fits the problem, ready to go on; none is left: over.  W is
+ * condensed when the first stage asks for it. */
 static rb_status begin_stage(member *a)
 {
-    a->solver = next_that_fits(a);
+    rb_friction_task *t = &a->task;
+    for (const stage *s; (s = &a->plan->stages[a->stage])->method; a->stage++) {
+        const rb_friction_solver *solver = rb_friction_solver_of(s->method, s->variant);
+        const int flat = solver->needs & RB_FRICTION_ONLY_2D;
+        const int condensed = !(solver->needs & RB_FRICTION_NEEDS_W) || t->shared->local;
+        if (!(flat && (t->d != 2 || t->contacts > MOST_FOR_LEMKE)) &&
+            (condensed || (t->measure->spring == 0.0 && rb_friction_task_condense(t) == RB_OK))) {
+            a->solver = solver;
+            break;
+        }
+    }
     a->over = !a->solver;
     if (a->over)
         return RB_OK;
@@ -252,29 +215,10 @@ static int iterations_left(const portfolio *p)
     return !most ? INT_MAX : most > sum ? most - sum : 0;
 }
 
-/* The stage goes on until it ends (*paused 0), or the allowance or the iterations of the
- * turn are used. */
-static rb_status go_on(const portfolio *p, member *a, double allowance, int turn, int *paused)
-{
-    const rb_friction_method *method = a->solver->run;
-    rb_friction_task *t = &a->task;
-    const int left = iterations_left(p), most = turn && turn < left ? turn : left;
-    const int end = most < INT_MAX ? a->info.iters + most : 0;
-    t->opt.max_iters = !end || (a->stage_end && a->stage_end < end) ? a->stage_end : end;
-    t->budget = method->run ? INFINITY : allowance;
-    if (method->run) {
-        *paused = a->info.flops + cost_of(t, a->solver) > allowance;
-        return *paused ? RB_MAXITER : method->run(t, a->solver->variant);
-    }
-    const rb_status s = method->go_on(a->state);
-    *paused = s == RB_MAXITER && (a->info.flops >= t->budget ||
-                                  (end && a->info.iters >= end && a->info.iters != a->stage_end));
-    return s;
-}
-
-/* first: of the first turn, else NULL.  RB_MAXITER: the member has used its allowance, or
- * has no stage left.  What a stage stumbles on is not the reason why the problem is not
- * solved. */
+/* Stages until one solves the problem, or the allowance or the iterations of the turn are
+ * used.  first: of the first turn, else NULL.  RB_MAXITER: the member has used its
+ * allowance, or has no stage left.  What a stage stumbles on is not the reason why the
+ * problem is not solved. */
 static rb_status take_turn(const portfolio *p, member *a, double allowance, const first_turn *first)
 {
     int paused = 0;
@@ -284,8 +228,32 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
         rb_status s = a->solver ? RB_OK : begin_stage(a);
         if (a->over)
             break;
-        if (s == RB_OK)
-            s = go_on(p, a, allowance, first ? first->iterations : 0, &paused);
+        if (s == RB_OK) {
+            const rb_friction_method *method = a->solver->run;
+            rb_friction_task *t = &a->task;
+            const int turn = first ? first->iterations : 0, left = iterations_left(p);
+            const int most = turn && turn < left ? turn : left;
+            const int end = most < INT_MAX ? a->info.iters + most : 0;
+            t->opt.max_iters = !end || (a->stage_end && a->stage_end < end) ? a->stage_end : end;
+            t->budget = method->run ? INFINITY : allowance;
+            if (method->run) {
+                /* It cannot pause.  Its operations, roughly: as many pivots as unknowns,
+                 * on a tableau of order 3 n_c where there is no W, or twenty
+                 * factorisations. */
+                const double m = t->m, tableau = 3.0 * t->contacts, order = m + t->n;
+                const double cost = !(a->solver->needs & RB_FRICTION_ONLY_2D)
+                                        ? 20.0 * order * fmin(order * order, 1e4)
+                                    : t->shared->local ? rb_friction_lemke_pairs_flops(t, 2.0 * m)
+                                                       : 5.0 * tableau * tableau * tableau;
+                paused = a->info.flops + cost > allowance;
+                s = paused ? RB_MAXITER : method->run(t, a->solver->variant);
+            } else {
+                s = method->go_on(a->state);
+                paused = s == RB_MAXITER &&
+                         (a->info.flops >= t->budget ||
+                          (end && a->info.iters >= end && a->info.iters != a->stage_end));
+            }
+        }
         if (s == RB_OK && rb_friction_prove(&a->task))
             return RB_OK;
         if (s == RB_ENOMEM || s == RB_INTERRUPTED)
@@ -296,72 +264,67 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
     return RB_MAXITER;
 }
 
-static rb_status play(portfolio *p, const plan *plans, member **winner)
-{
-    member *first = *winner = add_member(p, plans);
-    rb_status s = take_turn(p, first, INFINITY, &plans->first);
-    if (s != RB_MAXITER)
-        return s;
-    s = add_others(p);
-    double allowance = fmax(first->info.flops, 1.0);
-    if (s == RB_OK)
-        s = RB_MAXITER;
-    for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(p);) {
-        left = 0;
-        for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
-            member *a = *winner = &p->member[k];
-            if (!a->over)
-                s = take_turn(p, a, allowance * a->plan->share, NULL);
-            left += !a->over;
-        }
-        if (allowance > MOST_OPERATIONS)
-            break;
-        allowance *= GROWTH;
-    }
-    return s;
-}
-
-/* The answer is the winner's; operations and iterations are those of all. */
-static void conclude(const portfolio *p, const member *winner, rb_friction_task *task)
-{
-    rb_friction_info *info = task->info;
-    const rb_friction_info *proof = &winner->info;
-    const rb_friction_task *from = &winner->task;
-    for (int k = 0; k < p->members; k++) {
-        info->iters += p->member[k].info.iters;
-        info->flops += p->member[k].info.flops;
-    }
-    task->proved = from->proved;
-    if (!task->proved) {
-        rb_friction_task_start(task);
-        return;
-    }
-    if (from->r != task->r) {
-        memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
-        memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
-        memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
-    }
-    info->solver = proof->solver;
-    info->residual = proof->residual;
-    info->scaled = proof->scaled;
-    info->floor = proof->floor;
-    info->measure = proof->measure;
-}
-
 static rb_status run_auto(rb_friction_task *task, int variant)
 {
     (void)variant;
     portfolio p;
     const plan *plans;
-    member *winner;
     rb_status s = choose_plan(task, &plans);
     if (s != RB_OK)
         return s;
     p.task = task;
     p.members = 0;
     p.memory = NULL;
-    s = play(&p, plans, &winner);
-    conclude(&p, winner, task);
+    member *first = add_member(&p, plans), *winner = first;
+    s = take_turn(&p, first, INFINITY, &plans->first);
+    if (s == RB_MAXITER) {
+        const size_t m = (size_t)task->m, n = (size_t)task->n;
+        p.memory = rb_alloc(2 * m + n, MEMBERS - 1);
+        for (int k = 1; p.memory && k < MEMBERS; k++) {
+            rb_friction_task *t = &add_member(&p, &plans[k])->task;
+            t->r = p.memory + (size_t)(k - 1) * (2 * m + n);
+            t->u = t->r + m;
+            t->v = t->u + m;
+        }
+        if (!p.memory)
+            s = RB_ENOMEM;
+    }
+    double allowance = fmax(first->info.flops, 1.0);
+    for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(&p);) {
+        left = 0;
+        for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
+            member *a = winner = &p.member[k];
+            if (!a->over)
+                s = take_turn(&p, a, allowance * a->plan->share, NULL);
+            left += !a->over;
+        }
+        if (allowance > MOST_OPERATIONS)
+            break;
+        allowance *= GROWTH;
+    }
+    /* The answer is the winner's; operations and iterations are those of all. */
+    rb_friction_info *info = task->info;
+    const rb_friction_info *proof = &winner->info;
+    const rb_friction_task *from = &winner->task;
+    for (int k = 0; k < p.members; k++) {
+        info->iters += p.member[k].info.iters;
+        info->flops += p.member[k].info.flops;
+    }
+    task->proved = from->proved;
+    if (!task->proved)
+        rb_friction_task_start(task);
+    else {
+        if (from->r != task->r) {
+            memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
+            memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
+            memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
+        }
+        info->solver = proof->solver;
+        info->residual = proof->residual;
+        info->scaled = proof->scaled;
+        info->floor = proof->floor;
+        info->measure = proof->measure;
+    }
     for (int k = 0; k < p.members; k++)
         end_stage(&p.member[k]);
     free(p.memory);

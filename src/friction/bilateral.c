@@ -50,30 +50,6 @@ static double *row_of(const equations *e, int i)
     return e->A + (size_t)i * (size_t)e->width;
 }
 
-/* The largest entry of an unknown from row `first` on. */
-static double find_pivot(const equations *e, int first, int *row, int *col)
-{
-    double most = 0.0;
-    for (int i = first; i < e->rows; i++)
-        for (int j = 0; j < e->unknowns; j++)
-            if (fabs(row_of(e, i)[j]) > most) {
-                most = fabs(row_of(e, i)[j]);
-                *row = i, *col = j;
-            }
-    return most;
-}
-
-/* Row i -= what makes its entry in this column 0, exactly, as the pivot is 1. */
-static void subtract(equations *e, int i, int pivot, int col)
-{
-    double *to = row_of(e, i);
-    const double *from = row_of(e, pivot), factor = to[col];
-    for (int j = 0; factor != 0.0 && j < e->width; j++) {
-        const double change = factor * from[j], left = to[j] - change;
-        to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
-    }
-}
-
 /* Rows of size 1 first, so that units of single constraints do not matter. */
 static void solve_equations(equations *e)
 {
@@ -85,7 +61,14 @@ static void solve_equations(equations *e)
     }
     for (e->rank = 0; e->rank < e->rows; e->rank++) {
         int row = 0, col = 0;
-        if (find_pivot(e, e->rank, &row, &col) <= RANK)
+        double most = 0.0;
+        for (int i = e->rank; i < e->rows; i++)
+            for (int j = 0; j < e->unknowns; j++)
+                if (fabs(row_of(e, i)[j]) > most) {
+                    most = fabs(row_of(e, i)[j]);
+                    row = i, col = j;
+                }
+        if (most <= RANK)
             return;
         double *a = row_of(e, e->rank), *b = row_of(e, row);
         for (int j = 0; j < e->width; j++) {
@@ -97,9 +80,14 @@ static void solve_equations(equations *e)
             a[j] = j == col ? a[j] : a[j] / a[col];
         a[col] = 1.0;
         e->at[e->rank] = col;
-        for (int i = 0; i < e->rows; i++)
-            if (i != e->rank)
-                subtract(e, i, e->rank, col);
+        for (int i = 0; i < e->rows; i++) {
+            double *to = row_of(e, i);
+            const double factor = i == e->rank ? 0.0 : to[col];
+            for (int j = 0; factor != 0.0 && j < e->width; j++) {
+                const double change = factor * a[j], left = to[j] - change;
+                to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
+            }
+        }
     }
 }
 
@@ -119,80 +107,11 @@ static int contradicts(const equations *e, int first, int last)
 
 /* ---- Global form ------------------------------------------------------------------- */
 
-/* v = v0 + Z y, Z by rows: row i of Z is column i of rows. */
-typedef struct {
-    int kept; /* of y */
-    rb_sparse rows;
-    double *v0;
-} motions;
-
-/* Every motion that is not solved for is one of y. */
-static rb_status form_motions(const equations *e, const int *touched, int n, motions *m)
-{
-    rb_triplets t = {.cols = n};
-    int *place = rb_alloc_int((size_t)n);
-    m->v0 = rb_alloc((size_t)n, 1);
-    rb_status s = place && m->v0 ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
-        for (int k = 0; k < e->rank; k++)
-            place[touched[e->at[k]]] = -1;
-        for (int i = 0; i < n; i++) {
-            if (place[i] < 0)
-                continue;
-            place[i] = m->kept++;
-            rb_triplets_add(&t, place[i], i, 1.0);
-        }
-        for (int k = 0; k < e->rank; k++) {
-            const double *a = row_of(e, k);
-            const int i = touched[e->at[k]];
-            m->v0[i] = -a[e->unknowns];
-            for (int j = 0; j < e->unknowns; j++)
-                if (a[j] != 0.0 && j != e->at[k])
-                    rb_triplets_add(&t, place[touched[j]], i, -a[j]);
-        }
-        t.rows = m->kept;
-        s = rb_sparse_from_triplets(&t, &m->rows);
-    }
-    rb_triplets_free(&t);
-    free(place);
-    return s;
-}
-
-/* p becomes the problem in y; on failure it stays. */
-static rb_status reduce(rb_friction_problem *p, const motions *m)
-{
-    rb_sparse Z = {0}, ZK = {0}, K = {0}, H = {0};
-    double *f = rb_alloc((size_t)m->kept, 1);
-    rb_status s = f ? rb_sparse_transpose(&m->rows, &Z) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = rb_sparse_multiply(&m->rows, &p->K, &ZK);
-    if (s == RB_OK)
-        s = rb_sparse_multiply(&ZK, &Z, &K);
-    if (s == RB_OK)
-        s = rb_sparse_multiply(&m->rows, &p->H, &H);
-    rb_sparse_free(&ZK);
-    rb_sparse_free(&Z);
-    if (s != RB_OK) {
-        free(f);
-        rb_sparse_free(&K);
-        return s;
-    }
-    rb_sparse_apply_transposed(1.0, &p->H, m->v0, 1.0, p->w);
-    rb_sparse_apply(-1.0, &p->K, m->v0, 1.0, p->f);
-    rb_sparse_apply(1.0, &m->rows, p->f, 0.0, f);
-    rb_sparse_free(&p->K);
-    rb_sparse_free(&p->H);
-    free(p->f);
-    p->K = K, p->H = H, p->f = f, p->dofs = m->kept;
-    return RB_OK;
-}
-
 rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G, const double *b,
                                 rb_message *why)
 {
     const int n = global->dofs;
     equations e = {0};
-    motions m = {0};
     if (global->form != RB_FRICTION_GLOBAL)
         return rb_fail(why, RB_EINVAL, "constraints on v: expected the global form");
     rb_status s = rb_friction_problem_check(global, why);
@@ -202,12 +121,11 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         s = rb_friction_check_vector("b", (size_t)G->cols, b, why);
     if (s != RB_OK)
         return s;
-    int *touched = rb_alloc_int(2 * (size_t)n);
+    /* touched: the degrees of freedom that constraints move; number: the place among them
+     * or -1, later that in y. */
+    int *touched = rb_alloc_int((size_t)n), *number = rb_alloc_int((size_t)n);
     s = RB_ENOMEM;
-    if (touched) {
-        /* touched: the degrees of freedom that constraints move, number: the place among
-         * them or -1. */
-        int *number = touched + n;
+    if (touched && number) {
         int count = 0;
         for (int i = 0; i < G->rows; i++)
             number[i] = -1;
@@ -222,7 +140,6 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
     }
     if (s == RB_OK) {
         /* Row by row of G': the motions it couples, and b. */
-        const int *number = touched + n;
         for (int c = 0; c < G->cols; c++) {
             for (int k = G->p[c]; k < G->p[c + 1]; k++)
                 row_of(&e, c)[number[G->i[k]]] = G->x[k];
@@ -234,69 +151,64 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         else if (e.rank == n)
             s = rb_fail(why, RB_EINVAL, "the constraints G'v + b = 0 leave no motion");
     }
+    /* v = v0 + Z y: every motion that is not solved for is one of y.  Zt: Z'. */
+    rb_sparse Zt = {0}, Z = {0}, ZK = {0}, K = {0}, H = {0};
+    double *v0 = rb_alloc((size_t)n, 1), *f = NULL;
+    if (s == RB_OK && !v0)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        rb_triplets t = {.rows = n - e.rank, .cols = n};
+        for (int i = 0; i < n; i++)
+            number[i] = 0;
+        for (int k = 0; k < e.rank; k++)
+            number[touched[e.at[k]]] = -1;
+        for (int i = 0, kept = 0; i < n; i++)
+            if (number[i] == 0) {
+                number[i] = kept++;
+                rb_triplets_add(&t, number[i], i, 1.0);
+            }
+        for (int k = 0; k < e.rank; k++) {
+            const double *a = row_of(&e, k);
+            v0[touched[e.at[k]]] = -a[e.unknowns];
+            for (int j = 0; j < e.unknowns; j++)
+                if (a[j] != 0.0 && j != e.at[k])
+                    rb_triplets_add(&t, number[touched[j]], touched[e.at[k]], -a[j]);
+        }
+        s = rb_sparse_from_triplets(&t, &Zt);
+        rb_triplets_free(&t);
+        f = rb_alloc((size_t)(n - e.rank), 1);
+    }
     if (s == RB_OK)
-        s = form_motions(&e, touched, n, &m);
+        s = f ? rb_sparse_transpose(&Zt, &Z) : RB_ENOMEM;
     if (s == RB_OK)
-        s = reduce(global, &m);
-    rb_sparse_free(&m.rows);
-    free(m.v0);
+        s = rb_sparse_multiply(&Zt, &global->K, &ZK);
+    if (s == RB_OK)
+        s = rb_sparse_multiply(&ZK, &Z, &K);
+    if (s == RB_OK)
+        s = rb_sparse_multiply(&Zt, &global->H, &H);
+    if (s == RB_OK) { /* on failure the problem stays */
+        rb_sparse_apply_transposed(1.0, &global->H, v0, 1.0, global->w);
+        rb_sparse_apply(-1.0, &global->K, v0, 1.0, global->f);
+        rb_sparse_apply(1.0, &Zt, global->f, 0.0, f);
+        rb_sparse_free(&global->K);
+        rb_sparse_free(&global->H);
+        free(global->f);
+        global->K = K, global->H = H, global->f = f, global->dofs = n - e.rank;
+    } else {
+        rb_sparse_free(&K);
+        free(f);
+    }
+    rb_sparse_free(&ZK);
+    rb_sparse_free(&Z);
+    rb_sparse_free(&Zt);
+    free(v0);
     free_equations(&e);
+    free(number);
     free(touched);
     return s;
 }
 
 /* ---- Local form -------------------------------------------------------------------- */
-
-/* -L, of which row at[k] is the r part of row k: l = l0 - L r. */
-static rb_status form_forces(const equations *e, int m, rb_sparse *minus_L)
-{
-    rb_triplets t = {.rows = e->rows, .cols = m};
-    for (int k = 0; k < e->rank; k++) {
-        const double *row = row_of(e, k) + e->unknowns;
-        for (int j = 0; j < m; j++)
-            if (row[j] != 0.0)
-                rb_triplets_add(&t, e->at[k], j, -row[j]);
-    }
-    const rb_status s = rb_sparse_from_triplets(&t, minus_L);
-    rb_triplets_free(&t);
-    return s;
-}
-
-/* W - V L and q + V l0; W is sparse from now on.  On failure p stays. */
-static rb_status subtract_constraints(rb_friction_problem *p, const rb_sparse *V,
-                                      const equations *e)
-{
-    const int m = p->dimension * p->contacts;
-    rb_sparse minus_L = {0}, change = {0}, W = {0};
-    rb_triplets t = {.rows = m, .cols = m};
-    rb_status s = form_forces(e, m, &minus_L);
-    if (s == RB_OK)
-        s = rb_sparse_multiply(V, &minus_L, &change);
-    if (s == RB_OK && p->form == RB_FRICTION_LOCAL_DENSE) {
-        s = rb_sparse_from_dense(m, m, p->W, m, &W);
-        if (s == RB_OK)
-            rb_triplets_add_matrix(&t, 1.0, &W);
-        rb_sparse_free(&W);
-    } else if (s == RB_OK) {
-        rb_triplets_add_matrix(&t, 1.0, &p->Ws);
-    }
-    if (s == RB_OK) {
-        rb_triplets_add_matrix(&t, 1.0, &change);
-        s = rb_sparse_from_triplets(&t, &W);
-    }
-    rb_triplets_free(&t);
-    rb_sparse_free(&change);
-    rb_sparse_free(&minus_L);
-    if (s != RB_OK)
-        return s;
-    for (int k = 0; k < e->rank; k++)
-        for (int a = V->p[e->at[k]]; a < V->p[e->at[k] + 1]; a++)
-            p->q[V->i[a]] -= V->x[a] * row_of(e, k)[e->width - 1];
-    free(p->W);
-    rb_sparse_free(&p->Ws);
-    p->W = NULL, p->Ws = W, p->form = RB_FRICTION_LOCAL_SPARSE;
-    return RB_OK;
-}
 
 rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_sparse *V,
                                       const rb_sparse *R, const double *s, rb_message *why)
@@ -331,8 +243,43 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
                          "undetermined of l is no redundant constraint",
                          e.rank, c);
     }
+    /* W - V L and q + V l0, of l = l0 - L r; W is sparse from now on. */
+    rb_sparse minus_L = {0}, change = {0}, W = {0};
+    rb_triplets l = {.rows = c, .cols = m}, t = {.rows = m, .cols = m};
+    for (int k = 0; st == RB_OK && k < e.rank; k++) {
+        const double *row = row_of(&e, k) + c;
+        for (int j = 0; j < m; j++)
+            if (row[j] != 0.0)
+                rb_triplets_add(&l, e.at[k], j, -row[j]);
+    }
     if (st == RB_OK)
-        st = subtract_constraints(local, V, &e);
+        st = rb_sparse_from_triplets(&l, &minus_L);
+    if (st == RB_OK)
+        st = rb_sparse_multiply(V, &minus_L, &change);
+    if (st == RB_OK && local->form == RB_FRICTION_LOCAL_DENSE) {
+        st = rb_sparse_from_dense(m, m, local->W, m, &W);
+        if (st == RB_OK)
+            rb_triplets_add_matrix(&t, 1.0, &W);
+        rb_sparse_free(&W);
+    } else if (st == RB_OK) {
+        rb_triplets_add_matrix(&t, 1.0, &local->Ws);
+    }
+    if (st == RB_OK) {
+        rb_triplets_add_matrix(&t, 1.0, &change);
+        st = rb_sparse_from_triplets(&t, &W);
+    }
+    if (st == RB_OK) {
+        for (int k = 0; k < e.rank; k++)
+            for (int a = V->p[e.at[k]]; a < V->p[e.at[k] + 1]; a++)
+                local->q[V->i[a]] -= V->x[a] * row_of(&e, k)[e.width - 1];
+        free(local->W);
+        rb_sparse_free(&local->Ws);
+        local->W = NULL, local->Ws = W, local->form = RB_FRICTION_LOCAL_SPARSE;
+    }
+    rb_triplets_free(&t);
+    rb_triplets_free(&l);
+    rb_sparse_free(&change);
+    rb_sparse_free(&minus_L);
     free_equations(&e);
     return st;
 }

@@ -76,28 +76,22 @@ static int next_block(reader *s, double *block)
 /* Below this, room for one block per entry costs less than counting the blocks. */
 #define NOT_WORTH_COUNTING 10000
 
-static size_t count_blocks(const rb_friction_problem *local)
-{
-    const size_t nc = (size_t)local->contacts, m = nc * (size_t)local->dimension;
-    if (local->form == RB_FRICTION_LOCAL_DENSE)
-        return nc * nc;
-    const size_t most = (size_t)local->Ws.p[m] + nc;
-    if (most <= NOT_WORTH_COUNTING)
-        return most < nc * nc ? most : nc * nc;
-    size_t total = 0;
-    for (int c = 0; c < local->contacts; c++) {
-        reader from;
-        reader_start(local, c, &from);
-        while (next_block(&from, NULL) >= 0)
-            total++;
-    }
-    return total;
-}
-
 rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_blocks *b)
 {
     const size_t nc = (size_t)local->contacts, d = (size_t)local->dimension;
-    const size_t total = count_blocks(local) + 1; /* the reader looks past the last */
+    const size_t entries =
+        local->form == RB_FRICTION_LOCAL_DENSE ? nc * nc : (size_t)local->Ws.p[nc * d] + nc;
+    size_t total = entries < nc * nc ? entries : nc * nc;
+    if (local->form != RB_FRICTION_LOCAL_DENSE && entries > NOT_WORTH_COUNTING) {
+        total = 0;
+        for (int c = 0; c < local->contacts; c++) {
+            reader from;
+            reader_start(local, c, &from);
+            while (next_block(&from, NULL) >= 0)
+                total++;
+        }
+    }
+    total++; /* the reader looks past the last */
     const size_t indices = total + 2 * nc + 1;
     *b = (rb_friction_blocks){.d = local->dimension, .contacts = local->contacts};
     b->x = rb_alloc(total * d * d + indices * sizeof *b->p / sizeof *b->x + 1, 1);

@@ -78,15 +78,27 @@ static rb_status condense_large(condenser *c, int body, double *q)
 #define MOST_DOFS 12     /* of a body that is inverted densely */
 #define LEAST_PIVOT 3e-6 /* sqrt(1e-11): of a factor of unit diagonal, as in CHOLMOD's case */
 
-/* K_b = S L L' S with S = diag(K_b)^1/2, so that the pivots tell the rank.  L: the lower
- * triangle of k, column-major. */
-static rb_status factor_small(const condenser *c, int body, int n, double *k, double *scale)
+/* x = L^-1 S x */
+static void forward(int n, const double *k, const double *scale, double *x)
 {
-    const int *dof = c->dof + c->dofs_of[body];
-    const rb_sparse *a = &c->p->K;
+    for (int i = 0; i < n; i++) {
+        x[i] *= scale[i];
+        for (int j = 0; j < i; j++)
+            x[i] -= k[i + j * n] * x[j];
+        x[i] /= k[i + i * n];
+    }
+}
+
+/* The same by Y_b = L^-1 S H_b, K_b = S L L' S with S = diag(K_b)^1/2, so that the pivots
+ * tell the rank.  L: the lower triangle of k, column-major. */
+static rb_status condense_small(condenser *c, int body, double *q)
+{
+    const int n = c->dofs_of[body + 1] - c->dofs_of[body];
+    const int cols = c->columns_of[body + 1] - c->columns_of[body];
+    const int *dof = c->dof + c->dofs_of[body], *column = c->column + c->columns_of[body];
+    const rb_sparse *h = &c->p->H, *a = &c->p->K;
+    double k[MOST_DOFS * MOST_DOFS] = {0.0}, scale[MOST_DOFS], f[MOST_DOFS];
     int diagonal = 1;
-    for (int i = 0; i < n * n; i++)
-        k[i] = 0.0;
     for (int j = 0; j < n; j++)
         for (int l = a->p[dof[j]]; l < a->p[dof[j] + 1]; l++) {
             k[c->number[a->i[l]] + j * n] = a->x[l];
@@ -107,31 +119,8 @@ static rb_status factor_small(const condenser *c, int body, int n, double *k, do
     for (int j = 0; j < n; j++)
         if (k[j + j * n] < LEAST_PIVOT)
             return RB_SINGULAR;
-    return RB_OK;
-}
-
-/* x = L^-1 S x */
-static void forward(int n, const double *k, const double *scale, double *x)
-{
-    for (int i = 0; i < n; i++) {
-        x[i] *= scale[i];
-        for (int j = 0; j < i; j++)
-            x[i] -= k[i + j * n] * x[j];
-        x[i] /= k[i + i * n];
-    }
-}
-
-/* The same by Y_b = L^-1 S H_b. */
-static rb_status condense_small(condenser *c, int body, double *q)
-{
-    const int n = c->dofs_of[body + 1] - c->dofs_of[body];
-    const int cols = c->columns_of[body + 1] - c->columns_of[body];
-    const int *dof = c->dof + c->dofs_of[body], *column = c->column + c->columns_of[body];
-    const rb_sparse *h = &c->p->H;
-    double k[MOST_DOFS * MOST_DOFS], scale[MOST_DOFS], f[MOST_DOFS];
-    const rb_status s = factor_small(c, body, n, k, scale);
-    if (s != RB_OK || cols == 0)
-        return s;
+    if (cols == 0)
+        return RB_OK;
     c->Y[body] = rb_alloc((size_t)n, (size_t)cols);
     if (!c->Y[body])
         return RB_ENOMEM;
@@ -154,27 +143,6 @@ static rb_status condense_small(condenser *c, int body, double *q)
 }
 
 /* ---- All bodies -------------------------------------------------------------------- */
-
-/* dof, dofs_of and number: the degrees of freedom body by body. */
-static rb_status list_dofs(condenser *c)
-{
-    const int n = c->p->dofs;
-    c->dof = rb_alloc_int((size_t)n);
-    c->dofs_of = rb_alloc_int((size_t)c->bodies + 2);
-    if (!c->dof || !c->dofs_of)
-        return RB_ENOMEM;
-    int *next = c->dofs_of + 1; /* one place ahead: filling moves the starts into place */
-    for (int i = 0; i < n; i++)
-        next[c->body[i] + 1]++;
-    for (int b = 0; b < c->bodies; b++)
-        next[b + 1] += next[b];
-    for (int i = 0; i < n; i++)
-        c->dof[next[c->body[i]]++] = i;
-    for (int b = 0; b < c->bodies; b++)
-        for (int k = c->dofs_of[b]; k < c->dofs_of[b + 1]; k++)
-            c->number[c->dof[k]] = k - c->dofs_of[b];
-    return RB_OK;
-}
 
 /* column and columns_of: the columns of H that touch a body, each once. */
 static rb_status list_columns(condenser *c)
@@ -206,29 +174,61 @@ static rb_status list_columns(condenser *c)
     return s;
 }
 
-/* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body follow
- * each other and touch the same columns: they become one, block-diagonal. */
-static rb_status join_bodies(condenser *c)
+/* The bodies, their degrees of freedom and the columns of H that touch them.  Of a
+ * diagonal mass every degree of freedom is a connected part of K: those of one rigid body
+ * follow each other and touch the same columns, and become one body, block-diagonal. */
+static rb_status find_bodies(condenser *c)
 {
-    int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
-    if (!joined)
-        return RB_ENOMEM;
-    for (int i = 0; i < c->p->dofs; i++)
-        dofs[c->body[i]]++;
-    int count = 0, size = 0; /* of the joined one that grows */
-    for (int b = 0; b < c->bodies; b++) {
-        const int *from = c->columns_of + b, n = from[1] - from[0];
-        const int same =
-            b > 0 && n > 0 && n == from[0] - from[-1] && size + dofs[b] <= MOST_DOFS &&
-            !memcmp(c->column + from[0], c->column + from[-1], (size_t)n * sizeof *c->column);
-        size = same ? size + dofs[b] : dofs[b];
-        count += !same;
-        joined[b] = count - 1;
+    const int n = c->p->dofs;
+    c->body = rb_alloc_int((size_t)n);
+    c->number = rb_alloc_int((size_t)n);
+    c->dof = rb_alloc_int((size_t)n);
+    rb_status s = c->body && c->number && c->dof
+                      ? rb_sparse_components(&c->p->K, &c->bodies, c->body)
+                      : RB_ENOMEM;
+    if (s == RB_OK)
+        s = list_columns(c);
+    int *joined = s == RB_OK ? rb_alloc_int(2 * (size_t)c->bodies) : NULL;
+    if (s == RB_OK && !joined)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        int *dofs = joined + c->bodies;
+        for (int i = 0; i < n; i++)
+            dofs[c->body[i]]++;
+        int count = 0, size = 0; /* of the joined one that grows */
+        for (int b = 0; b < c->bodies; b++) {
+            const int *from = c->columns_of + b, cols = from[1] - from[0];
+            const int same = b > 0 && cols > 0 && cols == from[0] - from[-1] &&
+                             size + dofs[b] <= MOST_DOFS &&
+                             !memcmp(c->column + from[0], c->column + from[-1],
+                                     (size_t)cols * sizeof *c->column);
+            size = same ? size + dofs[b] : dofs[b];
+            count += !same;
+            joined[b] = count - 1;
+        }
+        for (int i = 0; i < n; i++)
+            c->body[i] = joined[c->body[i]];
+        c->bodies = count;
+        free(joined);
+        free(c->column);
+        free(c->columns_of);
+        s = list_columns(c);
+        c->dofs_of = rb_alloc_int((size_t)c->bodies + 2);
+        if (!c->dofs_of)
+            s = RB_ENOMEM;
     }
-    for (int i = 0; i < c->p->dofs; i++)
-        c->body[i] = joined[c->body[i]];
-    c->bodies = count;
-    free(joined);
+    if (s != RB_OK)
+        return s;
+    int *next = c->dofs_of + 1; /* one place ahead: filling moves the starts into place */
+    for (int i = 0; i < n; i++)
+        next[c->body[i] + 1]++;
+    for (int b = 0; b < c->bodies; b++)
+        next[b + 1] += next[b];
+    for (int i = 0; i < n; i++)
+        c->dof[next[c->body[i]]++] = i;
+    for (int b = 0; b < c->bodies; b++)
+        for (int k = c->dofs_of[b]; k < c->dofs_of[b + 1]; k++)
+            c->number[c->dof[k]] = k - c->dofs_of[b];
     return RB_OK;
 }
 
@@ -241,90 +241,12 @@ typedef struct {
     int *body, *place; /* start[m] */
 } touches;
 
-static rb_status list_touches(const condenser *c, int m, touches *t)
-{
-    const int count = c->columns_of[c->bodies];
-    t->start = rb_alloc_int((size_t)m + 2 + 2 * (size_t)count);
-    if (!t->start)
-        return RB_ENOMEM;
-    t->body = t->start + m + 2;
-    t->place = t->body + count;
-    int *next = t->start + 1; /* as in list_dofs */
-    for (int k = 0; k < count; k++)
-        next[c->column[k] + 1]++;
-    for (int j = 0; j < m; j++)
-        next[j + 1] += next[j];
-    for (int b = 0; b < c->bodies; b++)
-        for (int k = c->columns_of[b]; k < c->columns_of[b + 1]; k++) {
-            const int at = next[c->column[k]]++;
-            t->body[at] = b;
-            t->place[at] = k - c->columns_of[b];
-        }
-    return RB_OK;
-}
-
 /* The rows of W that a body adds to its column `place`; their number. */
 static int rows_of(const condenser *c, int body, int place, const int **row)
 {
     const rb_sparse *w = &c->W[body];
     *row = w->p ? w->i + w->p[place] : c->column + c->columns_of[body];
     return w->p ? w->p[place + 1] - w->p[place] : c->columns_of[body + 1] - c->columns_of[body];
-}
-
-/* x += W_b's column, x as long as W's columns; sum: scratch, as long.  Y_b' Y_b is
- * symmetric as it stands. */
-static void add_column(const condenser *c, int body, int place, double *sum, double *x)
-{
-    const int *row, count = rows_of(c, body, place, &row);
-    const int n = c->dofs_of[body + 1] - c->dofs_of[body];
-    const rb_sparse *w = &c->W[body];
-    if (w->p) {
-        for (int k = 0; k < count; k++)
-            x[row[k]] += w->x[w->p[place] + k];
-        return;
-    }
-    memset(sum, 0, (size_t)count * sizeof *sum);
-    for (int l = 0; l < n; l++) {
-        const double *y = c->Y[body] + (size_t)l * (size_t)count, factor = y[place];
-        for (int i = 0; i < count; i++)
-            sum[i] += factor * y[i];
-    }
-    for (int i = 0; i < count; i++)
-        x[row[i]] += sum[i];
-}
-
-/* c = a and b, which increase, without what is twice; its length.  The loop has no
- * branches because which one is less follows no pattern. */
-static int unite(int na, const int *a, int nb, const int *b, int *c)
-{
-    int i = 0, j = 0, n = 0;
-    while (i < na && j < nb) {
-        const int x = a[i], y = b[j];
-        c[n++] = x < y ? x : y;
-        i += x <= y;
-        j += y <= x;
-    }
-    memcpy(c + n, a + i, (size_t)(na - i) * sizeof *c);
-    n += na - i;
-    memcpy(c + n, b + j, (size_t)(nb - j) * sizeof *c);
-    return n + nb - j;
-}
-
-/* Room for what all bodies add, which is more than W has where two bodies meet twice. */
-static rb_status room_for_W(const condenser *c, const touches *t, int m, rb_sparse *W)
-{
-    size_t most = 0;
-    const int *row;
-    for (int k = 0; k < t->start[m]; k++)
-        most += (size_t)rows_of(c, t->body[k], t->place[k], &row);
-    if (most > INT_MAX)
-        return RB_ENOMEM;
-    *W = (rb_sparse){.rows = m,
-                     .cols = m,
-                     .p = rb_alloc_int((size_t)m + 1),
-                     .i = rb_alloc_int(most),
-                     .x = rb_alloc(most, 1)};
-    return W->p && W->i && W->x ? RB_OK : RB_ENOMEM;
 }
 
 /* The rows of column j, increasing, into row; other: scratch.  The columns of one contact
@@ -341,26 +263,83 @@ static int list_rows(const condenser *c, const touches *t, int j, const rb_spars
         return count;
     }
     for (int k = first; k < t->start[j + 1]; k++) {
-        const int *more, n = rows_of(c, t->body[k], t->place[k], &more);
-        memcpy(other, row, (size_t)count * sizeof *row);
-        count = unite(count, other, n, more, row);
+        /* The union of two increasing lists.  The loop has no branches because which one
+         * is less follows no pattern. */
+        const int *more, n = rows_of(c, t->body[k], t->place[k], &more), had = count;
+        memcpy(other, row, (size_t)had * sizeof *row);
+        int a = 0, b = 0;
+        for (count = 0; a < had && b < n; count++) {
+            const int x = other[a], y = more[b];
+            row[count] = x < y ? x : y;
+            a += x <= y;
+            b += y <= x;
+        }
+        memcpy(row + count, other + a, (size_t)(had - a) * sizeof *row);
+        count += had - a;
+        memcpy(row + count, more + b, (size_t)(n - b) * sizeof *row);
+        count += n - b;
     }
     return count;
 }
 
 static rb_status assemble(const condenser *c, int m, rb_sparse *W)
 {
-    touches t = {0};
+    const int touching = c->columns_of[c->bodies];
     double *x = rb_alloc((size_t)m, 2);
     int *other = rb_alloc_int((size_t)m);
-    rb_status s = x && other ? list_touches(c, m, &t) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = room_for_W(c, &t, m, W);
+    touches t = {.start = rb_alloc_int((size_t)m + 2 + 2 * (size_t)touching)};
+    rb_status s = x && other && t.start ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        t.body = t.start + m + 2;
+        t.place = t.body + touching;
+        int *next = t.start + 1; /* as in find_bodies */
+        for (int k = 0; k < touching; k++)
+            next[c->column[k] + 1]++;
+        for (int j = 0; j < m; j++)
+            next[j + 1] += next[j];
+        for (int b = 0; b < c->bodies; b++)
+            for (int k = c->columns_of[b]; k < c->columns_of[b + 1]; k++) {
+                const int at = next[c->column[k]]++;
+                t.body[at] = b;
+                t.place[at] = k - c->columns_of[b];
+            }
+        /* Room for what all bodies add, which is more than W has where two bodies meet
+         * twice. */
+        size_t most = 0;
+        const int *row;
+        for (int k = 0; k < t.start[m]; k++)
+            most += (size_t)rows_of(c, t.body[k], t.place[k], &row);
+        if (most <= INT_MAX)
+            *W = (rb_sparse){.rows = m,
+                             .cols = m,
+                             .p = rb_alloc_int((size_t)m + 1),
+                             .i = rb_alloc_int(most),
+                             .x = rb_alloc(most, 1)};
+        if (!W->p || !W->i || !W->x)
+            s = RB_ENOMEM;
+    }
     for (int j = 0; s == RB_OK && j < m; j++) {
         int *row = W->i + W->p[j];
         const int count = list_rows(c, &t, j, W, other, row);
-        for (int k = t.start[j]; k < t.start[j + 1]; k++)
-            add_column(c, t.body[k], t.place[k], x + m, x);
+        /* x = the sum of the bodies' columns; Y_b' Y_b is symmetric as it stands. */
+        for (int k = t.start[j]; k < t.start[j + 1]; k++) {
+            const int body = t.body[k], place = t.place[k];
+            const int *at, rows = rows_of(c, body, place, &at);
+            const rb_sparse *w = &c->W[body];
+            for (int l = 0; w->p && l < rows; l++)
+                x[at[l]] += w->x[w->p[place] + l];
+            if (w->p)
+                continue;
+            double *sum = x + m;
+            memset(sum, 0, (size_t)rows * sizeof *sum);
+            for (int l = 0; l < c->dofs_of[body + 1] - c->dofs_of[body]; l++) {
+                const double *y = c->Y[body] + (size_t)l * (size_t)rows, factor = y[place];
+                for (int i = 0; i < rows; i++)
+                    sum[i] += factor * y[i];
+            }
+            for (int i = 0; i < rows; i++)
+                x[at[i]] += sum[i];
+        }
         for (int k = 0; k < count; k++) {
             W->x[W->p[j] + k] = x[row[k]];
             x[row[k]] = 0.0;
@@ -370,57 +349,6 @@ static rb_status assemble(const condenser *c, int m, rb_sparse *W)
     free(t.start);
     free(other);
     free(x);
-    return s;
-}
-
-static rb_status condense(condenser *c, rb_friction_problem *local)
-{
-    const size_t n = (size_t)c->p->dofs, m = (size_t)c->p->H.cols;
-    c->body = rb_alloc_int(n);
-    c->number = rb_alloc_int(n);
-    c->f = rb_alloc(n, 1);
-    c->v = rb_alloc(n, 1);
-    rb_status s = c->body && c->number && c->f && c->v ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK)
-        s = rb_sparse_components(&c->p->K, &c->bodies, c->body);
-    if (s == RB_OK) {
-        rb_status status = list_columns(c);
-        if (status == RB_OK)
-            status = join_bodies(c);
-        free(c->column);
-        free(c->columns_of);
-        c->column = c->columns_of = NULL;
-        if (status == RB_OK)
-            status = list_columns(c);
-        s = status == RB_OK ? list_dofs(c) : status;
-        const size_t bodies = c->bodies > 0 ? (size_t)c->bodies : 1;
-        c->Y = calloc(bodies, sizeof *c->Y);
-        c->W = calloc(bodies, sizeof *c->W);
-        if (s == RB_OK && !(c->Y && c->W))
-            s = RB_ENOMEM;
-        for (int body = 0; s == RB_OK && body < c->bodies; body++)
-            s = c->dofs_of[body + 1] - c->dofs_of[body] <= MOST_DOFS
-                    ? condense_small(c, body, local->q)
-                    : condense_large(c, body, local->q);
-    }
-    if (s == RB_OK)
-        s = assemble(c, (int)m, &local->Ws);
-    for (int b = 0; b < c->bodies; b++) {
-        if (c->Y)
-            free(c->Y[b]);
-        if (c->W)
-            rb_sparse_free(&c->W[b]);
-    }
-    free(c->W);
-    free(c->Y);
-    free(c->v);
-    free(c->f);
-    free(c->columns_of);
-    free(c->column);
-    free(c->dofs_of);
-    free(c->dof);
-    free(c->number);
-    free(c->body);
     return s;
 }
 
@@ -434,10 +362,38 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
                                    .contacts = global->contacts,
                                    .mu = rb_copy((size_t)global->contacts, global->mu),
                                    .q = rb_copy(m, global->w)};
-    rb_status s = local->mu && local->q ? RB_OK : RB_ENOMEM;
+    rb_status s = local->mu && local->q ? find_bodies(&c) : RB_ENOMEM;
+    if (s == RB_OK) {
+        const size_t n = (size_t)global->dofs, bodies = c.bodies > 0 ? (size_t)c.bodies : 1;
+        c.f = rb_alloc(n, 1);
+        c.v = rb_alloc(n, 1);
+        c.Y = calloc(bodies, sizeof *c.Y);
+        c.W = calloc(bodies, sizeof *c.W);
+        if (!c.f || !c.v || !c.Y || !c.W)
+            s = RB_ENOMEM;
+    }
+    for (int body = 0; s == RB_OK && body < c.bodies; body++)
+        s = c.dofs_of[body + 1] - c.dofs_of[body] <= MOST_DOFS ? condense_small(&c, body, local->q)
+                                                               : condense_large(&c, body, local->q);
     if (s == RB_OK)
-        s = condense(&c, local);
+        s = assemble(&c, (int)m, &local->Ws);
     *flops += c.flops;
+    for (int b = 0; b < c.bodies; b++) {
+        if (c.Y)
+            free(c.Y[b]);
+        if (c.W)
+            rb_sparse_free(&c.W[b]);
+    }
+    free(c.W);
+    free(c.Y);
+    free(c.v);
+    free(c.f);
+    free(c.columns_of);
+    free(c.column);
+    free(c.dofs_of);
+    free(c.dof);
+    free(c.number);
+    free(c.body);
     if (s != RB_OK)
         rb_friction_problem_free(local);
     if (s != RB_SINGULAR)

@@ -45,51 +45,25 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_m
 /* Below this share of entries a dense W is kept sparse. */
 #define SPARSE_FILL 0.5
 
-static rb_status adopt_siconos(rb_io_friction *file, rb_friction_problem *p)
-{
-    const size_t m = (size_t)file->dimension * (size_t)file->contacts;
-    rb_sparse w;
-    rb_status s = rb_io_matrix_to_sparse(&file->W, &w);
-    if (s != RB_OK)
-        return s;
-    *p = (rb_friction_problem){
-        .form = RB_FRICTION_LOCAL_SPARSE, .dimension = file->dimension, .contacts = file->contacts};
-    if ((double)w.p[w.cols] <= SPARSE_FILL * (double)m * (double)m) {
-        p->Ws = w;
-    } else {
-        rb_sparse_free(&w);
-        s = rb_io_matrix_to_dense(&file->W);
-        p->form = RB_FRICTION_LOCAL_DENSE;
-        p->W = file->W.dense;
-        file->W.dense = NULL;
-    }
-    p->q = file->q;
-    p->mu = file->mu;
-    file->q = file->mu = NULL;
-    return s;
-}
-
-/* Takes over the vectors of the file. */
-static rb_status adopt_global(rb_io_friction_global *file, rb_friction_problem *p)
-{
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = file->dimension,
-                               .contacts = file->contacts,
-                               .mu = file->mu,
-                               .dofs = file->M.rows,
-                               .f = file->f,
-                               .w = file->w};
-    file->mu = file->f = file->w = NULL;
-    const rb_status s = rb_io_matrix_to_sparse(&file->M, &p->K);
-    return s == RB_OK ? rb_io_matrix_to_sparse(&file->H, &p->H) : s;
-}
-
 static rb_status read_global(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_io_friction_global file = {0};
     rb_status s = rb_io_siconos_read_friction_global(path, &file, why);
-    if (s == RB_OK && (s = adopt_global(&file, problem)) != RB_OK)
-        rb_fail(why, s, "%s: out of memory", path);
+    if (s == RB_OK) {
+        *problem = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                                         .dimension = file.dimension,
+                                         .contacts = file.contacts,
+                                         .mu = file.mu,
+                                         .dofs = file.M.rows,
+                                         .f = file.f,
+                                         .w = file.w};
+        file.mu = file.f = file.w = NULL;
+        s = rb_io_matrix_to_sparse(&file.M, &problem->K);
+        if (s == RB_OK)
+            s = rb_io_matrix_to_sparse(&file.H, &problem->H);
+        if (s != RB_OK)
+            rb_fail(why, s, "%s: out of memory", path);
+    }
     rb_io_friction_global_free(&file);
     return s;
 }
@@ -101,8 +75,25 @@ static rb_status read_text(const char *path, rb_friction_problem *problem, rb_me
     rb_message other = {""};
     rb_io_friction file = {0};
     rb_status s = rb_io_siconos_read_friction(path, &file, why);
-    if (s == RB_OK)
-        s = adopt_siconos(&file, problem);
+    if (s == RB_OK) {
+        const double m = (double)file.dimension * file.contacts;
+        rb_sparse w = {0};
+        s = rb_io_matrix_to_sparse(&file.W, &w);
+        *problem = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
+                                         .dimension = file.dimension,
+                                         .contacts = file.contacts,
+                                         .Ws = w,
+                                         .q = file.q,
+                                         .mu = file.mu};
+        file.q = file.mu = NULL;
+        if (s == RB_OK && w.p[w.cols] > SPARSE_FILL * m * m) {
+            rb_sparse_free(&problem->Ws);
+            s = rb_io_matrix_to_dense(&file.W);
+            problem->form = RB_FRICTION_LOCAL_DENSE;
+            problem->W = file.W.dense;
+            file.W.dense = NULL;
+        }
+    }
     rb_io_friction_free(&file);
     const rb_status t = s == RB_EFORMAT ? read_global(path, problem, &other) : s;
     if (t == RB_ENOMEM && s == RB_EFORMAT)
@@ -170,45 +161,42 @@ void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data)
     *data = (rb_friction_soclcp_data){0};
 }
 
-static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file, rb_friction_soclcp_data *d,
-                              rb_message *why)
-{
-    for (int c = 0; c < file->cones; c++)
-        if (!(file->tau[c] > 0.0))
-            return rb_fail(why, RB_EFORMAT, "%s: slope of cone %d is %g, expected > 0", path, c + 1,
-                           file->tau[c]);
-    rb_status s = rb_io_matrix_to_dense(&file->M);
-    d->size = rb_alloc_int((size_t)file->cones);
-    if (s != RB_OK || !d->size)
-        return RB_ENOMEM;
-    d->M = file->M.dense;
-    d->q = file->q;
-    d->tau = file->tau;
-    file->M.dense = file->q = file->tau = NULL;
-    /* S^-1 M S^-1 and S^-1 q, S = tau on the first entry of every cone */
-    const size_t n = (size_t)file->n;
-    for (int c = 0; c < file->cones; c++) {
-        const size_t first = (size_t)file->start[c];
-        d->size[c] = file->start[c + 1] - file->start[c];
-        if (d->size[c] == 1) /* a half-line has no slope */
-            d->tau[c] = 1.0;
-        for (size_t i = 0; i < n; i++)
-            d->M[i + first * n] /= d->tau[c];
-        for (size_t j = 0; j < n; j++)
-            d->M[first + j * n] /= d->tau[c];
-        d->q[first] /= d->tau[c];
-    }
-    d->problem = (rb_friction_soclcp_problem){file->n, d->M, d->q, file->cones, d->size};
-    return RB_OK;
-}
-
 rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data, rb_message *why)
 {
     rb_io_soclcp file = {0};
     *data = (rb_friction_soclcp_data){0};
     rb_status s = rb_io_siconos_read_soclcp(path, &file, why);
-    if (s == RB_OK)
-        s = adopt_soclcp(path, &file, data, why);
+    for (int c = 0; s == RB_OK && c < file.cones; c++)
+        if (!(file.tau[c] > 0.0))
+            s = rb_fail(why, RB_EFORMAT, "%s: slope of cone %d is %g, expected > 0", path, c + 1,
+                        file.tau[c]);
+    if (s == RB_OK) {
+        s = rb_io_matrix_to_dense(&file.M);
+        data->size = rb_alloc_int((size_t)file.cones);
+        if (!data->size)
+            s = RB_ENOMEM;
+    }
+    if (s == RB_OK) {
+        data->M = file.M.dense;
+        data->q = file.q;
+        data->tau = file.tau;
+        file.M.dense = file.q = file.tau = NULL;
+        /* S^-1 M S^-1 and S^-1 q, S = tau on the first entry of every cone */
+        const size_t n = (size_t)file.n;
+        for (int c = 0; c < file.cones; c++) {
+            const size_t first = (size_t)file.start[c];
+            data->size[c] = file.start[c + 1] - file.start[c];
+            if (data->size[c] == 1) /* a half-line has no slope */
+                data->tau[c] = 1.0;
+            for (size_t i = 0; i < n; i++)
+                data->M[i + first * n] /= data->tau[c];
+            for (size_t j = 0; j < n; j++)
+                data->M[first + j * n] /= data->tau[c];
+            data->q[first] /= data->tau[c];
+        }
+        data->problem =
+            (rb_friction_soclcp_problem){file.n, data->M, data->q, file.cones, data->size};
+    }
     rb_io_soclcp_free(&file);
     if (s != RB_OK)
         rb_friction_soclcp_data_free(data);
@@ -217,43 +205,36 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-/* solution: may be NULL, as its parts. */
-static rb_status describe(const rb_friction_problem *p, const rb_friction_solution *solution,
-                          rb_io_fclib *file)
-{
-    const int m = p->dimension * p->contacts, global = p->form == RB_FRICTION_GLOBAL;
-    const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
-    *file = (rb_io_fclib){.global = global, .spacedim = p->dimension, .contacts = p->contacts};
-    const struct {
-        const double *from;
-        int n;
-        double **to;
-    } vectors[] = {{p->mu, p->contacts, &file->mu},
-                   {global ? NULL : p->q, m, &file->q},
-                   {global ? p->f : NULL, p->dofs, &file->f},
-                   {global ? p->w : NULL, m, &file->w},
-                   {x.r, m, &file->r},
-                   {x.u, m, &file->u},
-                   {global ? x.v : NULL, p->dofs, &file->v}};
-    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
-        if (vectors[k].from && !(*vectors[k].to = rb_copy((size_t)vectors[k].n, vectors[k].from)))
-            return RB_ENOMEM;
-    if (p->form == RB_FRICTION_LOCAL_DENSE)
-        return rb_sparse_from_dense(m, m, p->W, m, &file->W);
-    if (!global)
-        return rb_sparse_copy(&p->Ws, &file->W);
-    const rb_status s = rb_sparse_copy(&p->K, &file->M);
-    return s == RB_OK ? rb_sparse_copy(&p->H, &file->H) : s;
-}
-
 rb_status rb_friction_write(const char *path, const rb_friction_problem *p,
                             const rb_friction_solution *solution, const char *title,
                             rb_message *why)
 {
-    rb_io_fclib file;
+    const int m = p->dimension * p->contacts, global = p->form == RB_FRICTION_GLOBAL;
+    const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
+    rb_io_fclib file = {.global = global, .spacedim = p->dimension, .contacts = p->contacts};
+    const struct {
+        const double *from;
+        int n;
+        double **to;
+    } vectors[] = {{p->mu, p->contacts, &file.mu},
+                   {global ? NULL : p->q, m, &file.q},
+                   {global ? p->f : NULL, p->dofs, &file.f},
+                   {global ? p->w : NULL, m, &file.w},
+                   {x.r, m, &file.r},
+                   {x.u, m, &file.u},
+                   {global ? x.v : NULL, p->dofs, &file.v}};
+    rb_status s = RB_OK;
     if (p->lengths)
         return rb_fail(why, RB_EINVAL, "%s: rolling friction cannot be written", path);
-    rb_status s = describe(p, solution, &file);
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        if (vectors[k].from && !(*vectors[k].to = rb_copy((size_t)vectors[k].n, vectors[k].from)))
+            s = RB_ENOMEM;
+    if (s == RB_OK && global)
+        s = rb_sparse_copy(&p->K, &file.M);
+    if (s == RB_OK)
+        s = global                               ? rb_sparse_copy(&p->H, &file.H)
+            : p->form == RB_FRICTION_LOCAL_DENSE ? rb_sparse_from_dense(m, m, p->W, m, &file.W)
+                                                 : rb_sparse_copy(&p->Ws, &file.W);
     if (s == RB_OK)
         s = rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, title, "written by rollbem", why);
     rb_io_fclib_free(&file);

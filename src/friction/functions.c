@@ -147,35 +147,6 @@ static void arrow(int d, const double *x, double *L)
         L[a] = L[a * d] = x[a];
 }
 
-/* w = (x^2 + y^2)^(1/2), and L_w^-1 with its eigenvalues kept above `least` */
-static void root_of_squares(int d, const double *x, const double *y, double least, double *w,
-                            double *inverse)
-{
-    double s0 = 0.0, s[3] = {0.0, 0.0, 0.0}, t = 0.0;
-    for (int a = 0; a < d; a++)
-        s0 += x[a] * x[a] + y[a] * y[a];
-    for (int a = 1; a < d; a++) {
-        s[a] = 2.0 * (x[0] * x[a] + y[0] * y[a]);
-        t = hypot(t, s[a]);
-    }
-    const double lo = sqrt(fmax(0.0, s0 - t)), hi = sqrt(s0 + t);
-    for (int a = 1; a < d; a++) {
-        s[a] = t > 0.0 ? s[a] / t : 0.0;
-        w[a] = 0.5 * (hi - lo) * s[a];
-    }
-    w[0] = 0.5 * (hi + lo);
-    /* L_w has the eigenvalues lo, hi, and w0 across: invert on its eigenvectors */
-    const double il = 1.0 / fmax(lo, least), ih = 1.0 / fmax(hi, least);
-    const double across = 1.0 / fmax(w[0], least);
-    identity(d, across, inverse);
-    inverse[0] = 0.5 * (il + ih);
-    for (int a = 1; a < d; a++) {
-        inverse[a] = inverse[a * d] = 0.5 * (ih - il) * s[a];
-        for (int b = 1; b < d; b++)
-            inverse[a + b * d] += (0.5 * (il + ih) - across) * s[a] * s[b];
-    }
-}
-
 /* x + y - (x^2 + y^2)^(1/2), x = (mu r_N, r_T), y = rho (uhat_N, mu u_T), both in the
  * Lorentz cone */
 void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *r, const double *u,
@@ -195,14 +166,38 @@ void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *
         at->B[0] = rho * (1.0 - (w > 0.0 ? y / w : M_SQRT1_2));
         return;
     }
-    double uhat[3], G[9], x[3], y[3], w[3], L[9] = {0}, P[9], inverse[9], size = 0.0;
+    double uhat[3], G[9], x[3], y[3], w[3], s[3] = {0}, L[9] = {0}, P[9], inverse[9], size = 0.0;
     de_saxce(d, mu, u, uhat, G);
     for (int a = 0; a < d; a++) {
         x[a] = a ? r[a] : mu * r[a];
         y[a] = rho * (a ? mu * uhat[a] : uhat[a]);
         size += fabs(x[a]) + fabs(y[a]);
     }
-    root_of_squares(d, x, y, size > 0.0 ? 1e-12 * size : 1.0, w, inverse);
+    /* w = (x^2 + y^2)^(1/2) by the eigenvalues lo, hi, and w0 across, of L_w; their inverses,
+     * kept finite, are those of L_w^-1 on the same eigenvectors. */
+    const double least = size > 0.0 ? 1e-12 * size : 1.0;
+    double s0 = 0.0, t = 0.0;
+    for (int a = 0; a < d; a++)
+        s0 += x[a] * x[a] + y[a] * y[a];
+    for (int a = 1; a < d; a++) {
+        s[a] = 2.0 * (x[0] * x[a] + y[0] * y[a]);
+        t = hypot(t, s[a]);
+    }
+    const double lo = sqrt(fmax(0.0, s0 - t)), hi = sqrt(s0 + t);
+    for (int a = 1; a < d; a++) {
+        s[a] = t > 0.0 ? s[a] / t : 0.0;
+        w[a] = 0.5 * (hi - lo) * s[a];
+    }
+    w[0] = 0.5 * (hi + lo);
+    const double il = 1.0 / fmax(lo, least), ih = 1.0 / fmax(hi, least);
+    const double across = 1.0 / fmax(w[0], least);
+    identity(d, across, inverse);
+    inverse[0] = 0.5 * (il + ih);
+    for (int a = 1; a < d; a++) {
+        inverse[a] = inverse[a * d] = 0.5 * (ih - il) * s[a];
+        for (int b = 1; b < d; b++)
+            inverse[a + b * d] += (0.5 * (il + ih) - across) * s[a] * s[b];
+    }
     for (int a = 0; a < d; a++)
         F[a] = x[a] + y[a] - w[a];
     arrow(d, x, L);

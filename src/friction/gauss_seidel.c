@@ -133,24 +133,6 @@ static inline double relax(int d, sweeper *s, int c)
     return change;
 }
 
-/* ||r_{k+1} - r_k|| / ||r_{k+1}||, (14) */
-static double sweep(sweeper *s)
-{
-    const rb_friction_task *t = s->task;
-    double change = 0.0;
-    if (t->d == 2)
-        for (int c = 0; c < t->contacts; c++)
-            change += relax(2, s, c);
-    else
-        for (int c = 0; c < t->contacts; c++)
-            change += relax(3, s, c);
-    t->info->iters++;
-    t->info->flops += 2.0 * t->d * t->d * s->touched + 80.0 * s->steps;
-    s->touched = s->steps = 0.0;
-    const double norm = rb_friction_norm((size_t)t->m, t->r);
-    return norm > 0.0 ? sqrt(change) / norm : sqrt(change);
-}
-
 /* What rounding of the velocities kept up cannot reach. */
 #define SAFE_TOLERANCE 1e-12
 
@@ -178,26 +160,23 @@ static double look(sweeper *s, int refresh)
 #define STALL_SWEEPS 100
 #define REST 100
 
-static rb_status start_acceleration(sweeper *s)
-{
-    const size_t m = (size_t)s->task->m;
-    acceleration *a = s->faster = calloc(1, sizeof *a);
-    if (!a)
-        return RB_ENOMEM;
-    a->start = rb_alloc(m, 3);
-    a->kept = a->start + m;
-    a->rest = REST;
-    a->fresh = 1;
-    return a->start ? rb_anderson_init(s->task->m, &a->anderson) : RB_ENOMEM;
-}
-
 /* The next sweep starts from where the last ones point to. */
 static rb_status accelerate(sweeper *s, double change)
 {
     rb_friction_task *t = s->task;
-    if (!s->faster && start_acceleration(s) != RB_OK)
-        return RB_ENOMEM;
     acceleration *a = s->faster;
+    if (!a) {
+        const size_t m = (size_t)t->m;
+        a = s->faster = calloc(1, sizeof *a);
+        if (!a)
+            return RB_ENOMEM;
+        a->start = rb_alloc(m, 3);
+        a->kept = a->start + m;
+        a->rest = REST;
+        a->fresh = 1;
+        if (!a->start || rb_anderson_init(t->m, &a->anderson) != RB_OK)
+            return RB_ENOMEM;
+    }
     if (a->plain > 0 && --a->plain > 0)
         return RB_OK;
     if (a->fresh || change < FALL * a->least) {
@@ -228,38 +207,6 @@ static rb_status accelerate(sweeper *s, double change)
 #define STALL_FROM 16
 #define STALL 0.85
 
-/* After a sweep, which changed r by `change` (14); RB_MAXITER: it goes on. */
-static rb_status assess(sweeper *s, double change, int *stalled)
-{
-    rb_friction_task *t = s->task;
-    *stalled = 0;
-    if (s->failed != RB_OK)
-        return s->failed;
-    if (rb_friction_task_late(t))
-        return RB_INTERRUPTED;
-    /* Early on, where a few sweeps may do, it looks at every power of two. */
-    if (change > s->tau && !(s->k % LOOK_EVERY == 0 || s->k == s->limit ||
-                             (s->k < LOOK_EVERY && (s->k & (s->k - 1)) == 0)))
-        return RB_MAXITER;
-    const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
-    if (rb_friction_task_accepts(t, error))
-        return RB_OK;
-    if (!isfinite(error))
-        return RB_SINGULAR;
-    if (change <= LEAST_CHANGE)
-        return RB_INACCURATE;
-    /* The measure has hardly fallen while the number of sweeps doubled. */
-    if (s->k < STALL_FROM / 2 || (s->k & (s->k - 1)) != 0)
-        *stalled = 0;
-    else {
-        const double before = s->before;
-        s->before = error;
-        *stalled = s->k >= STALL_FROM && error > STALL * before;
-    }
-    s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
-    return RB_MAXITER;
-}
-
 static rb_status go_on_sweeping(void *state)
 {
     sweeper *s = state;
@@ -267,12 +214,43 @@ static rb_status go_on_sweeping(void *state)
     if (s->k == 0 && t->opt.r0 && rb_friction_task_accepts(t, look(s, 0)))
         return RB_OK;
     while (s->k < s->limit && rb_friction_task_goes_on(t)) {
-        int stalled;
-        const double change = sweep(s);
+        double sum = 0.0;
+        if (t->d == 2)
+            for (int c = 0; c < t->contacts; c++)
+                sum += relax(2, s, c);
+        else
+            for (int c = 0; c < t->contacts; c++)
+                sum += relax(3, s, c);
         s->k++;
-        const rb_status st = assess(s, change, &stalled);
-        if (st != RB_MAXITER)
-            return st;
+        t->info->iters++;
+        t->info->flops += 2.0 * t->d * t->d * s->touched + 80.0 * s->steps;
+        s->touched = s->steps = 0.0;
+        const double norm = rb_friction_norm((size_t)t->m, t->r);
+        /* ||r_{k+1} - r_k|| / ||r_{k+1}||, (14) */
+        const double change = norm > 0.0 ? sqrt(sum) / norm : sqrt(sum);
+        if (s->failed != RB_OK)
+            return s->failed;
+        if (rb_friction_task_late(t))
+            return RB_INTERRUPTED;
+        /* Early on, where a few sweeps may do, it looks at every power of two. */
+        const int power_of_two = (s->k & (s->k - 1)) == 0;
+        int stalled = 0;
+        if (change <= s->tau || s->k % LOOK_EVERY == 0 || s->k == s->limit ||
+            (s->k < LOOK_EVERY && power_of_two)) {
+            const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
+            if (rb_friction_task_accepts(t, error))
+                return RB_OK;
+            if (!isfinite(error))
+                return RB_SINGULAR;
+            if (change <= LEAST_CHANGE)
+                return RB_INACCURATE;
+            if (s->k >= STALL_FROM / 2 && power_of_two) {
+                /* The measure has hardly fallen while the number of sweeps doubled. */
+                stalled = s->k >= STALL_FROM && error > STALL * s->before;
+                s->before = error;
+            }
+            s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
+        }
         if ((s->flags & RB_FRICTION_SWEEP_ANDERSON) && s->k < s->limit &&
             accelerate(s, change) != RB_OK)
             return RB_ENOMEM;

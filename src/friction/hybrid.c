@@ -25,35 +25,6 @@ static rb_status plain_newton(rb_friction_task *task)
                            STEPS_BEFORE_SEARCH);
 }
 
-static rb_status few_sweeps(rb_friction_task *task, const double *start)
-{
-    const double before = rb_friction_task_error(task);
-    const rb_status st =
-        rb_friction_run(task, &rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
-    if (!goes_on(st))
-        return st;
-    if (rb_friction_task_error(task) > WORTH * before)
-        memcpy(task->r, start, (size_t)task->m * sizeof *start);
-    return plain_newton(task);
-}
-
-/* Where that cycles: the hundred sweeps of *Acary*, Newton from there, and if need be
- * once more with line search.  rough: m, workspace */
-static rb_status many_sweeps(rb_friction_task *task, double *rough)
-{
-    const size_t bytes = (size_t)task->m * sizeof *rough;
-    rb_status st = rb_friction_run(task, &rb_friction_sweeps, 0, MANY_SWEEPS);
-    if (!goes_on(st))
-        return st;
-    memcpy(rough, task->r, bytes);
-    st = plain_newton(task);
-    if (!goes_on(st))
-        return st;
-    memcpy(task->r, rough, bytes);
-    return rb_friction_run(task, &rb_friction_newton,
-                           RB_FRICTION_ALART_CURNIER | RB_FRICTION_LINE_SEARCH, 0);
-}
-
 static rb_status run_hybrid(rb_friction_task *task, int variant)
 {
     const size_t bytes = (size_t)task->m * sizeof(double);
@@ -61,11 +32,30 @@ static rb_status run_hybrid(rb_friction_task *task, int variant)
     if (!start)
         return RB_ENOMEM;
     memcpy(start, task->r, bytes);
-    const int as_printed = variant & RB_FRICTION_HUNDRED_SWEEPS;
-    rb_status st = as_printed ? RB_MAXITER : few_sweeps(task, start);
+    rb_status st = RB_MAXITER;
+    if (!(variant & RB_FRICTION_HUNDRED_SWEEPS)) {
+        const double before = rb_friction_task_error(task);
+        st = rb_friction_run(task, &rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
+        if (goes_on(st)) {
+            if (rb_friction_task_error(task) > WORTH * before)
+                memcpy(task->r, start, bytes);
+            st = plain_newton(task);
+        }
+        if (goes_on(st))
+            memcpy(task->r, start, bytes);
+    }
+    /* Where that cycles: the hundred sweeps of *Acary*, Newton from there, and if need be
+     * once more with line search. */
     if (goes_on(st)) {
-        memcpy(task->r, start, bytes);
-        st = many_sweeps(task, start);
+        st = rb_friction_run(task, &rb_friction_sweeps, 0, MANY_SWEEPS);
+        memcpy(start, task->r, bytes);
+        if (goes_on(st))
+            st = plain_newton(task);
+        if (goes_on(st)) {
+            memcpy(task->r, start, bytes);
+            st = rb_friction_run(task, &rb_friction_newton,
+                                 RB_FRICTION_ALART_CURNIER | RB_FRICTION_LINE_SEARCH, 0);
+        }
     }
     free(start);
     return st;

@@ -66,48 +66,6 @@ static double step_length(search *s, double *y)
     return most > 0.0 ? 0.8 / most : 0.0;
 }
 
-/* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), restarted where
- * |y| grows. */
-static void minimise(search *s, double *y)
-{
-    const int d = s->local->dimension, m = d * s->local->contacts;
-    const double work = 4.0 * s->blocks.p[s->blocks.contacts] * d * d;
-    double t = 1.0, last = INFINITY;
-    for (int k = 0; k < STEPS && k * work < OPERATIONS; k++) {
-        /* y and half of |y|^2 at x. */
-        double value = 0.0;
-        for (int c = 0; c < s->local->contacts; c++)
-            for (int a = 0; a < d; a++)
-                s->gradient[c * d + a] = s->rho[2 * c] * s->z[c * d + a];
-        rb_friction_blocks_apply(&s->blocks, s->gradient, s->w);
-        for (int c = 0; c < s->local->contacts; c++) {
-            y[c] = fmax(0.0, -(s->w[c * d] + s->local->q[c * d]));
-            value += 0.5 * y[c] * y[c];
-        }
-        const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
-        const int grows = value > last;
-        double change = 0.0, size = 0.0;
-        transposed(s, y);
-        for (int c = 0; c < s->local->contacts; c++) {
-            double *x = s->x + c * d;
-            for (int a = 0; a < d; a++)
-                x[a] = s->z[c * d + a] - s->length * s->gradient[c * d + a];
-            rb_friction_project(d, s->local->mu[c], x, x);
-        }
-        for (int i = 0; i < m; i++) {
-            const double step = s->x[i] - s->before[i];
-            change = fmax(change, fabs(s->x[i] - s->z[i]));
-            size = fmax(size, fabs(s->x[i]));
-            s->z[i] = s->x[i] + (grows ? 0.0 : (t - 1.0) / next * step);
-            s->before[i] = s->x[i];
-        }
-        t = grows ? 1.0 : next;
-        last = value;
-        if (value == 0.0 || change <= SMALL * size)
-            return;
-    }
-}
-
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least)
 {
     const size_t m = (size_t)(local->dimension * local->contacts);
@@ -127,17 +85,53 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
         s.gradient = s.w + m;
         s.length = step_length(&s, y);
         memset(s.z, 0, m * sizeof *s.z);
-        minimise(&s, y);
+        const int d = local->dimension, nc = local->contacts;
+        const double work = 4.0 * s.blocks.p[nc] * d * d;
+        double t = 1.0, last = INFINITY;
+        /* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), restarted
+         * where |y| grows. */
+        for (int k = 0; k < STEPS && k * work < OPERATIONS; k++) {
+            /* y and half of |y|^2 at x. */
+            double value = 0.0;
+            for (int c = 0; c < nc; c++)
+                for (int a = 0; a < d; a++)
+                    s.gradient[c * d + a] = s.rho[2 * c] * s.z[c * d + a];
+            rb_friction_blocks_apply(&s.blocks, s.gradient, s.w);
+            for (int c = 0; c < nc; c++) {
+                y[c] = fmax(0.0, -(s.w[c * d] + local->q[c * d]));
+                value += 0.5 * y[c] * y[c];
+            }
+            const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
+            const int grows = value > last;
+            double change = 0.0, size = 0.0;
+            transposed(&s, y);
+            for (int c = 0; c < nc; c++) {
+                double *x = s.x + c * d;
+                for (int a = 0; a < d; a++)
+                    x[a] = s.z[c * d + a] - s.length * s.gradient[c * d + a];
+                rb_friction_project(d, local->mu[c], x, x);
+            }
+            for (size_t i = 0; i < m; i++) {
+                const double step = s.x[i] - s.before[i];
+                change = fmax(change, fabs(s.x[i] - s.z[i]));
+                size = fmax(size, fabs(s.x[i]));
+                s.z[i] = s.x[i] + (grows ? 0.0 : (t - 1.0) / next * step);
+                s.before[i] = s.x[i];
+            }
+            t = grows ? 1.0 : next;
+            last = value;
+            if (value == 0.0 || change <= SMALL * size)
+                break;
+        }
         /* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at
          * most `miss`, so that 0 <= y'(A x + q_N) <= y'q_N + miss sum x_N.  0: y proves
          * nothing. */
-        const int d = s.local->dimension;
         double load = 0.0, miss = 0.0;
         transposed(&s, y);
-        for (int c = 0; c < s.local->contacts; c++) {
+        for (int c = 0; c < nc; c++) {
             const double *h = s.gradient + c * d;
-            load += y[c] * s.local->q[c * d];
-            miss = fmax(miss, s.local->mu[c] * rb_friction_tangential(d, h) - h[0]);
+            load += y[c] * local->q[c * d];
+            miss = fmax(miss, local->mu[c] * rb_friction_tangential(d, h) - h[0]);
         }
         if (!(load < 0.0))
             *least = 0.0;

@@ -19,6 +19,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef enum { FORCE, PAIRS, DISPLACEMENT, STIFFNESS } basis_kind; /* PAIRS: 4 n_c */
 
@@ -61,35 +62,6 @@ static void scatter(const rb_sparse *a, double *dense)
     for (int j = 0; j < a->cols; j++)
         for (int k = a->p[j]; k < a->p[j + 1]; k++)
             dense[a->i[k] + (size_t)j * (size_t)a->rows] = a->x[k];
-}
-
-static void load_local(lemke *s, const rb_friction_problem *p)
-{
-    const size_t m = (size_t)s->task->m;
-    if (p->form == RB_FRICTION_LOCAL_SPARSE)
-        scatter(&p->Ws, s->W);
-    for (size_t k = 0; p->form == RB_FRICTION_LOCAL_DENSE && k < m * m; k++)
-        s->W[k] = p->W[k];
-    for (size_t k = 0; k < m; k++)
-        s->q[k] = p->q[k];
-}
-
-/* K singular: W, q with springs, and E = 1 - k W. */
-static rb_status load_held(lemke *s)
-{
-    rb_friction_measure *measure = s->task->measure;
-    const size_t m = (size_t)s->task->m;
-    rb_sparse w = {0};
-    s->E = rb_alloc(m, m);
-    rb_status st = s->E ? rb_friction_measure_spring_load(measure, s->q) : RB_ENOMEM;
-    if (st == RB_OK)
-        st = rb_sparse_cholesky_congruence(measure->factor, &s->task->problem->H, &w);
-    if (st == RB_OK)
-        scatter(&w, s->W);
-    for (size_t k = 0; st == RB_OK && k < m * m; k++)
-        s->E[k] = (k % (m + 1) == 0) - measure->spring * s->W[k];
-    rb_sparse_free(&w);
-    return st;
 }
 
 /* T -> -T in every contact; twice is nothing. */
@@ -146,38 +118,6 @@ static void equations(lemke *s, double *of_force, double *of_displacement)
         s->b[m + c] = 0.0;
 }
 
-/* w = M z + b in the basis of the attempt. */
-static rb_status form(lemke *s, const attempt *a)
-{
-    const size_t n = (size_t)s->n;
-    if (a->kind == FORCE) {
-        if (s->E)
-            return RB_SINGULAR;
-        equations(s, s->M, s->basis); /* the basis is the identity */
-        for (size_t k = 0; k < n * n; k++)
-            s->M[k] = -s->M[k];
-        return RB_OK;
-    }
-    equations(s, s->basis, s->M);
-    if (a->kind == STIFFNESS) /* u- and s- change sides */
-        for (size_t k = n * n - n * n / 3; k < n * n; k++) {
-            const double x = s->basis[k];
-            s->basis[k] = s->M[k];
-            s->M[k] = x;
-        }
-    for (size_t k = 0; k < n * n; k++)
-        s->M[k] = -s->M[k];
-    int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->n, s->n, s->basis, s->n, s->pivots);
-    if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n, s->pivots, s->M,
-                              s->n);
-    if (info == 0)
-        info =
-            LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots, s->b, s->n);
-    s->task->info->flops += 8.0 / 3.0 * (double)n * (double)n * (double)n;
-    return rb_lapack_status(info);
-}
-
 /* Pivots of one attempt: solvable problems take n to 3 n. */
 #define MOST_PIVOTS(n) (10 * (n) + 1000)
 /* Of the first one, which is followed by a form that is safe. */
@@ -193,7 +133,35 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         return RB_MAXITER;
     if (a->mirror)
         mirror(s);
-    rb_status st = form(s, a);
+    /* w = M z + b in the basis of the attempt. */
+    rb_status st = a->kind == FORCE && s->E ? RB_SINGULAR : RB_OK;
+    if (st == RB_OK) {
+        const size_t order = (size_t)s->n, all = order * order;
+        if (a->kind == FORCE)
+            equations(s, s->M, s->basis); /* the basis is the identity */
+        else
+            equations(s, s->basis, s->M);
+        if (a->kind == STIFFNESS) /* u- and s- change sides */
+            for (size_t k = all - all / 3; k < all; k++) {
+                const double x = s->basis[k];
+                s->basis[k] = s->M[k];
+                s->M[k] = x;
+            }
+        for (size_t k = 0; k < all; k++)
+            s->M[k] = -s->M[k];
+        int code = 0;
+        if (a->kind != FORCE) {
+            code = LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->n, s->n, s->basis, s->n, s->pivots);
+            t->info->flops += 8.0 / 3.0 * (double)all * (double)order;
+        }
+        if (a->kind != FORCE && code == 0)
+            code = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n, s->pivots,
+                                  s->M, s->n);
+        if (a->kind != FORCE && code == 0)
+            code = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots, s->b,
+                                  s->n);
+        st = rb_lapack_status(code);
+    }
     if (st == RB_OK) {
         for (int c = 0; c < s->nc; c++) {
             const double two_mu = 2.0 * s->task->problem->mu[c];
@@ -237,20 +205,16 @@ static rb_status run_attempt(lemke *s, const attempt *a)
     return st;
 }
 
-/* W is sparse, and its tableau would not be. */
-static int is_sparse(const rb_friction_problem *w)
-{
-    const double m = w->dimension * w->contacts;
-    return w->form == RB_FRICTION_LOCAL_SPARSE && w->Ws.p[w->Ws.cols] < 0.25 * m * m;
-}
-
 static rb_status try(lemke *s, const attempt *a)
 {
     rb_friction_task *t = s->task;
     const rb_friction_problem *w = t->shared->local;
     if (a->kind == PAIRS)
         return w ? rb_friction_lemke_pairs(t) : RB_SINGULAR;
-    if (a == attempts && (!w || is_sparse(w)))
+    const double order = t->m;
+    const int is_sparse = w && w->form == RB_FRICTION_LOCAL_SPARSE;
+    /* No tableau where W is sparse, which the tableau would not be. */
+    if (a == attempts && (!w || (is_sparse && w->Ws.p[w->Ws.cols] < 0.25 * order * order)))
         return RB_SINGULAR;
     rb_status st = RB_OK;
     if (!s->M) { /* no dense attempt was made yet */
@@ -270,23 +234,32 @@ static rb_status try(lemke *s, const attempt *a)
         st = s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover && s->pivots
                  ? RB_OK
                  : RB_ENOMEM;
-        if (st == RB_OK) {
-            if (s->task->shared->local)
-                load_local(s, s->task->shared->local);
+        if (st == RB_OK && w) {
+            if (is_sparse)
+                scatter(&w->Ws, s->W);
             else
-                st = load_held(s);
-            if (st == RB_OK) {
-                const size_t order = (size_t)s->task->m;
-                double trace = 0.0;
-                for (size_t k = 0; k < order; k++)
-                    trace += fabs(s->W[k * (order + 1)]);
-                s->unit = trace > 0.0 ? (double)order / trace : 1.0;
-                for (size_t k = 0; k < order * order; k++)
-                    s->W[k] *= s->unit;
-                for (size_t k = 0; k < order; k++)
-                    s->q[k] *= s->unit;
-            }
+                memcpy(s->W, w->W, m * m * sizeof *s->W);
+            memcpy(s->q, w->q, m * sizeof *s->q);
+        } else if (st == RB_OK) { /* K singular: W, q with springs k, and E = 1 - k W */
+            rb_sparse held = {0};
+            s->E = rb_alloc(m, m);
+            st = s->E ? rb_friction_measure_spring_load(t->measure, s->q) : RB_ENOMEM;
+            if (st == RB_OK)
+                st = rb_sparse_cholesky_congruence(t->measure->factor, &t->problem->H, &held);
+            if (st == RB_OK)
+                scatter(&held, s->W);
+            for (size_t k = 0; st == RB_OK && k < m * m; k++)
+                s->E[k] = (k % (m + 1) == 0) - t->measure->spring * s->W[k];
+            rb_sparse_free(&held);
         }
+        double trace = 0.0;
+        for (size_t k = 0; st == RB_OK && k < m; k++)
+            trace += fabs(s->W[k * (m + 1)]);
+        s->unit = trace > 0.0 ? (double)m / trace : 1.0;
+        for (size_t k = 0; st == RB_OK && k < m * m; k++)
+            s->W[k] *= s->unit;
+        for (size_t k = 0; st == RB_OK && k < m; k++)
+            s->q[k] *= s->unit;
     }
     return st == RB_OK ? run_attempt(s, a) : st;
 }

@@ -20,30 +20,6 @@ static void put(rb_triplets *t, int row, int col, double x)
         rb_triplets_add(t, row, col, x);
 }
 
-static rb_status form_matrix(const rb_friction_blocks *w, const double *mu, double unit,
-                             rb_sparse *M)
-{
-    static const double sign[] = {1.0, 1.0, -1.0};
-    const int nc = w->contacts;
-    rb_triplets t = {.rows = 4 * nc, .cols = 4 * nc};
-    for (int c = 0; c < nc; c++) {
-        for (int k = w->p[c]; k < w->p[c + 1]; k++)
-            for (int a = 0; a < 3; a++)
-                for (int b = 0; b < 3; b++) {
-                    const double x = w->x[4 * (size_t)k + (a > 0) + 2 * (b > 0)];
-                    put(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / unit);
-                }
-        put(&t, nc + c, 3 * nc + c, 1.0);
-        put(&t, 2 * nc + c, 3 * nc + c, 1.0);
-        put(&t, 3 * nc + c, c, mu[c]);
-        put(&t, 3 * nc + c, nc + c, -1.0);
-        put(&t, 3 * nc + c, 2 * nc + c, -1.0);
-    }
-    const rb_status s = rb_sparse_from_triplets(&t, M);
-    rb_triplets_free(&t);
-    return s;
-}
-
 /* A pivot solves with the LU of a part of M and applies a hundred exchanges or so. */
 double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots)
 {
@@ -72,7 +48,23 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
         sum += fabs(x[0]) + fabs(x[3]);
     }
     const double unit = sum > 0.0 ? sum / (2.0 * w->contacts) : 1.0;
-    s = q ? form_matrix(w, local->mu, unit, &M) : RB_ENOMEM;
+    static const double sign[] = {1.0, 1.0, -1.0};
+    rb_triplets t = {.rows = 4 * nc, .cols = 4 * nc};
+    for (int c = 0; c < nc; c++) {
+        for (int k = w->p[c]; k < w->p[c + 1]; k++)
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++) {
+                    const double x = w->x[4 * (size_t)k + (a > 0) + 2 * (b > 0)];
+                    put(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / unit);
+                }
+        put(&t, nc + c, 3 * nc + c, 1.0);
+        put(&t, 2 * nc + c, 3 * nc + c, 1.0);
+        put(&t, 3 * nc + c, c, local->mu[c]);
+        put(&t, 3 * nc + c, nc + c, -1.0);
+        put(&t, 3 * nc + c, 2 * nc + c, -1.0);
+    }
+    s = q ? rb_sparse_from_triplets(&t, &M) : RB_ENOMEM;
+    rb_triplets_free(&t);
     for (int c = 0; s == RB_OK && c < nc; c++) {
         q[c] = local->q[2 * c] / unit;
         q[nc + c] = local->q[2 * c + 1] / unit;

@@ -156,24 +156,6 @@ int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda, cons
 
 /* ---- Without elimination: any W ---------------------------------------------------- */
 
-/* F at r; M = A + B W where wanted.  Returns ||F||. */
-static double contact_function(const rb_friction_contact *c, const double *rho, const double *q,
-                               const double *r, double *F, double *M)
-{
-    const int d = c->d;
-    double u[3], A[9], B[9];
-    contact_velocity(d, c->W, q, r, u);
-    rb_friction_alart_curnier(&(rb_friction_cone){d, c->mu, rho[0], rho[1]}, r, u,
-                              &(rb_friction_linearised){F, A, B});
-    for (int a = 0; M && a < d; a++)
-        for (int b = 0; b < d; b++) {
-            M[a + b * d] = A[a + b * d];
-            for (int e = 0; e < d; e++)
-                M[a + b * d] += B[a + e * d] * c->W[e + b * d];
-        }
-    return d == 2 ? hypot(F[0], F[1]) : sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
-}
-
 static double contact_size(const rb_friction_contact *c, double rho, const double *q,
                            const double *r)
 {
@@ -271,7 +253,18 @@ int rb_friction_contact_newton(const rb_friction_contact *c, const double *rho, 
     if (closed_form(c, q, r))
         return 1;
     for (; k < NEWTON_STEPS; k++) {
-        const double f = contact_function(c, rho, q, r, F, M);
+        /* F and M = A + B W at r */
+        double u[3], A[9], B[9];
+        contact_velocity(d, c->W, q, r, u);
+        rb_friction_alart_curnier(&(rb_friction_cone){d, c->mu, rho[0], rho[1]}, r, u,
+                                  &(rb_friction_linearised){F, A, B});
+        for (int a = 0; a < d; a++)
+            for (int b = 0; b < d; b++) {
+                M[a + b * d] = A[a + b * d];
+                for (int e = 0; e < d; e++)
+                    M[a + b * d] += B[a + e * d] * c->W[e + b * d];
+            }
+        const double f = d == 2 ? hypot(F[0], F[1]) : sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
         const double size = contact_size(c, rho[0], q, r);
         if (f < least) {
             least = f;

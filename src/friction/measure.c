@@ -15,36 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spring, rb_sparse *sum)
-{
-    rb_triplets t = {.rows = k->rows, .cols = k->cols};
-    rb_triplets_add_matrix(&t, 1.0, k);
-    for (int j = 0; j < h->cols; j++)
-        for (int a = h->p[j]; a < h->p[j + 1]; a++)
-            for (int b = h->p[j]; b < h->p[j + 1]; b++)
-                rb_triplets_add(&t, h->i[a], h->i[b], spring * h->x[a] * h->x[b]);
-    const rb_status s = rb_sparse_from_triplets(&t, sum);
-    rb_triplets_free(&t);
-    return s;
-}
-
-static rb_status factor_with_springs(rb_friction_measure *measure)
-{
-    const rb_friction_problem *p = measure->problem;
-    rb_sparse held = {0};
-    double sum = 0.0;
-    for (int j = 0; j < p->K.cols; j++)
-        for (int l = p->K.p[j]; l < p->K.p[j + 1]; l++)
-            if (p->K.i[l] == j)
-                sum += fabs(p->K.x[l]);
-    measure->spring = sum > 0.0 ? sum / p->K.cols : 1.0;
-    rb_status s = add_springs(&p->K, &p->H, measure->spring, &held);
-    if (s == RB_OK)
-        s = rb_sparse_cholesky_create(&held, &measure->factor);
-    rb_sparse_free(&held);
-    return s;
-}
-
 static double norm_or_one(size_t n, const double *q)
 {
     const double norm = rb_friction_norm(n, q);
@@ -121,8 +91,27 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p, rb_friction_mea
     rb_status s = rb_friction_rho(p, measure->rho);
     if (s == RB_OK && n) {
         s = rb_sparse_cholesky_create(&p->K, &measure->factor);
-        if (s == RB_SINGULAR)
-            s = factor_with_springs(measure);
+        if (s == RB_SINGULAR) { /* K + k H H' */
+            const rb_sparse *h = &p->H;
+            rb_triplets t = {.rows = p->K.rows, .cols = p->K.cols};
+            rb_sparse held = {0};
+            double sum = 0.0;
+            for (int j = 0; j < p->K.cols; j++)
+                for (int l = p->K.p[j]; l < p->K.p[j + 1]; l++)
+                    if (p->K.i[l] == j)
+                        sum += fabs(p->K.x[l]);
+            measure->spring = sum > 0.0 ? sum / p->K.cols : 1.0;
+            rb_triplets_add_matrix(&t, 1.0, &p->K);
+            for (int j = 0; j < h->cols; j++)
+                for (int a = h->p[j]; a < h->p[j + 1]; a++)
+                    for (int b = h->p[j]; b < h->p[j + 1]; b++)
+                        rb_triplets_add(&t, h->i[a], h->i[b], measure->spring * h->x[a] * h->x[b]);
+            s = rb_sparse_from_triplets(&t, &held);
+            rb_triplets_free(&t);
+            if (s == RB_OK)
+                s = rb_sparse_cholesky_create(&held, &measure->factor);
+            rb_sparse_free(&held);
+        }
     }
     if (s == RB_OK)
         s = rb_friction_measure_reload(measure);

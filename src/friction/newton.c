@@ -79,43 +79,6 @@ static double evaluate(newton *s, const double *r, const double *u, double *F)
     return sum;
 }
 
-/* Merit of the point t along the direction; force units throughout. */
-static double trial(newton *s, double t, double imbalance)
-{
-    const rb_friction_task *k = s->task;
-    for (int i = 0; i < k->m; i++) {
-        s->r[i] = k->r[i] + t * s->dr[i];
-        s->u[i] = k->u[i] + t * s->du[i];
-    }
-    return evaluate(s, s->r, s->u, s->at.F) + (1.0 - t) * (1.0 - t) * imbalance;
-}
-
-/* Nonmonotone Armijo; the smallest merit seen where none is small enough. */
-static double step_length(newton *s, double merit, double imbalance)
-{
-    double highest = merit, lowest = INFINITY, best = 1.0, t = 1.0;
-    for (int k = 0; k < MEMORY; k++)
-        if (isfinite(s->history[k]))
-            highest = fmax(highest, s->history[k]);
-    for (int k = 0; k <= HALVINGS; k++, t *= 0.5) {
-        const double theta = trial(s, t, imbalance);
-        if (theta <= (1.0 - 1e-4 * t) * highest)
-            return t;
-        if (theta < lowest)
-            lowest = theta, best = t;
-    }
-    return best;
-}
-
-static void move(newton *s, double t)
-{
-    rb_friction_task *k = s->task;
-    for (int i = 0; i < k->m; i++)
-        k->r[i] += t * s->dr[i];
-    for (int i = 0; i < k->n; i++)
-        k->v[i] += t * s->dv[i];
-}
-
 static rb_status step(newton *s)
 {
     rb_friction_task *t = s->task;
@@ -141,8 +104,31 @@ static rb_status step(newton *s)
         rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
     if (st == RB_OK) {
         const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
+        double highest = merit + imbalance, lowest = INFINITY, length = 1.0;
         s->history[s->k % MEMORY] = merit + imbalance;
-        move(s, s->line_search ? step_length(s, merit + imbalance, imbalance) : 1.0);
+        for (int k = 0; k < MEMORY; k++)
+            if (isfinite(s->history[k]))
+                highest = fmax(highest, s->history[k]);
+        /* Nonmonotone Armijo; the smallest merit seen where none is small enough.  Force
+         * units throughout. */
+        double at = 1.0;
+        for (int k = 0; s->line_search && k <= HALVINGS; k++, at *= 0.5) {
+            for (int i = 0; i < t->m; i++) {
+                s->r[i] = t->r[i] + at * s->dr[i];
+                s->u[i] = t->u[i] + at * s->du[i];
+            }
+            const double theta =
+                evaluate(s, s->r, s->u, s->at.F) + (1.0 - at) * (1.0 - at) * imbalance;
+            if (theta < lowest || theta <= (1.0 - 1e-4 * at) * highest)
+                length = at;
+            if (theta <= (1.0 - 1e-4 * at) * highest)
+                break;
+            lowest = fmin(lowest, theta);
+        }
+        for (int i = 0; i < t->m; i++)
+            t->r[i] += length * s->dr[i];
+        for (int i = 0; i < t->n; i++)
+            t->v[i] += length * s->dv[i];
         t->info->iters++;
     }
     t->info->flops += s->system.flops;

@@ -8,37 +8,6 @@
 /* Of finite-element structures diag(K)^-1 is about a tenth of a node's compliance. */
 #define DIAGONAL_SHARE 0.1
 
-/* Global form: compliances from the diagonal of H' diag(K)^-1 H. */
-static rb_status global_compliances(const rb_friction_problem *p, double *rho)
-{
-    const rb_sparse *h = &p->H;
-    const int d = p->dimension;
-    double *diagonal = rb_alloc((size_t)p->dofs, 1);
-    if (!diagonal)
-        return RB_ENOMEM;
-    for (int j = 0; j < p->dofs; j++)
-        for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
-            if (p->K.i[k] == j)
-                diagonal[j] = p->K.x[k];
-    for (int j = 0; j < h->cols; j++) {
-        double w = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
-        for (int k = h->p[j]; k < h->p[j + 1]; k++)
-            if (diagonal[h->i[k]] > 0.0)
-                w += h->x[k] * h->x[k] / (DIAGONAL_SHARE * diagonal[h->i[k]]);
-        *at = fmax(*at, w);
-    }
-    free(diagonal);
-    return RB_OK;
-}
-
-static double largest_tangential(int d, const double *w)
-{
-    if (d == 2)
-        return fabs(w[3]);
-    const double mean = 0.5 * (w[4] + w[8]), b = 0.5 * (w[5] + w[7]);
-    return fabs(mean) + hypot(0.5 * (w[4] - w[8]), b);
-}
-
 rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
 {
     const int both = 2 * p->contacts;
@@ -46,10 +15,24 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
     int count = 0;
     for (int k = 0; k < both; k++)
         rho[k] = 0.0;
-    if (p->form == RB_FRICTION_GLOBAL) {
-        const rb_status s = global_compliances(p, rho);
-        if (s != RB_OK)
-            return s;
+    if (p->form == RB_FRICTION_GLOBAL) { /* from the diagonal of H' diag(K)^-1 H */
+        const rb_sparse *h = &p->H;
+        const int d = p->dimension;
+        double *diagonal = rb_alloc((size_t)p->dofs, 1);
+        if (!diagonal)
+            return RB_ENOMEM;
+        for (int j = 0; j < p->dofs; j++)
+            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
+                if (p->K.i[k] == j)
+                    diagonal[j] = p->K.x[k];
+        for (int j = 0; j < h->cols; j++) {
+            double own = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
+            for (int k = h->p[j]; k < h->p[j + 1]; k++)
+                if (diagonal[h->i[k]] > 0.0)
+                    own += h->x[k] * h->x[k] / (DIAGONAL_SHARE * diagonal[h->i[k]]);
+            *at = fmax(*at, own);
+        }
+        free(diagonal);
     }
     for (int c = 0; p->form != RB_FRICTION_GLOBAL && c < p->contacts; c++) {
         /* W's own block of a contact: d x d column-major */
@@ -68,7 +51,10 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
                     w[p->Ws.i[k] - top + b * d] = p->Ws.x[k];
         }
         rho[2 * c] = fabs(w[0]);
-        rho[2 * c + 1] = largest_tangential(p->dimension, w);
+        /* the largest eigenvalue of the tangential part */
+        rho[2 * c + 1] =
+            d == 2 ? fabs(w[3])
+                   : fabs(0.5 * (w[4] + w[8])) + hypot(0.5 * (w[4] - w[8]), 0.5 * (w[5] + w[7]));
     }
     for (int k = 0; k < both; k++)
         if (rho[k] > 0.0)

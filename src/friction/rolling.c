@@ -38,72 +38,10 @@ static void put_column(splitter *s, int from, int to, double factor)
         rb_triplets_add(&s->H, h->i[k], to, factor * h->x[k]);
 }
 
-/* Columns, velocities and coefficients of contact c as those of A and B. */
-static void split_contact(splitter *s, int c, const double *mu_r, rb_friction_problem *out)
-{
-    const rb_friction_problem *p = s->p;
-    const double of_slip = compliance(s, 5 * c + 1, 2);
-    const double of_turn = compliance(s, 5 * c + 3, 2), normal = compliance(s, 5 * c, 1);
-    const double length = of_slip > 0.0 && of_turn > 0.0 ? sqrt(of_slip / of_turn) : 1.0;
-    const int xi = p->dofs + c;
-    rb_triplets_add(&s->K, xi, xi, normal > 0.0 ? 4.0 / normal : 1.0);
-    for (int k = 0; k < 2; k++) {
-        put_column(s, 5 * c, 6 * c + 3 * k, 0.5);
-        rb_triplets_add(&s->H, xi, 6 * c + 3 * k, k ? -1.0 : 1.0);
-        out->w[6 * c + 3 * k] = 0.5 * p->w[5 * c];
-    }
-    for (int a = 1; a < 3; a++) {
-        put_column(s, 5 * c + a, 6 * c + a, 1.0);
-        put_column(s, 5 * c + a + 2, 6 * c + a + 3, length);
-        out->w[6 * c + a] = p->w[5 * c + a];
-        out->w[6 * c + a + 3] = length * p->w[5 * c + a + 2];
-    }
-    out->mu[2 * c] = p->mu[c];
-    out->mu[2 * c + 1] = mu_r[c] / length;
-    out->lengths[c] = length;
-}
-
-static rb_status split(const rb_friction_problem *p, const double *mu_r, rb_friction_problem *out)
-{
-    const size_t nc = (size_t)p->contacts, n = (size_t)p->dofs;
-    double *diagonal = rb_alloc(n, 1);
-    *out = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                                 .dimension = 3,
-                                 .contacts = 2 * p->contacts,
-                                 .dofs = p->dofs + p->contacts,
-                                 .mu = rb_alloc(nc, 2),
-                                 .w = rb_alloc(nc, 6),
-                                 .f = rb_alloc(n + nc, 1),
-                                 .lengths = rb_alloc(nc, 1)};
-    splitter s = {.p = p,
-                  .diagonal = diagonal,
-                  .H = {.rows = out->dofs, .cols = 3 * out->contacts},
-                  .K = {.rows = out->dofs, .cols = out->dofs}};
-    rb_status st = diagonal && out->mu && out->w && out->f && out->lengths ? RB_OK : RB_ENOMEM;
-    if (st == RB_OK) {
-        rb_triplets_add_matrix(&s.K, 1.0, &p->K);
-        for (int j = 0; j < p->dofs; j++)
-            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
-                if (p->K.i[k] == j)
-                    diagonal[j] = p->K.x[k];
-        for (size_t i = 0; i < n; i++)
-            out->f[i] = p->f[i];
-        for (int c = 0; c < p->contacts; c++)
-            split_contact(&s, c, mu_r, out);
-        st = rb_sparse_from_triplets(&s.H, &out->H);
-    }
-    if (st == RB_OK)
-        st = rb_sparse_from_triplets(&s.K, &out->K);
-    rb_triplets_free(&s.K);
-    rb_triplets_free(&s.H);
-    free(diagonal);
-    return st;
-}
-
 rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *mu_r,
                                     rb_message *why)
 {
-    rb_friction_problem *p = problem, out;
+    rb_friction_problem *p = problem;
     if (p->form != RB_FRICTION_GLOBAL || p->dimension != 5 || p->contacts < 1 ||
         p->H.cols != 5 * p->contacts || p->H.rows != p->dofs || p->K.cols != p->dofs)
         return rb_fail(why, RB_EINVAL,
@@ -113,12 +51,63 @@ rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *
         if (!(mu_r[c] >= 0.0 && isfinite(mu_r[c])))
             return rb_fail(why, RB_EINVAL, "mu_r of contact %d is %g: expected >= 0", c + 1,
                            mu_r[c]);
-    rb_status s = split(p, mu_r, &out);
-    if (s == RB_OK)
-        s = rb_friction_problem_check(&out, why);
-    if (s != RB_OK) {
+    const size_t nc = (size_t)p->contacts, n = (size_t)p->dofs;
+    double *diagonal = rb_alloc(n, 1);
+    rb_friction_problem out = {.form = RB_FRICTION_GLOBAL,
+                               .dimension = 3,
+                               .contacts = 2 * p->contacts,
+                               .dofs = p->dofs + p->contacts,
+                               .mu = rb_alloc(nc, 2),
+                               .w = rb_alloc(nc, 6),
+                               .f = rb_alloc(n + nc, 1),
+                               .lengths = rb_alloc(nc, 1)};
+    splitter s = {.p = p,
+                  .diagonal = diagonal,
+                  .H = {.rows = out.dofs, .cols = 3 * out.contacts},
+                  .K = {.rows = out.dofs, .cols = out.dofs}};
+    rb_status st = diagonal && out.mu && out.w && out.f && out.lengths ? RB_OK : RB_ENOMEM;
+    if (st == RB_OK) {
+        rb_triplets_add_matrix(&s.K, 1.0, &p->K);
+        for (int j = 0; j < p->dofs; j++)
+            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
+                if (p->K.i[k] == j)
+                    diagonal[j] = p->K.x[k];
+        memcpy(out.f, p->f, n * sizeof *out.f);
+    }
+    /* Columns, velocities and coefficients of contact c as those of A and B. */
+    for (int c = 0; st == RB_OK && c < p->contacts; c++) {
+        const double of_slip = compliance(&s, 5 * c + 1, 2);
+        const double of_turn = compliance(&s, 5 * c + 3, 2), normal = compliance(&s, 5 * c, 1);
+        const double length = of_slip > 0.0 && of_turn > 0.0 ? sqrt(of_slip / of_turn) : 1.0;
+        const int xi = p->dofs + c;
+        rb_triplets_add(&s.K, xi, xi, normal > 0.0 ? 4.0 / normal : 1.0);
+        for (int k = 0; k < 2; k++) {
+            put_column(&s, 5 * c, 6 * c + 3 * k, 0.5);
+            rb_triplets_add(&s.H, xi, 6 * c + 3 * k, k ? -1.0 : 1.0);
+            out.w[6 * c + 3 * k] = 0.5 * p->w[5 * c];
+        }
+        for (int a = 1; a < 3; a++) {
+            put_column(&s, 5 * c + a, 6 * c + a, 1.0);
+            put_column(&s, 5 * c + a + 2, 6 * c + a + 3, length);
+            out.w[6 * c + a] = p->w[5 * c + a];
+            out.w[6 * c + a + 3] = length * p->w[5 * c + a + 2];
+        }
+        out.mu[2 * c] = p->mu[c];
+        out.mu[2 * c + 1] = mu_r[c] / length;
+        out.lengths[c] = length;
+    }
+    if (st == RB_OK)
+        st = rb_sparse_from_triplets(&s.H, &out.H);
+    if (st == RB_OK)
+        st = rb_sparse_from_triplets(&s.K, &out.K);
+    rb_triplets_free(&s.K);
+    rb_triplets_free(&s.H);
+    free(diagonal);
+    if (st == RB_OK)
+        st = rb_friction_problem_check(&out, why);
+    if (st != RB_OK) {
         rb_friction_problem_free(&out);
-        return s;
+        return st;
     }
     rb_friction_problem_free(p);
     *p = out;

@@ -59,10 +59,8 @@ double rb_friction_smoothed(int n, double mu, const double *x, double *P, double
 
 typedef struct {
     const rb_friction_smooth_problem *p;
-    double *z, *H, *dz, *trial;
+    double *H, *dz, *trial;
     double unit; /* ||H(z0)||: mu, eps and beta are 1 at the start in this unit */
-    int left;    /* Newton steps */
-    int *iters;
 } smoother;
 
 static double residual_norm(const smoother *s, double mu, double eps, const double *z, double *gap)
@@ -71,62 +69,11 @@ static double residual_norm(const smoother *s, double mu, double eps, const doub
     return rb_friction_norm((size_t)s->p->n, s->H) / s->unit;
 }
 
-/* Newton with Armijo's rule on ||H_{mu,eps}||, until it is at most beta. */
-static rb_status inner(smoother *s, double mu, double eps, double beta)
-{
-    const size_t n = (size_t)s->p->n;
-    double norm = residual_norm(s, mu, eps, s->z, NULL);
-    while (norm > beta) {
-        if (s->left-- == 0)
-            return RB_MAXITER;
-        if (s->p->late(s->p->context))
-            return RB_INTERRUPTED;
-        const rb_status st = s->p->step(s->p->context, mu * s->unit, eps, s->z, s->H, s->dz);
-        if (st != RB_OK)
-            return st;
-        ++*s->iters;
-        double t = 1.0, next = INFINITY;
-        for (; t > SMALLEST_STEP; t *= 0.5) {
-            for (size_t k = 0; k < n; k++)
-                s->trial[k] = s->z[k] + t * s->dz[k];
-            next = residual_norm(s, mu, eps, s->trial, NULL);
-            if (next <= beta || next * next <= (1.0 - 2.0 * ARMIJO * t) * norm * norm)
-                break;
-        }
-        if (!(t > SMALLEST_STEP)) /* rounding: no descent is left */
-            return RB_OK;
-        memcpy(s->z, s->trial, n * sizeof *s->z);
-        norm = next;
-    }
-    return RB_OK;
-}
-
-static rb_status outer(smoother *s)
-{
-    double mu = 1.0, eps = 1.0, beta = 1.0, power = 1.0, gap;
-    while (!s->p->accepts(s->p->context, s->z)) {
-        const rb_status st = inner(s, mu, eps, beta);
-        if (st != RB_OK)
-            return st;
-        const double h = residual_norm(s, 0.0, 0.0, s->z, &gap);
-        if (!isfinite(h))
-            return RB_SINGULAR;
-        power *= ETA;
-        if (power < 1e-40)
-            return RB_INACCURATE;
-        beta = power;
-        eps = fmin(h * h, power);
-        /* gaps at rounding would switch the smoothing off */
-        mu = fmin(eps, fmax(sqrt(h) * gap / s->unit, LEAST_SMOOTHING * eps));
-    }
-    return RB_OK;
-}
-
 rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limit, double *z,
                              int *iters)
 {
     const size_t n = (size_t)problem->n;
-    smoother s = {.p = problem, .z = z, .unit = 1.0, .left = limit, .iters = iters};
+    smoother s = {.p = problem, .unit = 1.0};
     s.H = rb_alloc(n, 3);
     if (!s.H)
         return RB_ENOMEM;
@@ -135,7 +82,45 @@ rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limi
     const double start = residual_norm(&s, 0.0, 0.0, z, NULL);
     if (start > 0.0 && isfinite(start))
         s.unit = start;
-    const rb_status st = outer(&s);
+    double mu = 1.0, eps = 1.0, power = 1.0, gap;
+    rb_status st = RB_OK;
+    while (st == RB_OK && !problem->accepts(problem->context, z)) {
+        /* Newton with Armijo's rule on ||H_{mu,eps}||, until it is at most beta. */
+        const double beta = power;
+        double norm = residual_norm(&s, mu, eps, z, NULL);
+        while (st == RB_OK && norm > beta) {
+            st = limit-- == 0 ? RB_MAXITER
+                 : problem->late(problem->context)
+                     ? RB_INTERRUPTED
+                     : problem->step(problem->context, mu * s.unit, eps, z, s.H, s.dz);
+            if (st != RB_OK)
+                break;
+            ++*iters;
+            double t = 1.0, next = INFINITY;
+            for (; t > SMALLEST_STEP; t *= 0.5) {
+                for (size_t k = 0; k < n; k++)
+                    s.trial[k] = z[k] + t * s.dz[k];
+                next = residual_norm(&s, mu, eps, s.trial, NULL);
+                if (next <= beta || next * next <= (1.0 - 2.0 * ARMIJO * t) * norm * norm)
+                    break;
+            }
+            if (!(t > SMALLEST_STEP)) /* rounding: no descent is left */
+                break;
+            memcpy(z, s.trial, n * sizeof *z);
+            norm = next;
+        }
+        const double h = st == RB_OK ? residual_norm(&s, 0.0, 0.0, z, &gap) : 0.0;
+        power *= ETA;
+        if (st == RB_OK && !isfinite(h))
+            st = RB_SINGULAR;
+        else if (st == RB_OK && power < 1e-40)
+            st = RB_INACCURATE;
+        if (st != RB_OK)
+            break;
+        eps = fmin(h * h, power);
+        /* gaps at rounding would switch the smoothing off */
+        mu = fmin(eps, fmax(sqrt(h) * gap / s.unit, LEAST_SMOOTHING * eps));
+    }
     free(s.H);
     return st;
 }

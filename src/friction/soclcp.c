@@ -89,26 +89,6 @@ static int canonical_late(void *context)
     return c->deadline > 0.0 && rb_seconds() > c->deadline;
 }
 
-/* ||x - P(x - unit y)|| on one Lorentz cone of any size */
-static double cone_error(int size, double unit, const double *x, const double *y)
-{
-    const double s0 = x[0] - unit * y[0];
-    double t = 0.0, sum = 0.0;
-    for (int a = 1; a < size; a++)
-        t = hypot(t, x[a] - unit * y[a]);
-    /* of s = x - y: P(s) = (p_0, g s_1) */
-    double p0 = s0, g = 1.0;
-    if (s0 <= -t) {
-        p0 = g = 0.0;
-    } else if (s0 < t) {
-        p0 = 0.5 * (s0 + t);
-        g = p0 / t;
-    }
-    for (int a = 1; a < size; a++)
-        sum = hypot(sum, x[a] - g * (x[a] - unit * y[a]));
-    return hypot(sum, x[0] - p0);
-}
-
 /* ||x - P(x - unit y)|| / ||unit q|| */
 static double error_in(const rb_friction_soclcp_problem *p, double unit, const double *x, double *y)
 {
@@ -121,8 +101,24 @@ static double error_in(const rb_friction_soclcp_problem *p, double unit, const d
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             y[i] += p->M[i + (size_t)j * (size_t)n] * x[j];
-    for (int k = 0, at = 0; k < p->cones; at += p->size[k++])
-        sum = hypot(sum, cone_error(p->size[k], unit, x + at, y + at));
+    for (int k = 0, at = 0; k < p->cones; at += p->size[k++]) {
+        const double s0 = x[at] - unit * y[at];
+        double t = 0.0;
+        for (int a = at + 1; a < at + p->size[k]; a++)
+            t = hypot(t, x[a] - unit * y[a]);
+        /* of s = x - unit y: P(s) = (p_0, g s_1) */
+        double p0 = s0, g = 1.0;
+        if (s0 <= -t) {
+            p0 = g = 0.0;
+        } else if (s0 < t) {
+            p0 = 0.5 * (s0 + t);
+            g = p0 / t;
+        }
+        double own = 0.0;
+        for (int a = at + 1; a < at + p->size[k]; a++)
+            own = hypot(own, x[a] - g * (x[a] - unit * y[a]));
+        sum = hypot(sum, hypot(own, x[at] - p0));
+    }
     return norm > 0.0 ? sum / (unit * norm) : sum;
 }
 
@@ -137,18 +133,26 @@ static int canonical_accepts(void *context, const double *x)
     return error_in(c->p, c->unit, x, c->y) <= c->tol;
 }
 
-static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *largest, rb_message *why)
+rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_friction_options *opt,
+                             double *x, double *y, rb_friction_info *info)
 {
-    int sum = 0;
-    *largest = 0;
+    const double start = rb_seconds();
+    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
+    int largest = 0, sum = 0;
+    rb_friction_info unwanted;
+    if (!info)
+        info = &unwanted;
+    *info =
+        (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
+    rb_message *why = &info->msg;
     for (int k = 0; k < p->cones; k++) {
         if (p->size[k] < 1 || p->size[k] > p->n - sum)
             return rb_fail(why, RB_EINVAL,
                            "cone %d has dimension %d: expected 1 ... %d, what is left", k + 1,
                            p->size[k], p->n - sum);
         sum += p->size[k];
-        if (p->size[k] > *largest)
-            *largest = p->size[k];
+        if (p->size[k] > largest)
+            largest = p->size[k];
     }
     if (p->n < 1 || sum != p->n)
         return rb_fail(why, RB_EINVAL, "cones hold %d of %d entries", sum, p->n);
@@ -158,65 +162,40 @@ static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *large
     for (int i = 0; i < p->n; i++)
         if (!isfinite(p->q[i]))
             return rb_fail(why, RB_EINVAL, "q: entry %d is %g", i + 1, p->q[i]);
-    return RB_OK;
-}
-
-static rb_status run_canonical(canonical *c, int largest, int limit, double *x, int *iters)
-{
-    const size_t n = (size_t)c->p->n;
-    const rb_friction_smooth_problem smooth = {
-        .n = c->p->n,
-        .context = c,
-        .residual = canonical_residual,
-        .step = canonical_step,
-        .accepts = canonical_accepts,
-        .late = canonical_late,
-    };
-    c->y = rb_alloc(n, 1);
-    c->s = rb_alloc(n, 1);
-    c->P = rb_alloc(n, 1);
-    c->D = rb_alloc((size_t)largest, (size_t)largest);
-    c->J = rb_alloc(n, n);
-    c->pivots = rb_alloc_int(n);
-    rb_status st = RB_ENOMEM;
-    if (c->y && c->s && c->P && c->D && c->J && c->pivots)
-        st = rb_friction_smooth(&smooth, limit, x, iters);
-    free(c->pivots);
-    free(c->J);
-    free(c->D);
-    free(c->P);
-    free(c->s);
-    free(c->y);
-    return st;
-}
-
-rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_friction_options *opt,
-                             double *x, double *y, rb_friction_info *info)
-{
-    const double start = rb_seconds();
-    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
-    int largest;
-    rb_friction_info unwanted;
-    if (!info)
-        info = &unwanted;
-    *info =
-        (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
-    rb_status s = check_canonical(p, &largest, &info->msg);
-    if (s != RB_OK)
-        return s;
     /* The inverse of the mean of M's diagonal */
     double trace = 0.0;
     for (size_t i = 0; i < (size_t)p->n; i++)
         trace += fabs(p->M[i + i * (size_t)p->n]);
     const double unit = trace > 0.0 ? p->n / trace : 1.0;
     const int acary = used.measure == RB_FRICTION_BY_ACARY;
+    const size_t n = (size_t)p->n;
     canonical c = {.p = p,
                    .unit = acary ? 1.0 : unit,
                    .tol = used.tol,
-                   .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0};
+                   .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0,
+                   .y = rb_alloc(n, 1),
+                   .s = rb_alloc(n, 1),
+                   .P = rb_alloc(n, 1),
+                   .D = rb_alloc((size_t)largest, (size_t)largest),
+                   .J = rb_alloc(n, n),
+                   .pivots = rb_alloc_int(n)};
+    const rb_friction_smooth_problem smooth = {.n = p->n,
+                                               .context = &c,
+                                               .residual = canonical_residual,
+                                               .step = canonical_step,
+                                               .accepts = canonical_accepts,
+                                               .late = canonical_late};
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
-    s = run_canonical(&c, largest, used.max_iters ? used.max_iters : LIMIT, x, &info->iters);
+    rb_status s = RB_ENOMEM;
+    if (c.y && c.s && c.P && c.D && c.J && c.pivots)
+        s = rb_friction_smooth(&smooth, used.max_iters ? used.max_iters : LIMIT, x, &info->iters);
+    free(c.pivots);
+    free(c.J);
+    free(c.D);
+    free(c.P);
+    free(c.s);
+    free(c.y);
     info->measure = used.measure;
     info->scaled = error_in(p, unit, x, y);
     info->residual = rb_friction_soclcp_error(p, x, y);
@@ -240,7 +219,7 @@ typedef struct {
     rb_friction_system system;
     double *u, *du;            /* m */
     rb_friction_linearised at; /* the step with lambda eliminated */
-    double *solve_for;         /* 2 + 2 d per contact: lambda's row, see eliminate() */
+    double *solve_for;         /* 2 + 2 d per contact: lambda's row, see friction_step() */
 } friction;
 
 static double rho_of(const friction *f, int c)
@@ -300,47 +279,6 @@ static void friction_residual(void *context, double mu, double eps, const double
         *gap = least;
 }
 
-/* The contact's d + 1 equations in (dr, rho du, dlambda) -> d equations in (dr, du):
- * dlambda from the first one; its coefficients are kept for recover(). */
-static void eliminate(friction *f, int c, double mu, double eps, const double *z, const double *h)
-{
-    const rb_friction_task *t = f->task;
-    const int d = t->d;
-    const double rho = rho_of(f, c), friction_mu = t->problem->mu[c];
-    double x[3], y[3], s[3], P[3], D[9], Q[9] = {0.0}, Dn[1];
-    double *A = f->at.A + c * d * d, *B = f->at.B + c * d * d, *F = f->at.F + c * d;
-    double *keep = f->solve_for + c * (2 + 2 * d);
-    first_cone(f, c, eps, z, x, y);
-    for (int a = 0; a < d; a++)
-        s[a] = x[a] - y[a];
-    rb_friction_smoothed(d, mu, s, P, D);
-    for (int k = 0; k < d * d; k++)
-        Q[k] = (k % (d + 1) == 0) + (eps - 1.0) * D[k];
-    /* keep = (pivot, h0, coefficients of dr, of du) of the first equation */
-    Q[0] = fmax(Q[0], LEAST_PIVOT);
-    keep[0] = Q[0];
-    keep[1] = h[0];
-    for (int b = 0; b < d; b++) {
-        keep[2 + b] = D[b * d] * (b ? 1.0 : friction_mu);
-        keep[2 + d + b] = b ? rho * Q[b * d] : 0.0;
-    }
-    for (int a = 1; a < d; a++) {
-        const double g = Q[a] / Q[0];
-        F[a] = h[a] - g * h[0];
-        for (int b = 0; b < d; b++) {
-            A[a + b * d] = D[a + b * d] * (b ? 1.0 : friction_mu) - g * keep[2 + b];
-            B[a + b * d] = (b ? rho * Q[a + b * d] : 0.0) - g * keep[2 + d + b];
-        }
-    }
-    const double un = rho * f->u[c * d], sn = un - (z[c * d] + eps * un);
-    rb_friction_smoothed(1, mu, &sn, P, Dn);
-    F[0] = h[d];
-    for (int b = 0; b < d; b++)
-        A[b * d] = B[b * d] = 0.0;
-    A[0] = Dn[0];
-    B[0] = rho * (1.0 + (eps - 1.0) * Dn[0]);
-}
-
 static rb_status friction_step(void *context, double mu, double eps, const double *z,
                                const double *H, double *dz)
 {
@@ -350,10 +288,44 @@ static rb_status friction_step(void *context, double mu, double eps, const doubl
     double *dlambda = dz + t->m, *dv = dz + t->m + nc;
     regular_velocity(f, 1.0, eps, z, z + t->m + nc, f->u);
     const double shift = fmax(eps, LEAST_SHIFT);
+    /* A contact's d + 1 equations in (dr, rho du, dlambda) become d equations in (dr, du):
+     * dlambda follows from the first one, of which keep = (pivot, h0, coefficients of dr,
+     * of du). */
     for (int c = 0; c < nc; c++) {
-        eliminate(f, c, mu, eps, z, H + c * (d + 1));
-        for (int k = c * d * d; k < (c + 1) * d * d; k++)
-            f->at.A[k] += shift / rho_of(f, c) * f->at.B[k];
+        const double rho = rho_of(f, c), friction_mu = t->problem->mu[c], *h = H + c * (d + 1);
+        double x[3], y[3], s[3], P[3], D[9], Q[9] = {0.0}, Dn[1];
+        double *A = f->at.A + c * d * d, *B = f->at.B + c * d * d, *F = f->at.F + c * d;
+        double *keep = f->solve_for + c * (2 + 2 * d);
+        first_cone(f, c, eps, z, x, y);
+        for (int a = 0; a < d; a++)
+            s[a] = x[a] - y[a];
+        rb_friction_smoothed(d, mu, s, P, D);
+        for (int k = 0; k < d * d; k++)
+            Q[k] = (k % (d + 1) == 0) + (eps - 1.0) * D[k];
+        Q[0] = fmax(Q[0], LEAST_PIVOT);
+        keep[0] = Q[0];
+        keep[1] = h[0];
+        for (int b = 0; b < d; b++) {
+            keep[2 + b] = D[b * d] * (b ? 1.0 : friction_mu);
+            keep[2 + d + b] = b ? rho * Q[b * d] : 0.0;
+        }
+        for (int a = 1; a < d; a++) {
+            const double g = Q[a] / Q[0];
+            F[a] = h[a] - g * h[0];
+            for (int b = 0; b < d; b++) {
+                A[a + b * d] = D[a + b * d] * (b ? 1.0 : friction_mu) - g * keep[2 + b];
+                B[a + b * d] = (b ? rho * Q[a + b * d] : 0.0) - g * keep[2 + d + b];
+            }
+        }
+        const double un = rho * f->u[c * d], sn = un - (z[c * d] + eps * un);
+        rb_friction_smoothed(1, mu, &sn, P, Dn);
+        F[0] = h[d];
+        for (int b = 0; b < d; b++)
+            A[b * d] = B[b * d] = 0.0;
+        A[0] = Dn[0];
+        B[0] = rho * (1.0 + (eps - 1.0) * Dn[0]);
+        for (int k = 0; k < d * d; k++)
+            A[k] += shift / rho * B[k];
     }
     const rb_status st = rb_friction_system_step(&f->system, &f->at, H + t->m + nc, dz, dv);
     if (st != RB_OK)

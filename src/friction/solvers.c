@@ -129,39 +129,6 @@ static rb_status begin_call(call *c, const char *name, const rb_friction_problem
     return RB_OK;
 }
 
-/* A start at zero is no guess that might be the solution already. */
-static int is_zero(int n, const double *x)
-{
-    int any = 0;
-    for (int k = 0; k < n; k++)
-        any |= x[k] != 0.0;
-    return !any;
-}
-
-/* What the method ends with is proved; where that is no solution, the best iterate is
- * what is handed back. */
-static rb_status run_and_prove(rb_friction_task *task, const rb_friction_solver *solver)
-{
-    rb_status s = RB_OK;
-    if (solver->needs & WANTS_W)
-        s = rb_friction_task_condense(task);
-    if (s != RB_OK)
-        return s;
-    if (task->opt.r0 && is_zero(task->m, task->opt.r0))
-        task->opt.r0 = NULL;
-    rb_friction_task_start(task);
-    s = rb_friction_run(task, solver->run, solver->variant, 0);
-    if (s < 0 || task->proved) /* the portfolio proves what its members end with */
-        return s;
-    if (s != RB_OK)
-        rb_friction_task_recall(task);
-    if (rb_friction_prove(task))
-        return RB_OK;
-    if (task->measured != RB_OK)
-        return task->measured;
-    return s == RB_OK ? RB_INACCURATE : s;
-}
-
 struct rb_friction_handle {
     rb_friction_shared shared;
     double *last; /* m + n: r and v of the last solution; NULL: none yet */
@@ -206,7 +173,29 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
     shared->stop = 0;
     shared->measure.deciding =
         c->opt.measure == RB_FRICTION_BY_ACARY ? shared->measure.ones : shared->measure.rho;
-    const rb_status s = run_and_prove(&task, c->solver);
+    rb_status s = c->solver->needs & WANTS_W ? rb_friction_task_condense(&task) : RB_OK;
+    if (s == RB_OK) {
+        /* A start at zero is no guess that might be the solution already. */
+        int any = 0;
+        for (int k = 0; task.opt.r0 && k < m; k++)
+            any |= task.opt.r0[k] != 0.0;
+        if (!any)
+            task.opt.r0 = NULL;
+        rb_friction_task_start(&task);
+        s = rb_friction_run(&task, c->solver->run, c->solver->variant, 0);
+        /* What the method ends with is proved, unless the portfolio has proved it; where
+         * that is no solution, the best iterate is what is handed back. */
+        if (s >= 0 && !task.proved) {
+            if (s != RB_OK)
+                rb_friction_task_recall(&task);
+            if (rb_friction_prove(&task))
+                s = RB_OK;
+            else if (task.measured != RB_OK)
+                s = task.measured;
+            else if (s == RB_OK)
+                s = RB_INACCURATE;
+        }
+    }
     if (c->timed)
         c->info->seconds = rb_seconds() - c->start;
     return s;

@@ -18,28 +18,6 @@ void rb_friction_system_free(rb_friction_system *s)
 
 /* ---- Global form: the transposed matrix, whose columns are the equations ----------- */
 
-/* One filling of the global pattern; only places matter. */
-static rb_status global_pattern(rb_friction_system *s)
-{
-    const rb_sparse *h = &s->problem->H;
-    const int n = s->n, d = s->d;
-    rb_triplets t = {.rows = n + s->m, .cols = n + s->m};
-    rb_triplets_add_matrix(&t, 1.0, &s->problem->K);
-    for (int j = 0; j < h->cols; j++) {
-        const int c = j / d;
-        for (int l = h->p[j]; l < h->p[j + 1]; l++)
-            rb_triplets_add(&t, n + j, h->i[l], -h->x[l]);
-        for (int a = 0; a < d; a++) {
-            for (int l = h->p[c * d + a]; l < h->p[c * d + a + 1]; l++)
-                rb_triplets_add(&t, h->i[l], n + j, 0.0);
-            rb_triplets_add(&t, n + c * d + a, n + j, 0.0);
-        }
-    }
-    const rb_status st = rb_sparse_from_triplets(&t, &s->j);
-    rb_triplets_free(&t);
-    return st;
-}
-
 /* n: 0 for the local form */
 static rb_status init(rb_friction_task *task, int n, rb_friction_system *s)
 {
@@ -55,7 +33,26 @@ static rb_status init(rb_friction_task *task, int n, rb_friction_system *s)
     if (st == RB_OK) {
         s->rhs = s->rho + 2 * nc;
         s->x = s->rhs + order;
-        st = n ? global_pattern(s) : rb_friction_task_blocks(task, &s->blocks);
+        if (!n)
+            st = rb_friction_task_blocks(task, &s->blocks);
+        else { /* one filling of the global pattern; only places matter */
+            const rb_sparse *h = &s->problem->H;
+            const int d = s->d;
+            rb_triplets t = {.rows = n + s->m, .cols = n + s->m};
+            rb_triplets_add_matrix(&t, 1.0, &s->problem->K);
+            for (int j = 0; j < h->cols; j++) {
+                const int c = j / d;
+                for (int l = h->p[j]; l < h->p[j + 1]; l++)
+                    rb_triplets_add(&t, n + j, h->i[l], -h->x[l]);
+                for (int a = 0; a < d; a++) {
+                    for (int l = h->p[c * d + a]; l < h->p[c * d + a + 1]; l++)
+                        rb_triplets_add(&t, h->i[l], n + j, 0.0);
+                    rb_triplets_add(&t, n + c * d + a, n + j, 0.0);
+                }
+            }
+            st = rb_sparse_from_triplets(&t, &s->j);
+            rb_triplets_free(&t);
+        }
     }
     if (st == RB_OK)
         st = rb_friction_rho(n ? task->problem : task->shared->local, s->rho);
@@ -134,20 +131,6 @@ rb_status rb_friction_system_solve_dense(rb_friction_system *s, int order, char 
     return rb_lapack_status(info);
 }
 
-static rb_status solve_global_dense(rb_friction_system *s)
-{
-    const size_t order = (size_t)(s->n + s->m);
-    const rb_status st = rb_friction_system_dense(s, order);
-    if (st != RB_OK)
-        return st;
-    for (size_t j = 0; j < order; j++) {
-        s->x[j] = s->rhs[j];
-        for (int k = s->j.p[j]; k < s->j.p[j + 1]; k++)
-            s->dense[(size_t)s->j.i[k] + order * j] = s->j.x[k];
-    }
-    return rb_friction_system_solve_dense(s, (int)order, 'T');
-}
-
 static rb_status global_step(rb_friction_system *s, const rb_friction_linearised *at,
                              const double *e)
 {
@@ -176,8 +159,16 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
     for (int k = 0; k < s->m; k++)
         s->rhs[n + k] = -at->F[k];
     s->flops += 2.0 * s->d * (double)s->problem->H.p[s->m] * s->d;
-    if (rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order)))
-        return solve_global_dense(s);
+    if (rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order))) {
+        const size_t ld = (size_t)order;
+        const rb_status dense = rb_friction_system_dense(s, ld);
+        for (size_t j = 0; dense == RB_OK && j < ld; j++) {
+            s->x[j] = s->rhs[j];
+            for (int k = s->j.p[j]; k < s->j.p[j + 1]; k++)
+                s->dense[(size_t)s->j.i[k] + ld * j] = s->j.x[k];
+        }
+        return dense == RB_OK ? rb_friction_system_solve_dense(s, order, 'T') : dense;
+    }
     rb_status st = s->lu ? RB_OK : rb_sparse_lu_create(&s->j, &s->lu);
     if (st == RB_OK)
         st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);

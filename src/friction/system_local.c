@@ -8,15 +8,6 @@
 #include <lapacke.h>
 #include <stdlib.h>
 
-static int says_open(int d, const double *A, const double *B)
-{
-    for (int b = 0; b < d; b++)
-        for (int a = 0; a < d; a++)
-            if (B[a + b * d] != 0.0 || A[a + b * d] != (a == b))
-                return 0;
-    return 1;
-}
-
 /* y = B x for d x d column-major B */
 static void times(int d, const double *B, const double *x, double *y)
 {
@@ -45,38 +36,6 @@ static void fill_dense_columns(rb_friction_system *s, int c, size_t order, const
     for (int b = 0; b < d; b++)
         for (int a = 0; a < d; a++)
             column[(size_t)b * order + (size_t)(s->place[c] * d + a)] += A[c * dd + a + b * d];
-}
-
-static rb_status solve_dense(rb_friction_system *s, int order, const rb_friction_linearised *at)
-{
-    const int d = s->d, dd = d * d;
-    double *moved = s->rhs;
-    const rb_status st = rb_friction_system_dense(s, (size_t)order);
-    if (st != RB_OK)
-        return st;
-    for (int k = 0; k < s->m; k++)
-        moved[k] = 0.0;
-    /* x: W dr of the open contacts, added */
-    for (int c = 0; c < s->contacts; c++) {
-        double dr[3] = {0.0, 0.0, 0.0};
-        int any = 0;
-        for (int a = 0; s->place[c] < 0 && a < s->d; a++) {
-            dr[a] = -at->F[c * s->d + a];
-            any |= dr[a] != 0.0;
-        }
-        if (any)
-            rb_friction_blocks_add(s->blocks, c, dr, moved);
-    }
-    for (int c = 0; c < s->contacts; c++) {
-        if (s->place[c] < 0)
-            continue;
-        double *x = s->x + s->place[c] * d;
-        times(d, at->B + c * dd, moved + c * d, x);
-        for (int a = 0; a < d; a++)
-            x[a] = -at->F[c * d + a] - x[a];
-        fill_dense_columns(s, c, (size_t)order, at->A, at->B);
-    }
-    return order ? rb_friction_system_solve_dense(s, order, 'N') : RB_OK;
 }
 
 /* ---- Sparse ------------------------------------------------------------------------ */
@@ -120,12 +79,17 @@ static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
 rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linearised *at)
 {
     const double blocks = s->blocks->p[s->contacts], nc = s->contacts;
-    /* Numbers the contacts that are not open; how many. */
-    const int dd = s->d * s->d;
+    /* Numbers the contacts whose equations do not read r = 0; how many. */
+    const int d = s->d, dd = d * d;
     int closed = 0;
-    for (int c = 0; c < s->contacts; c++)
-        s->place[c] = says_open(s->d, at->A + c * dd, at->B + c * dd) ? -1 : closed++;
-    const int order = s->d * closed;
+    for (int c = 0; c < s->contacts; c++) {
+        const double *A = at->A + c * dd, *B = at->B + c * dd;
+        int open = 1;
+        for (int k = 0; open && k < dd; k++)
+            open = B[k] == 0.0 && A[k] == (k % (d + 1) == 0);
+        s->place[c] = open ? -1 : closed++;
+    }
+    const int order = d * closed;
     s->flops += 2.0 * s->d * s->d * s->d * blocks;
     if (!rb_friction_system_is_dense(order, blocks / (nc * nc))) {
         rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
@@ -140,15 +104,39 @@ rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linear
         s->flops += 4.0 * s->j.p[s->j.cols];
         return st;
     }
-    const rb_status st = solve_dense(s, order, at);
-    if (st == RB_OK) {
-        /* x of the closed contacts -> dr of all; from the end, since both are in s->x */
-        const int d = s->d;
-        for (int c = s->contacts - 1; c >= 0; c--)
-            for (int a = 0; a < d; a++)
-                s->x[c * d + a] = s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
+    rb_status st = rb_friction_system_dense(s, (size_t)order);
+    if (st != RB_OK)
+        return st;
+    double *moved = s->rhs; /* W dr of the open contacts */
+    for (int k = 0; k < s->m; k++)
+        moved[k] = 0.0;
+    for (int c = 0; c < s->contacts; c++) {
+        double dr[3] = {0.0, 0.0, 0.0};
+        int any = 0;
+        for (int a = 0; s->place[c] < 0 && a < d; a++) {
+            dr[a] = -at->F[c * d + a];
+            any |= dr[a] != 0.0;
+        }
+        if (any)
+            rb_friction_blocks_add(s->blocks, c, dr, moved);
     }
-    return st;
+    for (int c = 0; c < s->contacts; c++) {
+        if (s->place[c] < 0)
+            continue;
+        double *x = s->x + s->place[c] * d;
+        times(d, at->B + c * dd, moved + c * d, x);
+        for (int a = 0; a < d; a++)
+            x[a] = -at->F[c * d + a] - x[a];
+        fill_dense_columns(s, c, (size_t)order, at->A, at->B);
+    }
+    st = order ? rb_friction_system_solve_dense(s, order, 'N') : RB_OK;
+    if (st != RB_OK)
+        return st;
+    /* x of the closed contacts -> dr of all; from the end, since both are in s->x */
+    for (int c = s->contacts - 1; c >= 0; c--)
+        for (int a = 0; a < d; a++)
+            s->x[c * d + a] = s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
+    return RB_OK;
 }
 
 /* ---- One factorisation, many solves ------------------------------------------------ */
