@@ -763,6 +763,12 @@ rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_
  * elements. */
 rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,
                                          rb_message *why);
+/* What the case of a variant gives at the state of the model, if it differs at most in
+ * friction and in given load, motion and force: all else stays, so that no variant is
+ * needed.  bound: n, written; problem: overwritten, borrows bound and all rows of the
+ * model.  0: the case differs in more. */
+int rb_rolling_variant_given(const rb_rolling_model *of, const rb_rolling_case *rc, double *bound,
+                             rb_contact_problem *problem, rb_status *status, rb_message *why);
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
 /* Sets the state of a variant to that of its model plus `part` times `along` (NULL: 0):
  * p, q, delta and xi; zones are the model's. */

@@ -29,6 +29,10 @@ typedef struct rb_sensitivity rb_sensitivity;
  * RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE: the state is no solution. */
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
                                 rb_message *why);
+/* The same without results; factors that are those of `like` are copied from it (NULL:
+ * none), for models that share their flexibility. */
+rb_status rb_sensitivity_create_like(const rb_rolling_model *model, const rb_sensitivity *like,
+                                     rb_sensitivity **s, rb_message *why);
 void rb_sensitivity_free(rb_sensitivity *s);
 /* How the elements move while an input changes. */
 typedef enum {

@@ -23,10 +23,10 @@ static const double CORRELATED = 0.95;
 typedef struct {
     int first;             /* number of the point with the elements */
     rb_rolling_model base; /* with the elements, if it is this one */
-    /* Solved with the last numbers and with the present ones: a variant of the base, or
-     * of the first point's; and its factors. */
+    /* Solved with the accepted numbers and with those of a trial: a variant of the base,
+     * or of the first point's. */
     rb_rolling_model solved[2];
-    rb_sensitivity *factors[2];
+    rb_sensitivity *factors; /* with the accepted numbers */
 } point;
 
 /* A case with number `varied` (-1: none) changed to `value`, as it was resolved for a
@@ -46,12 +46,12 @@ typedef struct {
     int n, points, offset; /* parameters; which one is the offset of creepage, or -1 */
     const rb_option *option[RB_CASE_FIT_MAX], *creep, *load, *speed, *temperature;
     point *at;       /* points */
-    int last;        /* which of `solved` all points have; the other one is under way; -1:
-                        none have */
+    int accepted;    /* which of `solved` is that of the accepted numbers; -1: none is */
     resolved *known; /* RESOLVED_MAX: cases with the present numbers */
     int known_n;
-    double *f, *J; /* points; points x n: residuals and their derivatives */
-    double kappa;  /* the largest of all points */
+    double *f, *J; /* points: residuals of the last trial; points x n: derivatives of those
+                      of the accepted numbers */
+    double kappa;  /* the largest of all points, with the accepted numbers */
 } problem;
 
 /* GSL's header of BLAS and OpenBLAS's exclude each other. */
@@ -201,7 +201,7 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
                                     rb_rolling_model *v, rb_message *why)
 {
     enum { STEPS_MOST = 8 };
-    const double enough = 0.01 * v->rc->contact.tol;
+    const double enough = 0.1 * v->rc->contact.tol;
     rb_contact_state step = {0};
     rb_sensitivity_rate left = {0};
     rb_contact_violation violation = {.scaled = NAN};
@@ -237,85 +237,96 @@ static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensi
     return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER : status;
 }
 
-/* Solves a point; the first of those that share elements makes the flexibility.  A point
- * that was not solved before starts from the solution of the one before it. */
-static rb_status solve_point(problem *p, const rb_rolling_case *rc, int k, rb_message *why)
+static double sigma_of(const problem *p, int k)
 {
-    point *at = &p->at[k];
-    const int now = p->last == 0;
-    const rb_rolling_model *of = model_below(p, k, now);
-    const rb_rolling_model *from = p->last >= 0 ? &at->solved[p->last]
-                                   : at->first < k && p->at[k - 1].first == at->first
-                                       ? &p->at[k - 1].solved[now]
-                                       : of;
-    rb_rolling_model *v = &at->solved[now];
-    rb_status s = rb_rolling_variant_place(of, rc, 0.0, 1.0, v, why);
+    return p->data->sigma ? p->data->sigma[k] : 1.0;
+}
 
+/* Frees the solutions of all points with the accepted numbers, or those of a trial. */
+static void release(problem *p, int which)
+{
+    for (int k = p->points - 1; p->at && k >= 0 && which >= 0; k--) {
+        rb_rolling_variant_free(model_below(p, k, which), &p->at[k].solved[which]);
+        if (which == p->accepted) {
+            rb_sensitivity_free(p->at[k].factors);
+            p->at[k].factors = NULL;
+        }
+    }
+}
+
+/* Solves a point for a trial; the first of those that share elements makes the
+ * flexibility.  A point that was not solved before starts from the solution of the one
+ * before it. */
+static rb_status solve_point(problem *p, const double *theta, int k, int trial, rb_message *why)
+{
+    const point *at = &p->at[k];
+    const rb_rolling_model *of = model_below(p, k, trial);
+    const rb_rolling_model *from = p->accepted >= 0 ? &at->solved[p->accepted]
+                                   : at->first < k && p->at[k - 1].first == at->first
+                                       ? &p->at[k - 1].solved[trial]
+                                       : of;
+    rb_rolling_model *v = &p->at[k].solved[trial];
+    place here = {p, theta, k, -1};
+    rb_rolling_case rc;
+    rb_status s = case_at(&here, 0.0, &rc, why);
+
+    if (s == RB_OK)
+        s = at->first == k ? rb_rolling_variant_place(of, &rc, 0.0, 1.0, v, why)
+                           : rb_rolling_variant_create(of, &rc, 0, v, why);
     if (s != RB_OK)
         return s;
     rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
-    s = p->last < 0 ? RB_MAXITER : solve_with_factors(from, at->factors[p->last], v, why);
+    s = p->accepted < 0 ? RB_MAXITER : solve_with_factors(from, at->factors, v, why);
     if (s > 0) {
-        rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
         s = rb_rolling_variant_complete(v, NULL, NULL, why);
         s = s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
     }
-    return s == RB_OK ? rb_sensitivity_create(v, 0, &at->factors[now], why) : s;
-}
-
-/* The residual of a point and its row of derivatives. */
-static rb_status evaluate_point(problem *p, const double *theta, int k, rb_message *why)
-{
-    const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
-    const int now = p->last == 0;
-    const rb_rolling_model *model = &p->at[k].solved[now];
-    place at = {p, theta, k, -1};
-    double row[RB_CASE_FIT_MAX], kappa = NAN;
-    rb_rolling_case rc;
-    rb_status s = case_at(&at, 0.0, &rc, why);
-
-    if (s == RB_OK)
-        s = solve_point(p, &rc, k, why);
-    if (s == RB_OK && rb_rolling_law_depends_on_state(&rc))
-        s = rb_rolling_law_kappa(model, &kappa);
-    if (s == RB_OK)
-        s = differentiate(p, theta, k, model, p->at[k].factors[now], row, why);
-    if (s != RB_OK)
-        return s;
-    p->kappa = fmax(p->kappa, kappa);
-    p->fit->model[k] = measure(p, model);
-    p->f[k] = (p->fit->model[k] - p->data->force[k]) / sigma;
-    for (int j = 0; j < p->n; j++)
-        p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma;
     return s;
 }
 
-/* Frees the solutions of all points: the last ones or those under way. */
-static void release(problem *p, int which)
+/* All residuals for a trial, and chi^2. */
+static rb_status try_numbers(problem *p, const double *theta, double *chi2, rb_message *why)
 {
-    for (int k = p->points - 1; k >= 0 && which >= 0; k--) {
-        point *at = &p->at[k];
-        rb_sensitivity_free(at->factors[which]);
-        at->factors[which] = NULL;
-        rb_rolling_variant_free(model_below(p, k, which), &at->solved[which]);
-    }
-}
-
-/* chi^2 and all rows; a trial: INFINITY where a point has no solution. */
-static rb_status evaluate(problem *p, const double *theta, int is_trial, double *chi2,
-                          rb_message *why)
-{
-    const int now = p->last == 0;
+    const int trial = p->accepted == 0;
     rb_status s = RB_OK;
 
-    p->kappa = 0.0;
+    release(p, trial);
     p->known_n = 0;
-    for (int k = 0; k < p->points && s == RB_OK; k++)
-        s = evaluate_point(p, theta, k, why);
-    release(p, s == RB_OK ? p->last : now);
-    p->last = s == RB_OK ? now : p->last;
+    for (int k = 0; k < p->points && s == RB_OK; k++) {
+        s = solve_point(p, theta, k, trial, why);
+        if (s == RB_OK)
+            p->f[k] = (measure(p, &p->at[k].solved[trial]) - p->data->force[k]) / sigma_of(p, k);
+    }
     *chi2 = s == RB_OK ? dot(p->points, p->f, p->f) : INFINITY;
-    return s != RB_ENOMEM && is_trial ? RB_OK : s;
+    return s;
+}
+
+/* Accepts the numbers of the last trial: their factors and rows of derivatives. */
+static rb_status accept_numbers(problem *p, const double *theta, rb_message *why)
+{
+    const int trial = p->accepted == 0;
+    rb_status s = RB_OK;
+
+    release(p, p->accepted);
+    p->accepted = trial;
+    p->kappa = 0.0;
+    for (int k = 0; k < p->points && s == RB_OK; k++) {
+        const rb_rolling_model *model = &p->at[k].solved[trial];
+        double row[RB_CASE_FIT_MAX], kappa = NAN;
+        s = rb_sensitivity_create_like(model, p->at[p->at[k].first].factors, &p->at[k].factors,
+                                       why);
+        if (s == RB_OK && rb_rolling_law_depends_on_state(model->rc))
+            s = rb_rolling_law_kappa(model, &kappa);
+        if (s == RB_OK)
+            s = differentiate(p, theta, k, model, p->at[k].factors, row, why);
+        if (s != RB_OK)
+            break;
+        p->kappa = fmax(p->kappa, kappa);
+        p->fit->model[k] = measure(p, model);
+        for (int j = 0; j < p->n; j++)
+            p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma_of(p, k);
+    }
+    return s;
 }
 
 /* Friction of similar bodies does not change the pressure: then the edges of the contact
@@ -338,8 +349,9 @@ static rb_status place_elements(problem *p, const double *theta, int *moved, rb_
 
     *moved = 0;
     p->known_n = 0;
-    release(p, p->last);
-    p->last = -1;
+    release(p, p->accepted == 0);
+    release(p, p->accepted);
+    p->accepted = -1;
     for (int k = 0; k < p->points && s == RB_OK; k++) {
         point *of = &p->at[k];
         place at = {p, theta, k, -1};
@@ -373,35 +385,38 @@ static void within(const rb_case_parameter *of, double *x)
               of->high - (of->high_open ? inside : 0.0));
 }
 
-/* What GSL's solver asks at x, in the scales of the parameters; known: f and J of x. */
+/* What GSL's solver asks, in the scales of the parameters: residuals at every trial,
+ * their derivatives where it accepts one. */
 typedef struct {
     problem *p;
-    double theta[RB_CASE_FIT_MAX], x[RB_CASE_FIT_MAX];
-    int known, clipped;
-    double chi2, worst;
-    rb_status status;
+    double theta[RB_CASE_FIT_MAX]; /* of the last trial, within its bounds */
+    double accepted[RB_CASE_FIT_MAX];
+    int known, has_rows; /* 1: theta has f and chi^2; it was accepted, and has J */
+    int clipped;
+    double chi2, accepted_chi2, worst;
+    rb_status status; /* of the last trial */
+    rb_status accepted_status;
     rb_message *why;
 } state;
 
 static void evaluate_at(const gsl_vector *x, state *at)
 {
     problem *p = at->p;
-    int same = at->known;
+    double theta[RB_CASE_FIT_MAX];
 
-    for (int j = 0; j < p->n; j++)
-        same = same && at->x[j] == gsl_vector_get(x, (size_t)j);
-    if (same)
-        return;
     at->clipped = 0;
     for (int j = 0; j < p->n; j++) {
-        at->x[j] = gsl_vector_get(x, (size_t)j);
-        at->theta[j] = at->x[j] * p->fit->parameter[j].scale;
-        const double wanted = at->theta[j];
-        within(&p->fit->parameter[j], &at->theta[j]);
-        at->clipped |= at->theta[j] != wanted;
+        const double wanted = gsl_vector_get(x, (size_t)j) * p->fit->parameter[j].scale;
+        theta[j] = wanted;
+        within(&p->fit->parameter[j], &theta[j]);
+        at->clipped |= theta[j] != wanted;
     }
-    at->status = evaluate(p, at->theta, 1, &at->chi2, at->why);
+    if (at->known && memcmp(theta, at->theta, (size_t)p->n * sizeof *theta) == 0)
+        return;
+    memcpy(at->theta, theta, (size_t)p->n * sizeof *theta);
+    at->status = try_numbers(p, theta, &at->chi2, at->why);
     at->known = 1;
+    at->has_rows = 0;
 }
 
 /* Where a point has no solution the residuals are larger than any so far. */
@@ -410,9 +425,9 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
     state *at = context;
 
     evaluate_at(x, at);
-    if (at->status != RB_OK)
+    if (at->status == RB_ENOMEM)
         return GSL_ENOMEM;
-    const int fails = !(at->chi2 < INFINITY);
+    const int fails = at->status != RB_OK;
     for (int k = 0; k < at->p->points; k++)
         gsl_vector_set(f, (size_t)k, fails ? at->worst : at->p->f[k]);
     if (!fails)
@@ -423,10 +438,16 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
 static int rows(const gsl_vector *x, void *context, gsl_matrix *J)
 {
     state *at = context;
-    const problem *p = at->p;
+    problem *p = at->p;
 
     evaluate_at(x, at);
-    if (at->status != RB_OK || !(at->chi2 < INFINITY))
+    if (at->status == RB_OK && !at->has_rows) {
+        at->accepted_status = accept_numbers(p, at->theta, at->why);
+        at->has_rows = 1;
+        memcpy(at->accepted, at->theta, sizeof at->theta);
+        at->accepted_chi2 = at->chi2;
+    }
+    if (at->status != RB_OK || at->accepted_status != RB_OK)
         return GSL_EFAILED;
     for (int j = 0; j < p->n; j++) {
         /* A bound that the sum of squares presses against holds a parameter. */
@@ -456,28 +477,23 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
     gsl_vector *x = gsl_vector_alloc(n);
     state at = {.p = p, .worst = 1.0, .why = why};
     gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = rows, .n = points, .p = n, .params = &at};
-    double chi2 = INFINITY;
     int done = 0;
     rb_status s = w && x ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a fit");
 
+    for (size_t j = 0; j < n && s == RB_OK; j++)
+        gsl_vector_set(x, j, theta[j] / p->fit->parameter[j].scale);
     if (s == RB_OK)
-        s = evaluate(p, theta, 0, &chi2, why); /* says why the start has no solution */
-    at.known = 1;
-    at.chi2 = chi2;
-    for (size_t j = 0; j < n && s == RB_OK; j++) {
-        at.theta[j] = theta[j];
-        at.x[j] = theta[j] / p->fit->parameter[j].scale;
-        gsl_vector_set(x, j, at.x[j]);
-    }
+        evaluate_at(x, &at); /* says why the start has no solution */
+    s = s == RB_OK ? at.status : s;
     if (s == RB_OK && gsl_multifit_nlinear_init(x, &fdf, w) != GSL_SUCCESS)
-        s = at.status != RB_OK ? at.status : rb_fail(why, RB_INACCURATE, "fit: no start");
+        s = at.accepted_status != RB_OK ? at.accepted_status
+                                        : rb_fail(why, RB_INACCURATE, "fit: no start");
     for (int k = 0; k < STEPS && s == RB_OK && !done; k++) {
+        const double chi2 = at.accepted_chi2;
         const int ended = gsl_multifit_nlinear_iterate(w);
-        evaluate_at(w->x, &at); /* the solver's own place, not the last trial */
-        s = at.status;
-        done = ended != GSL_SUCCESS || chi2 - at.chi2 <= 1e-10 * chi2;
-        chi2 = at.chi2;
-        memcpy(theta, at.theta, n * sizeof *theta);
+        s = at.status == RB_ENOMEM ? at.status : at.accepted_status;
+        done = ended != GSL_SUCCESS || chi2 - at.accepted_chi2 <= 1e-10 * chi2;
+        memcpy(theta, at.accepted, n * sizeof *theta);
         p->fit->iterations++;
         if (s == RB_OK && at.clipped && !done) { /* goes on from the bound */
             for (size_t j = 0; j < n; j++)
@@ -485,10 +501,10 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
             gsl_multifit_nlinear_init(x, &fdf, w);
         }
         if (s == RB_OK && observer && observer->step &&
-            observer->step(p->fit->iterations, chi2, p->n, theta, observer->context))
+            observer->step(p->fit->iterations, at.accepted_chi2, p->n, theta, observer->context))
             s = rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d steps", p->fit->iterations);
     }
-    p->fit->chi_square = chi2;
+    p->fit->chi_square = at.accepted_chi2;
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(x);
@@ -793,7 +809,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                  .n = fit->n,
                  .points = data->n,
                  .offset = -1,
-                 .last = -1,
+                 .accepted = -1,
                  .creep = rb_case_option(data->is_ratio ? "creep-ratio" : "creep"),
                  .load = rb_case_option("load"),
                  .speed = rb_case_option("speed"),
@@ -839,7 +855,8 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                     "several solutions; give friction a memory (--memory), or fit that too",
                     p.kappa);
     fit->status = s;
-    release(&p, p.last);
+    release(&p, p.accepted == 0);
+    release(&p, p.accepted);
     for (size_t k = 0; p.at && k < points; k++)
         rb_rolling_model_free(&p.at[k].base);
     free(p.at);

@@ -275,6 +275,22 @@ static rb_status set_yield(const rb_rolling_case *rc, rb_contact_problem *p)
     return rb_contact_set_yield(p, rc->yield_stress, rc->hardening);
 }
 
+/* Scales: stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become
+ * about 1; where mu is small, the slip of dissimilar bodies comes from the pressure. */
+void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                          rb_contact_problem *p)
+{
+    const rb_contact_response unit = rb_contact_operator_response(p->op);
+
+    rb_rolling_start_bounds(rc, NULL, bodies, p);
+    rb_rolling_set_control(rc, p);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
+    p->stress = rb_rolling_derive(rc).stress;
+    p->gap_length = p->stress * unit.gap;
+    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
+    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
+}
+
 /* p: allocated. */
 static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_rolling_bodies *bodies, const rb_rolling_past *past,
@@ -283,7 +299,7 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     if (set_yield(rc, p) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
                        mesh->n);
-    rb_rolling_start_bounds(rc, NULL, bodies, p);
+    rb_rolling_set_given(rc, bodies, p);
     p->differences = rc->formulation == RB_STEADY;
     p->force_unit = " N/mm";
     rb_rolling_set_gap(mesh, bodies, p);
@@ -301,16 +317,6 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
         p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
         p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
     }
-    rb_rolling_set_control(rc, p);
-    /* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about
-     * 1; where mu is small, the slip of dissimilar bodies comes from the pressure. */
-    const rb_contact_response unit = rb_contact_operator_response(p->op);
-    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
-
-    p->stress = rb_rolling_derive(rc).stress;
-    p->gap_length = p->stress * unit.gap;
-    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
-    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
     /* A layer that softens has one answer to a slip only where its stress falls by less
      * than the friction that the slip sets free. */
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);

@@ -178,6 +178,10 @@ double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepa
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, rb_contact_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
+/* All that friction and given load, motion and force determine: bounds, control and
+ * scales. */
+void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                          rb_contact_problem *p);
 /* Another operator of the same bodies, after these have got a matrix.  RB_ENOMEM: the
  * problem has none. */
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,

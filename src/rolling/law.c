@@ -27,8 +27,11 @@ static double scaled(const rb_rolling_friction *f, int k, double v)
 static double exponential_mu(const rb_rolling_case *rc, double x, double v)
 {
     const rb_rolling_friction *f = &rc->friction;
+    double mu = rc->mu;
     (void)x;
-    return rc->mu + f->fall[0] * exp2(-scaled(f, 0, v)) + f->fall[1] * exp2(-scaled(f, 1, v));
+    for (int k = 0; k < 2; k++)
+        mu += f->fall[k] != 0.0 ? f->fall[k] * exp2(-v / f->slip_scale[k]) : 0.0;
+    return mu;
 }
 
 static double rational_mu(const rb_rolling_case *rc, double x, double v)

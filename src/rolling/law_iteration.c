@@ -50,7 +50,9 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
     const double *x = model->bodies.f.x, *e_T = model->problem.e_T;
 
     for (int i = state->n - 1; i >= 0; i--) {
-        const double at_rest = rb_rolling_law_at_rest(rc, x[i]);
+        const double at_rest = f->memory != 0.0 || state->zone[i] == RB_ZONE_SEPARATED
+                                   ? rb_rolling_law_at_rest(rc, x[i])
+                                   : NAN;
         /* of a zone that slips: by its direction, so that derivatives exist at its end */
         const int zone = state->zone[i], direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
                                                      : zone == RB_ZONE_SLIP_POSITIVE ? -1

@@ -50,6 +50,25 @@ int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y)
            (x->speed == y->speed || !rb_rolling_relaxes(x));
 }
 
+/* 1: the cases differ at most in friction and in given load, motion and force, which leave
+ * mesh, bodies and all rows of the contact problem but its bounds as they are. */
+static int same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
+{
+    rb_rolling_case like = *x;
+
+    like.mu = y->mu;
+    like.friction = y->friction;
+    like.approach = y->approach;
+    like.load = y->load;
+    like.half_width = y->half_width;
+    like.shift = y->shift;
+    like.creep = y->creep;
+    like.creep_ratio = y->creep_ratio;
+    like.force = y->force;
+    like.force_ratio = y->force_ratio;
+    return memcmp(&like, y, sizeof like) == 0;
+}
+
 /* ---- Half-planes: how displacements change, by formula
  * --------------------------------- */
 
@@ -167,6 +186,22 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     return changed_displacement(of, rc, moved.scale, w0);
 }
 
+/* A variant that borrows all of the model but bounds, state and given values. */
+static rb_status borrow_rows(const rb_rolling_model *of, rb_rolling_model *v)
+{
+    v->mesh = of->mesh;
+    v->bodies = of->bodies;
+    v->problem = of->problem;
+    v->problem.bound = rb_alloc((size_t)of->problem.n, 1);
+    if (!v->problem.bound)
+        return RB_ENOMEM;
+    rb_rolling_set_given(v->rc, &v->bodies, &v->problem);
+    const rb_status s = rb_contact_state_alloc(of->mesh.n, &v->state);
+    if (s == RB_OK)
+        rb_rolling_variant_set(&of->state, NULL, 0.0, &v->state);
+    return s;
+}
+
 /* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
  * only where all results stay right. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int by_formula,
@@ -174,8 +209,10 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
 {
     /* The formula must know how the flexibility changes.  kappa of a law asks for the
      * matrix itself. */
+    const int moves = moved.scale != 1.0 || moved.shift != 0.0,
+              shares = by_formula && !moves && same_rows(rc, of->rc);
     const int borrows =
-        (rb_rolling_same_bodies(rc, of->rc) && moved.scale == 1.0 && moved.shift == 0.0) ||
+        (rb_rolling_same_bodies(rc, of->rc) && !moves) ||
         (by_formula && are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
          rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
          (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
@@ -183,6 +220,8 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
     v->mu_varies = of->mu_varies;
+    if (s == RB_OK && shares)
+        return borrow_rows(of, v);
     if (s == RB_OK)
         s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
     if (s == RB_OK && borrows)
@@ -256,6 +295,11 @@ rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_
 
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
+    if (v->mesh.ends && v->mesh.ends == of->mesh.ends) { /* all rows are borrowed */
+        free(v->problem.bound);
+        memset(&v->problem, 0, sizeof v->problem);
+        memset(&v->mesh, 0, sizeof v->mesh);
+    }
     if (v->problem.op == of->problem.op)
         v->problem.op = NULL;
     if (v->bodies.f.m && v->bodies.f.data == of->bodies.f.data) { /* borrowed */
@@ -285,17 +329,28 @@ void rb_rolling_variant_set(const rb_contact_state *from, const rb_contact_state
     to->lcp_form = from->lcp_form;
 }
 
+/* Hertz's half-width of the load that there is, what refers to it, and friction. */
+static rb_status follow_state(rb_rolling_model *v, rb_message *why)
+{
+    const rb_rolling_case *rc = v->rc;
+    rb_contact_problem *p = &v->problem;
+
+    v->half_width = rb_rolling_hertz_half_width(rc, fmax(0.0, rb_rolling_model_load(v)));
+    if (!p->force_given && !p->load_given && rc->formulation != RB_STATIC &&
+        !isnan(rc->creep_ratio))
+        p->xi = rb_rolling_creepage_of_ratio(v, rc->creep_ratio);
+    return rb_rolling_model_friction(v, why);
+}
+
 rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *slip,
                                       rb_message *why)
 {
     rb_contact_state *state = &v->state;
-    rb_contact_problem *p = &v->problem;
-    const rb_rolling_case *rc = v->rc;
     double *scratch = rb_alloc((size_t)state->n, 1);
 
     if (!scratch)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d elements", state->n);
-    rb_contact_kinematics(p, state, gap ? gap : scratch, state->lambda);
+    rb_contact_kinematics(&v->problem, state, gap ? gap : scratch, state->lambda);
     if (slip)
         memcpy(slip, state->lambda, (size_t)state->n * sizeof *slip);
     free(scratch);
@@ -303,9 +358,20 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *
         state->lambda[i] *= state->zone[i] != RB_ZONE_STICK;
         state->plastic[i] = state->zone[i] > RB_ZONE_SLIP_POSITIVE ? state->lambda[i] : 0.0;
     }
-    v->half_width = rb_rolling_hertz_half_width(rc, fmax(0.0, rb_rolling_model_load(v)));
-    if (!p->force_given && !p->load_given && rc->formulation != RB_STATIC &&
-        !isnan(rc->creep_ratio))
-        p->xi = rb_rolling_creepage_of_ratio(v, rc->creep_ratio);
-    return rb_rolling_model_friction(v, why);
+    return follow_state(v, why);
+}
+
+int rb_rolling_variant_given(const rb_rolling_model *of, const rb_rolling_case *rc, double *bound,
+                             rb_contact_problem *problem, rb_status *status, rb_message *why)
+{
+    rb_rolling_model v = *of;
+
+    if (!same_rows(rc, of->rc))
+        return 0;
+    v.rc = rc;
+    v.problem.bound = bound;
+    rb_rolling_set_given(rc, &v.bodies, &v.problem);
+    *status = follow_state(&v, why);
+    *problem = v.problem;
+    return 1;
 }

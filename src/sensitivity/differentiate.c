@@ -152,22 +152,40 @@ static rb_status rates(variants *v, rb_sensitivity_rate *rate, rb_message *why)
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why)
 {
-    variants v = {.base = s->model};
+    const rb_rolling_model *model = s->model;
+    variants v = {.base = model};
+    rb_sensitivity_rate left = {0};
     rb_status status = choose_places(s, input, &v, why);
 
     memset(rate, 0, sizeof *rate);
+    *mu = 0.0;
     if (v.at.n == middle.n)
         v.at = nearest;
     if (status == RB_OK)
-        status = variants_create(s->model, input, 0, &v, why);
-    if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, rate);
     if (status == RB_OK)
-        status = rates(&v, rate, why);
-    *mu = 0.0;
-    for (int k = 0; k < v.at.n && status == RB_OK; k++)
-        *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
-    variants_free(&v);
+        status = rb_sensitivity_rate_alloc(s->n, &left);
+    for (int k = 0; k < v.at.n && status == RB_OK; k++) {
+        const double weight = v.at.weight[k] / v.step;
+        rb_rolling_case rc;
+        rb_contact_problem given;
+        status = input->vary(input->context, input->value + v.at.place[k] * v.step, &rc, why);
+        if (status != RB_OK)
+            break;
+        rc = on_the_same_elements(&rc, model->rc, s->n);
+        if (rb_rolling_variant_given(model, &rc, left.bound, &given, &status, why)) {
+            rb_sensitivity_given(model, &given, &model->state, &left);
+            *mu += weight * given.mu;
+        } else {
+            status = rb_rolling_variant_create(model, &rc, 0, &v.model[k], why);
+            if (status == RB_OK)
+                status = rb_sensitivity_residual(model, &v.model[k], &left, why);
+            *mu += weight * v.model[k].problem.mu;
+            rb_rolling_variant_free(model, &v.model[k]);
+        }
+        rb_sensitivity_rate_add(&left, weight, rate);
+    }
+    rb_sensitivity_rate_free(&left);
     return status;
 }
 

@@ -31,22 +31,12 @@ void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times, rb_s
     to->tangential += times * rate->tangential;
 }
 
-/* Controls scaled as the unknowns of the base are. */
-rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
-                                  rb_sensitivity_rate *left, rb_message *why)
+void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem *p,
+                          const rb_contact_state *state, rb_sensitivity_rate *left)
 {
-    const rb_contact_problem *p = &variant->problem, *scale = &base->problem;
-    const rb_contact_state *state = &variant->state;
-    const rb_status s = rb_rolling_variant_complete(variant, left->gap, left->slip, why);
+    const rb_contact_problem *scale = &base->problem;
 
-    if (s != RB_OK)
-        return s;
     memcpy(left->bound, p->bound, (size_t)left->n * sizeof *left->bound);
-    if (p->yield) {
-        rb_contact_yielded(p, state->plastic, left->yield);
-        for (int i = 0; i < left->n; i++)
-            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
-    }
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;
     left->tangential = p->force_given
@@ -54,6 +44,22 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
                               p->force - p->force_ratio * rb_contact_capacity(p, state)) /
                                  (scale->mu * scale->stress * base->bodies.f.h[0])
                            : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
+}
+
+rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
+                                  rb_sensitivity_rate *left, rb_message *why)
+{
+    const rb_contact_problem *p = &variant->problem;
+    const rb_status s = rb_rolling_variant_complete(variant, left->gap, left->slip, why);
+
+    if (s != RB_OK)
+        return s;
+    if (p->yield) {
+        rb_contact_yielded(p, variant->state.plastic, left->yield);
+        for (int i = 0; i < left->n; i++)
+            left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
+    }
+    rb_sensitivity_given(base, p, &variant->state, left);
     return RB_OK;
 }
 

@@ -31,6 +31,10 @@ enum { BORDER_GAP = 1, BORDER_SLIP = 2 };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
+/* The part of a residual that bounds and given values make, controls scaled as the
+ * unknowns of the base are. */
+void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem *problem,
+                          const rb_contact_state *state, rb_sensitivity_rate *left);
 /* Computes law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
@@ -49,13 +53,13 @@ typedef struct rb_sensitivity_factors {
     int *zone;           /* n: zones for which they were computed; owned */
     double *J, *unknown; /* size x size: LU of the diagonal blocks, in the order p, delta,
                             q, xi; size: scales of the unknowns; owned */
-    double *row;         /* size: scales of the equations; owned */
+    double *row;         /* size: 1 over the scales of the equations; owned */
     int *pivot;          /* owned */
 } rb_sensitivity_factors;
 
-/* RB_SINGULAR, RB_ENOMEM. */
+/* like: of a model whose factors may be the same, or NULL.  RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
-                                rb_sensitivity_factors **factors);
+                                const rb_sensitivity *like, rb_sensitivity_factors **factors);
 void rb_sensitivity_factors_free(rb_sensitivity_factors *factors);
 /* Returns what the creepage changes by with the load, where a creepage ratio is given
  * under an approach (the ratio is one of Hertz's half-width); otherwise 0. */

@@ -109,23 +109,15 @@ static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, i
     r[(size_t)(f->size - 1) * ld] += times * p->e_T[j];
 }
 
-/* (D1) the rows of element contact[c]: its gap, and its stick, slip or yield. */
+/* (D1) stick, slip or yield of element contact[c]. */
 static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int c, double *weight)
 {
     const rb_contact_problem *p = &s->model->problem;
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     const int m = f->contacts, i = f->contact[c], zone = f->zone[i];
-    const size_t n = (size_t)s->n, ld = (size_t)f->size, ldf = (size_t)K.ldf;
-    double *gap = f->J + c, *tangential = f->J + m + 1 + c, *force = weight + n;
+    const size_t n = (size_t)s->n, ld = (size_t)f->size;
+    double *tangential = f->J + m + 1 + c, *force = weight + n;
 
-    for (int k = 0; k < m; k++) {
-        const size_t at = (size_t)f->contact[k];
-        gap[(size_t)k * ld] = K.F[(size_t)i + at * ldf];
-        gap[(size_t)(m + 1 + k) * ld] = K.F[(size_t)i + (n + at) * ldf];
-    }
-    gap[(size_t)m * ld] = -1.0;
-    f->row[c] = p->gap_length;
-    f->row[m + 1 + c] = zone == RB_ZONE_STICK ? p->slip_length : p->stress;
+    f->row[m + 1 + c] = 1.0 / (zone == RB_ZONE_STICK ? p->slip_length : p->stress);
     if (zone == RB_ZONE_STICK) {
         add_slip(s, f, i, 1.0, tangential);
         return;
@@ -186,15 +178,33 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
         normal[(size_t)m * ld] = 1.0;
     if (!p->force_given)
         tangential[(size_t)(2 * m + 1) * ld] = 1.0;
-    f->row[m] = p->load_given ? p->load : p->gap_length;
-    f->row[2 * m + 1] =
-        p->force_given ? p->mu * p->stress * model->bodies.f.h[0] : p->slip_length / p->e_T[0];
+    f->row[m] = 1.0 / (p->load_given ? p->load : p->gap_length);
+    f->row[2 * m + 1] = p->force_given ? 1.0 / (p->mu * p->stress * model->bodies.f.h[0])
+                                       : p->e_T[0] / p->slip_length;
+}
+
+/* Equations that determine p and delta alone have the factors of `like`, if it has the
+ * same flexibility and the same elements in contact. */
+static int takes_first_block(const rb_sensitivity_factors *like, rb_sensitivity_factors *f)
+{
+    const size_t bytes = (size_t)f->contacts * sizeof *f->contact, size = (size_t)f->size;
+
+    if (f->first == f->size || like->first != f->first ||
+        memcmp(like->contact, f->contact, bytes) != 0 ||
+        memcmp(like->row, f->row, (size_t)f->first * sizeof *f->row) != 0 ||
+        memcmp(like->unknown, f->unknown, (size_t)f->first * sizeof *f->unknown) != 0)
+        return 0;
+    for (size_t j = 0; j < (size_t)f->first; j++)
+        memcpy(f->J + j * size, like->J + j * size, (size_t)f->first * sizeof *f->J);
+    memcpy(f->pivot, like->pivot, (size_t)f->first * sizeof *f->pivot);
+    return 1;
 }
 
 rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
-                                rb_sensitivity_factors **factors)
+                                const rb_sensitivity *like, rb_sensitivity_factors **factors)
 {
     const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     rb_sensitivity_factors *f = *factors = factors_alloc(s->n, zone);
     double *scratch = rb_alloc((size_t)s->n, 2);
 
@@ -203,27 +213,40 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
         return RB_ENOMEM;
     }
     const int m = f->contacts, size = f->size;
-    for (int c = 0; c < m; c++)
-        fill_element(s, f, c, scratch);
-    fill_controls(s, f);
-    free(scratch);
-    for (int j = 0; j < size; j++) {
+    /* the normal equations alone determine p and delta where friction does not change
+     * them */
+    const int is_coupled = rb_contact_operator_response(p->op).coupled ||
+                           (p->load_given && rb_norm_inf((size_t)s->n, p->load_T) > 0.0);
+    const int k = f->first = is_coupled ? size : m + 1, rest = size - k;
+    for (int j = 0; j < size; j++)
         f->unknown[j] = j == m          ? p->gap_length
                         : j == size - 1 ? p->slip_length / p->e_T[0]
                                         : p->stress;
-        for (int i = 0; i < size; i++)
-            f->J[i + (size_t)j * (size_t)size] *= f->unknown[j] / f->row[i];
+    for (int c = 0; c < m; c++) {
+        f->row[c] = 1.0 / p->gap_length;
+        fill_element(s, f, c, scratch);
     }
-    /* the normal equations alone determine p and delta where friction does not change
-     * them */
-    f->first = m + 1;
-    for (int j = m + 1; j < size; j++)
-        for (int i = 0; i < m + 1; i++)
-            if (f->J[i + (size_t)j * (size_t)size] != 0.0)
-                f->first = size;
-    const int k = f->first, rest = size - k;
+    fill_controls(s, f);
+    free(scratch);
+    const int is_known = like && like->factors && like->model->problem.op == p->op &&
+                         takes_first_block(like->factors, f);
+    for (int j = 0; j < (is_known ? 0 : k); j++) {
+        const int of_q = j > m;
+        double *gap = f->J + (size_t)j * (size_t)size;
+        const double *F = K.F + (size_t)K.ldf * (of_q ? (size_t)s->n : 0);
+        for (int r = 0; r < m; r++)
+            gap[r] = j == m || j == size - 1
+                         ? (j == m ? -1.0 : 0.0)
+                         : F[(size_t)f->contact[r] +
+                             (size_t)K.ldf * (size_t)f->contact[of_q ? j - m - 1 : j]];
+    }
+    for (int j = 0; j < size; j++)
+        for (int i = is_known || j >= k ? k : 0; i < size; i++)
+            f->J[i + (size_t)j * (size_t)size] *= f->unknown[j] * f->row[i];
     rb_status status =
-        rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
+        is_known
+            ? RB_OK
+            : rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
     if (status == RB_OK && rest > 0)
         status = rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rest, rest,
                                                       f->J + (size_t)k * (size_t)(size + 1), size,
@@ -264,10 +287,10 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
         return RB_ENOMEM;
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c], zone = f->zone[i];
-        x[c] = -rate->gap[i] / f->row[c];
+        x[c] = -rate->gap[i] * f->row[c];
         x[m + 1 + c] = (zone == RB_ZONE_STICK ? -rate->slip[i]
                         : slides(zone)        ? sign_of(zone) * rate->bound[i] * state->p[i]
-                                              : sign_of(zone) * rate->yield[i]) /
+                                              : sign_of(zone) * rate->yield[i]) *
                        f->row[m + 1 + c];
     }
     x[m] = -rate->normal;
@@ -307,8 +330,8 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
     memset(adjoint->gap, 0, 4 * (size_t)s->n * sizeof *adjoint->gap);
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c], zone = f->zone[i];
-        const double tangential = x[m + 1 + c] / f->row[m + 1 + c];
-        adjoint->gap[i] = -x[c] / f->row[c];
+        const double tangential = x[m + 1 + c] * f->row[m + 1 + c];
+        adjoint->gap[i] = -x[c] * f->row[c];
         if (zone == RB_ZONE_STICK)
             adjoint->slip[i] = -tangential;
         else if (slides(zone))

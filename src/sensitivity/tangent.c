@@ -246,7 +246,7 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
         memcpy(zone, s->model->state.zone, n * sizeof *zone);
     for (; k <= most && moved && status == RB_OK; k++) {
         rb_sensitivity_factors *f;
-        status = rb_sensitivity_factor(s, zone, &f);
+        status = rb_sensitivity_factor(s, zone, NULL, &f);
         if (status == RB_OK)
             status = rb_sensitivity_forward(s, f, rate, y);
         rb_sensitivity_factors_free(f);
@@ -300,7 +300,8 @@ static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
     return rb_rolling_variant_with_matrix(model, s->with_matrix, why);
 }
 
-static rb_status create(const rb_rolling_model *model, rb_sensitivity **made, rb_message *why)
+static rb_status create(const rb_rolling_model *model, const rb_sensitivity *like,
+                        rb_sensitivity **made, rb_message *why)
 {
     rb_sensitivity *s = *made = calloc(1, sizeof *s);
     rb_status status = RB_OK;
@@ -321,7 +322,7 @@ static rb_status create(const rb_rolling_model *model, rb_sensitivity **made, rb
     if (status == RB_OK)
         status = rb_sensitivity_law(s, why);
     if (status == RB_OK && s->model->bodies.F)
-        status = rb_sensitivity_factor(s, s->model->state.zone, &s->factors);
+        status = rb_sensitivity_factor(s, s->model->state.zone, like, &s->factors);
     else if (status == RB_OK && s->degenerate)
         status = rb_fail(why, RB_EINVAL,
                          "derivatives: %d elements stand between two zones, which needs "
@@ -346,20 +347,20 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
         !rb_contact_operator_response(model->problem.op).coupled)
         return RB_OK;
     if (model->freely) /* the solve has found it */
-        return create(model->freely, &s->free_rolling, why);
+        return create(model->freely, NULL, &s->free_rolling, why);
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     status = rc->mesh == RB_MESH_UNIFORM ? rb_rolling_variant_solve(model, &freely, v, why)
                                          : rb_rolling_model_create(&freely, v, why);
-    return status == RB_OK ? create(v, &s->free_rolling, why) : status;
+    return status == RB_OK ? create(v, NULL, &s->free_rolling, why) : status;
 }
 
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
                                 rb_message *why)
 {
     rb_message reason = {""};
-    rb_status status = create(model, s, why);
+    rb_status status = create(model, NULL, s, why);
 
     if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
         status = rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
@@ -377,6 +378,18 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
         if (status != RB_OK)
             rb_fail(why, status, "%s", rb_status_reason(status, &reason));
     }
+    if (status != RB_OK) {
+        rb_sensitivity_free(*s);
+        *s = NULL;
+    }
+    return status;
+}
+
+rb_status rb_sensitivity_create_like(const rb_rolling_model *model, const rb_sensitivity *like,
+                                     rb_sensitivity **s, rb_message *why)
+{
+    const rb_status status = create(model, like, s, why);
+
     if (status != RB_OK) {
         rb_sensitivity_free(*s);
         *s = NULL;
