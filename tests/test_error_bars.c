@@ -646,6 +646,58 @@ static void accuracy_is_that_of_the_boundary_too(void **state)
     rb_rolling_solution_free(&s);
 }
 
+static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
+{
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    rb_message why = {""};
+    int elements = 0;
+    rb_case *c = case_of(line);
+
+    assert_non_null(c);
+    CHECK_STATUS(
+        rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &why),
+        wanted);
+    rb_case_free(c);
+    return s;
+}
+
+/* Friction turns round over an element that no mesh resolves, far from the largest
+ * pressure, which it does not change: its bar was mu beta p0 on every mesh. */
+static void a_jump_of_friction_beside_the_peak_is_no_error_of_it(void **state)
+{
+    rb_rolling_solution s = to_accuracy(
+        " --radius 300.226 --young 81172.5 --poisson -0.04338 --support halfplane --mu 0.059302"
+        " --formulation static --approach 0.0779395 --force-ratio -0.80908 --contact-elements 23"
+        " --mesh fitted",
+        RB_OK);
+    CHECK_MAX(s.n, 100, "elements");
+    CHECK_REL(s.max_pressure, 395.283, 3e-3, "p0 of 1472 elements");
+    rb_rolling_solution_free(&s);
+}
+
+/* At a corner of the worn table the pressure is infinite: finer meshes do not help, and the
+ * third one that does not is the last. */
+static void an_accuracy_that_does_not_come_nearer_is_given_up(void **state)
+{
+    char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
+    assert_non_null(mkdtemp(folder));
+    snprintf(line, sizeof line, "%s/worn.txt", folder);
+    FILE *file = fopen(line, "w");
+    assert_non_null(file);
+    fputs("-0.9 0\n-0.3 0.0005\n0.2 0.00075\n0.8 0\n", file);
+    fclose(file);
+    snprintf(line, sizeof line,
+             " --worn %s/worn.txt --support halfplane --half-width 1 --formulation steady"
+             " --creep-ratio 0.6 --contact-elements 40",
+             folder);
+    rb_rolling_solution s = to_accuracy(line, RB_INACCURATE);
+    CHECK_MAX(s.n, 1000, "elements");
+    rb_rolling_solution_free(&s);
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    assert_int_equal(system(line), 0);
+}
+
 /* What was refused has no solution and no error bars, not what was in them before. */
 static void a_refusal_sets_every_output(void **state)
 {
@@ -718,6 +770,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_narrow_stick_zone_widens_the_bars),
         cmocka_unit_test(given_outer_elements_have_bars),
         cmocka_unit_test(accuracy_is_that_of_the_boundary_too),
+        cmocka_unit_test(a_jump_of_friction_beside_the_peak_is_no_error_of_it),
+        cmocka_unit_test(an_accuracy_that_does_not_come_nearer_is_given_up),
         cmocka_unit_test(a_refusal_sets_every_output),
         cmocka_unit_test(an_accuracy_out_of_reach_is_said_to_be),
         cmocka_unit_test(a_failed_coarser_run_leaves_the_solution),

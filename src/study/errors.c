@@ -94,11 +94,13 @@ static void put(const rb_rolling_result *r, void *owner, double value)
     memcpy((char *)owner + r->offset, &value, sizeof value);
 }
 
-/* Whether slip turns round over a stick zone of fewer than four elements: no mesh tells
- * then where in it friction changes its sign. */
-static int has_unresolved_stick(const rb_rolling_solution *s)
+/* The largest pressure [stress] of the stick zones of fewer than four elements over which
+ * slip turns round: no mesh tells then where in them friction changes its sign.  0: there
+ * are none. */
+static double pressure_of_unresolved_stick(const rb_rolling_solution *s)
 {
     int before = RB_ZONE_SEPARATED, stuck = 0;
+    double most = 0.0;
 
     for (int i = 0; i < s->n; i++) {
         if (s->zone[i] == RB_ZONE_STICK) {
@@ -107,11 +109,12 @@ static int has_unresolved_stick(const rb_rolling_solution *s)
         }
         if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK && s->zone[i] != before &&
             stuck < 4)
-            return 1;
+            for (int j = i - stuck - 1; j <= i; j++)
+                most = fmax(most, s->p[j]);
         before = s->zone[i];
         stuck = 0;
     }
-    return 0;
+    return most;
 }
 
 /* Whether an element slips by no more than the slip changes from there to the next one: a
@@ -182,19 +185,20 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
  * begins; slip over an element; the friction of an element that may stick; the pressure
  * at a corner, which is infinite, on elements ten times shorter; and with an unresolved
  * stick zone the friction of an element, and the pressure that a jump of friction brings
- * about between dissimilar bodies. */
-static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s,
+ * about there between dissimilar bodies.  of_stress: 0 for the pressure, 1 for stresses. */
+static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s, int of_stress,
                           rb_rolling_error_scale scale)
 {
     const hidden_stick hidden = find_hidden_stick(rc, s);
     const double rounding = fmax(s->residual, rc->contact.tol), a = s->hertz_half_width;
     const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
-    const int unresolved = has_unresolved_stick(s);
+    const double unresolved = pressure_of_unresolved_stick(s);
     const int force_given = rb_rolling_force_is_given(rc);
-    const double friction = force_given  ? 0.0
-                            : unresolved ? rb_rolling_largest_mu(rc) * s->max_pressure *
-                                               rb_rolling_longest_element(s->n, s->zone, s->h)
-                                         : fmax(hidden.friction, friction_of_short_stick(rc, s));
+    const double friction = force_given ? 0.0
+                            : unresolved > 0.0
+                                ? rb_rolling_largest_mu(rc) * s->max_pressure *
+                                      rb_rolling_longest_element(s->n, s->zone, s->h)
+                                : fmax(hidden.friction, friction_of_short_stick(rc, s));
 
     switch (scale) {
     case RB_SCALE_ONE:
@@ -215,13 +219,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded
                                    ? 0.5 * rb_rolling_longest_element(s->n, s->zone, s->h)
                                    : 0.0);
-    case RB_SCALE_PRESSURE:
-        return (rounding + (unresolved
-                                ? rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs)
-                                : 0.0)) *
-                   s->max_pressure +
+    case RB_SCALE_PRESSURE: {
+        /* friction jumps by 2 mu p, and between unlike bodies the pressure has a logarithm
+         * there; on elements ten times shorter it rises by so much */
+        const double rise = M_LN10 * M_2_PI * rb_rolling_largest_mu(rc) *
+                            fabs(rb_rolling_derive(rc).dundurs) * unresolved;
+        return rounding * s->max_pressure +
+               (of_stress ? rise : fmax(0.0, unresolved + rise - s->max_pressure)) +
                rb_rolling_rise_at_corners(rc, s->contact_from, s->contact_to,
                                           rb_rolling_longest_element(s->n, s->zone, s->h), 10.0);
+    }
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */
         const double driven =
@@ -350,7 +357,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
                                           : 0.0;
                 put(r, part_of_errors(&parts->contact, t),
                     rb_rolling_contact_error(coarser, value) +
-                        least_error(rc, &own->solution, r->error_bar) + unseen);
+                        least_error(rc, &own->solution, t, r->error_bar) + unseen);
                 put(r, part_of_errors(&parts->boundary, t),
                     rb_rolling_boundary_error(runs, coarser, value));
             }
@@ -424,18 +431,20 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
     return worst;
 }
 
-/* Makes each part that is too large for its share of the accuracy finer, by at most two
- * because its error may fall faster than its order says.  0: the limit of a part is
- * reached, or twice that would not do. */
+/* Makes the elements of the contact and those of the boundary finer: each until its part of
+ * the error is what the other one leaves of the accuracy, half of it at least, and by at
+ * most two because an error may fall faster than its order says.  0: the limit of a part
+ * is reached, or twice that would not do. */
 static int refine(double accuracy, double contact, double boundary, rb_rolling_case *rc)
 {
     const int wheels = rb_rolling_error_runs(rc) > 2;
     const double most = wheels ? MOST_ON_WHEELS : MOST_ELEMENTS;
-    const double share = wheels ? 0.5 * accuracy : accuracy;
     const double order = rc->mesh == RB_MESH_FITTED ? 2.0 : 1.0;
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
-    const double n_factor = fmax(1.0, pow(contact / share, 1.0 / order));
-    const double outer_factor = fmax(1.0, sqrt(boundary / share));
+    const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
+    const double for_boundary = fmax(0.5 * accuracy, accuracy - contact);
+    const double n_factor = fmax(1.0, pow(contact / for_contact, 1.0 / order));
+    const double outer_factor = fmax(1.0, sqrt(boundary / for_boundary));
 
     if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
         return 0;
@@ -453,8 +462,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
 {
     rb_rolling_case refined = *rc;
     error_parts parts;
-    double worst = INFINITY;
-    int round = 0;
+    double worst = INFINITY, before;
+    int round = 0, stood = 0; /* rounds in which the bars did not fall */
     rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
@@ -478,11 +487,13 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         if (status != RB_OK)
             return status;
         add_parts(&parts, errors);
+        before = worst;
         worst = worst_relative(rc, solution, &errors->scalar);
+        stood = fabs(worst - before) < 0.05 * worst ? stood + 1 : 0;
         if (worst <= accuracy)
             return RB_OK;
-    } while (refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
-                    worst_relative(rc, solution, &parts.boundary.scalar), &refined));
+    } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
+                                 worst_relative(rc, solution, &parts.boundary.scalar), &refined));
     if (status == RB_OK || status == RB_ENOMEM)
         status = rb_fail(why, RB_INACCURATE,
                          "accuracy %g not reached with %d elements: estimated error "
