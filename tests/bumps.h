@@ -19,7 +19,6 @@ typedef struct {
 static inline table *bumps(int n, const double *x, const double *height)
 {
     table *t = calloc(1, sizeof *t);
-    rb_message why = {""};
     assert_non_null(t);
     const double half = fmax(fabs(x[0]), fabs(x[n - 1])) + 1.5;
     for (int i = 0; i < POINTS; i++) {
@@ -28,8 +27,7 @@ static inline table *bumps(int n, const double *x, const double *height)
         for (int k = 0; k < n; k++)
             t->gap[i] = fmin(t->gap[i], gsl_pow_2(t->x[i] - x[k]) / 20.0 + height[k]);
     }
-    if (rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &heard));
     t->rc = rb_rolling_case_defaults();
     t->rc.a.support = RB_BEM_HALFPLANE;
     t->rc.gap = RB_GAP_TABLE;

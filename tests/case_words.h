@@ -15,16 +15,13 @@ typedef struct {
 static inline rb_case *case_of(rb_case_purpose purpose, const words *w, const char *name,
                                double value)
 {
-    rb_message why = {""};
     rb_case *c = rb_case_create(purpose);
     assert_non_null(c);
     for (int k = 0; w->word[k]; k += 2)
-        if (rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
-            fail_msg("%s", why.text);
-    if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    if (rb_case_resolve(c, &why) != RB_OK)
-        fail_msg("%s", why.text);
+        CHECK_OK(rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &heard));
+    if (name && rb_case_set_number(c, name, value, &heard) != RB_OK)
+        fail_msg("%s", heard.text);
+    CHECK_OK(rb_case_resolve(c, &heard));
     return c;
 }
 

@@ -65,6 +65,22 @@ static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
 #define OWNED(type) __attribute__((cleanup(type##_free))) type
 /* SCRATCH double *x: so is what x points to. */
 #define SCRATCH __attribute__((cleanup(free_scratch_)))
+/* HELD(rb_case) c: a pointer to what is freed where the block of c ends. */
+#define HELD(type) __attribute__((cleanup(type##_release_))) type *
+#define HELD_TYPE(type, release)                                                                   \
+    static inline void type##_release_(type **held)                                                \
+    {                                                                                              \
+        release(*held);                                                                            \
+    }
+typedef struct rb_api rb_api;
+typedef struct rb_case rb_case;
+typedef struct rb_bem_system rb_bem_system;
+void rb_api_free(rb_api *a);
+void rb_case_free(rb_case *c);
+void rb_bem_system_free(rb_bem_system *system);
+HELD_TYPE(rb_api, rb_api_free)
+HELD_TYPE(rb_case, rb_case_free)
+HELD_TYPE(rb_bem_system, rb_bem_system_free)
 
 static inline void free_scratch_(void *address)
 {
@@ -80,7 +96,36 @@ static inline void free_scratch_(void *address)
     check_close_(got, want, (tol)*fabs(want), __FILE__, __LINE__, __VA_ARGS__)
 /* got <= bound */
 #define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
-#define CHECK_STATUS(got, want) assert_int_equal(got, want)
+/* The status of a call, before which `heard` is empty. */
+#define CHECK_STATUS(call, want)                                                                   \
+    check_status_((strchr(#call, '(') ? heard.text[0] = '\0' : 0, (int)(call)), want, #call,       \
+                  __FILE__, __LINE__)
+#define CHECK_OK(call) CHECK_STATUS(call, RB_OK)
+/* The same, and what f(..., &heard) said has these words. */
+#define CHECK_SAYS(call, want, words)                                                              \
+    do {                                                                                           \
+        CHECK_STATUS(call, want);                                                                  \
+        check_said_(words, __FILE__, __LINE__);                                                    \
+    } while (0)
+
+/* For what a call has to say: f(..., &heard). */
+static rb_message heard __attribute__((unused));
+
+static inline void check_status_(int got, int want, const char *call, const char *file, int line)
+{
+    if (got == want)
+        return;
+    print_error("%s: status %d, want %d: %s\n", call, got, want, heard.text);
+    _fail(file, line);
+}
+
+static inline void check_said_(const char *words, const char *file, int line)
+{
+    if (strstr(heard.text, words))
+        return;
+    print_error("'%s' does not say '%s'\n", heard.text, words);
+    _fail(file, line);
+}
 
 static inline void check_fail_(const char *file, int line, const char *format, va_list args)
 {

@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+HELD_TYPE(json_t, json_decref)
+
 static char program[600], folder[40] = "/tmp/rollbem-cli-XXXXXX";
 static char out[1000000], err[20000];
 

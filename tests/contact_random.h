@@ -97,10 +97,9 @@ static inline void set_layer(const kind *of, rb_contact_problem *p)
         {0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {4.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}};
     static const double hardening[] = {0.0, 0.3, 0.0, -0.1};
 
-    CHECK_STATUS(rb_contact_set_yield(p, 7.0, 8.0), RB_OK); /* replaced by the next */
-    CHECK_STATUS(rb_contact_set_yield(p, 0.5 * of->mu * STRESS,
-                                      hardening[of->yields] * of->mu * STRESS / SLIP),
-                 RB_OK);
+    CHECK_OK(rb_contact_set_yield(p, 7.0, 8.0)); /* replaced by the next */
+    CHECK_OK(rb_contact_set_yield(p, 0.5 * of->mu * STRESS,
+                                  hardening[of->yields] * of->mu * STRESS / SLIP));
     memcpy(p->recall, recall[of->order], sizeof p->recall);
     p->own = recall[of->order][2];
 }
@@ -111,8 +110,8 @@ static inline void random_problem(const kind *of, rb_contact_problem *p)
     rb_contact_operator *op;
     double *bound = rb_alloc((size_t)n, 1), total = 0.0;
 
-    CHECK_STATUS(rb_contact_operator_dense(n, F, n + PADDING, random_matrices(of), &op), RB_OK);
-    CHECK_STATUS(rb_contact_problem_alloc(op, p), RB_OK);
+    CHECK_OK(rb_contact_operator_dense(n, F, n + PADDING, random_matrices(of), &op));
+    CHECK_OK(rb_contact_problem_alloc(op, p));
     p->stress = STRESS;
     p->gap_length = GAP;
     p->slip_length = SLIP;
@@ -357,7 +356,7 @@ static inline void use_products(rb_contact_problem *p, by_products *k)
     k->slip = k->gap + n;
     memcpy(k->S, rb_contact_operator_matrix(p->op).S, 2 * n * n * sizeof(double));
     const rb_contact_products by = {apply, divide, forget, k, NULL};
-    CHECK_STATUS(rb_contact_operator_products(p->n, &by, &op), RB_OK);
+    CHECK_OK(rb_contact_operator_products(p->n, &by, &op));
     rb_contact_operator_free(p->op);
     p->op = op;
     p->rounding = 1e-9;

@@ -12,22 +12,21 @@ static inline void packing(const char *arguments, rb_friction_problem *p)
 {
     const char *build = getenv("B") ? getenv("B") : "build";
     char name[] = "/tmp/rollbem-packing-XXXXXX", command[400];
-    rb_message why = {""};
     const int file = mkstemp(name);
     assert_true(file >= 0);
     close(file);
     snprintf(command, sizeof command, "%s/packings %s > %s", build, arguments, name);
     assert_int_equal(system(command), 0);
-    const rb_status s = rb_friction_read(name, p, &why);
+    const rb_status s = rb_friction_read(name, p, &heard);
     unlink(name);
     if (s != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(s, RB_OK);
+        print_error("%s\n", heard.text);
+    CHECK_OK(s);
     const int m = p->dimension * p->contacts;
     if (p->form == RB_FRICTION_GLOBAL)
         return;
     if (p->form == RB_FRICTION_LOCAL_DENSE)
-        CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+        CHECK_OK(rb_sparse_from_dense(m, m, p->W, m, &p->Ws));
     p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 

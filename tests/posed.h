@@ -29,11 +29,9 @@ static inline rb_rolling_case posed_plane(rb_rolling_formulation formulation)
 static inline posed pose(const rb_rolling_case *rc, const rb_rolling_past *past)
 {
     posed d = {.rc = *rc};
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
-    if (rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &heard));
+    CHECK_OK(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &heard));
+    CHECK_OK(rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &heard));
     d.K = rb_contact_operator_matrix(d.p.op);
     return d;
 }

@@ -9,9 +9,7 @@ static inline rb_rolling_profile *profile_of(int n, const double *x, const doubl
                                              double noise)
 {
     rb_rolling_profile *profile;
-    rb_message why = {""};
-    if (rb_rolling_profile_create(n, x, gap, noise, &profile, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_profile_create(n, x, gap, noise, &profile, &heard));
     return profile;
 }
 

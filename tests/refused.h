@@ -9,10 +9,9 @@
 
 static inline void check_refused(const rb_rolling_case *rc, const char *first, const char *second)
 {
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_case_check(rc, &why), RB_EINVAL);
-    if (!strstr(why.text, first) || !strstr(why.text, second))
-        fail_msg("'%s' does not name '%s' and '%s'", why.text, first, second);
+    CHECK_STATUS(rb_rolling_case_check(rc, &heard), RB_EINVAL);
+    if (!strstr(heard.text, first) || !strstr(heard.text, second))
+        fail_msg("'%s' does not name '%s' and '%s'", heard.text, first, second);
 }
 
 /* A default case with these changes is refused with these words, or accepted. */

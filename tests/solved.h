@@ -9,10 +9,8 @@
 static inline rb_rolling_solution solved(const rb_rolling_case *rc)
 {
     rb_rolling_solution s;
-    rb_message why = {""};
     const double start = rb_seconds();
-    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_solve(rc, &s, &heard));
     CHECK_MAX(s.seconds_total, rb_seconds() - start, "no more seconds than have passed");
     return s;
 }
@@ -26,18 +24,14 @@ static inline rb_rolling_case *case_of_model(rb_rolling_model *model)
 static inline rb_rolling_model solved_model(const rb_rolling_case *rc)
 {
     rb_rolling_model model;
-    rb_message why = {""};
-    if (rb_rolling_model_create(rc, &model, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_model_create(rc, &model, &heard));
     return model;
 }
 
 static inline rb_rolling_solution solution_of(const rb_rolling_model *model)
 {
     rb_rolling_solution s;
-    rb_message why = {""};
-    if (rb_rolling_model_solution(model, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_model_solution(model, &s, &heard));
     return s;
 }
 

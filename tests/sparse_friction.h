@@ -9,7 +9,7 @@
 static inline void make_sparse(rb_friction_problem *p)
 {
     const int m = p->dimension * p->contacts;
-    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(m, m, p->W, m, &p->Ws));
     p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 

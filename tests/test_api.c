@@ -65,7 +65,7 @@ TEST(descriptions_are_complete)
 /* A caller that does not look at the status of each call must not get another case. */
 TEST(what_was_refused_is_not_solved)
 {
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     const char *const wrong[][2] = {
         {"load", "1,5"}, {"radius", "x"}, {"mu", "-1"}, {"load", "2,5"}};
     assert_int_equal(rb_api_set(a, "contact-elements", "12"), RB_OK);
@@ -95,7 +95,6 @@ TEST(what_was_refused_is_not_solved)
         assert_true(rb_api_set(a, name, "1") < 0);
     }
     assert_true(rb_api_solve(a) < 0);
-    rb_api_free(a);
 }
 
 TEST(refusals_are_those_of_the_case)
@@ -120,7 +119,7 @@ TEST(refusals_are_those_of_the_case)
 
 TEST(numbers_are_the_solution)
 {
-    rb_api *a = solved(steady);
+    HELD(rb_api) a = solved(steady);
     const int n = 60;
     double P = 0.0, Q = 0.0;
     char text[40];
@@ -143,7 +142,6 @@ TEST(numbers_are_the_solution)
     assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
     const double *syy = array(a, "stress.syy", 9, 7);
     CHECK_REL(-syy[4], rb_api_number(a, "max_pressure"), 2e-2, "under the pressure");
-    rb_api_free(a);
 }
 
 /* What is kept from solve to solve changes no bit, and other bodies are never mixed up. */
@@ -156,7 +154,7 @@ TEST(the_next_case_is_solved_as_the_first_one)
     int n = 0;
     for (; wheel[n]; n++)
         words[n] = wheel[n];
-    rb_api *a = solved(wheel);
+    HELD(rb_api) a = solved(wheel);
     for (size_t k = 0; k < sizeof next / sizeof *next; k++) {
         words[n++] = next[k][0];
         words[n++] = next[k][1];
@@ -165,22 +163,20 @@ TEST(the_next_case_is_solved_as_the_first_one)
         assert_null(rb_api_array(a, "p", &(int){0}, &(int){0}));
         assert_true(isnan(rb_api_number(a, "normal_load")));
         assert_int_equal(rb_api_solve(a), RB_OK);
-        rb_api *anew = solved(words);
+        HELD(rb_api) anew = solved(words);
         const double *p = array(a, "p", 12, 1), *want = array(anew, "p", 12, 1);
         for (int i = 0; i < 12; i++)
             CHECK_ABS(p[i], want[i], 0.0, "p[%d] after %s", i, next[k][0]);
         CHECK_ABS(rb_api_number(a, "force_ratio"), rb_api_number(anew, "force_ratio"), 0.0,
                   "Q after %s", next[k][0]);
-        rb_api_free(anew);
     }
-    rb_api_free(a);
 }
 
 /* Before each pivot: the ratios are not negative, the row that leaves has the least of
  * them, and the step is that least ratio. */
 TEST(pivots_keep_the_ratio_test)
 {
-    rb_api *a = solved(wheel);
+    HELD(rb_api) a = solved(wheel);
     int size, pivots, r;
     char name[32];
     assert_int_equal(rb_api_pivots(a), RB_OK);
@@ -215,14 +211,13 @@ TEST(pivots_keep_the_ratio_test)
             CHECK_ABS(last[i], own[i], 1e-9 * rb_api_number(a, "max_pressure"), "%s[%d]",
                       tractions[c][1], i);
     }
-    rb_api_free(a);
 }
 
 /* The last step of Newton's method has the tractions of the solution, and each one those
  * of the zones that it assumes. */
 TEST(newton_ends_in_the_solution)
 {
-    rb_api *a = solved(wheel);
+    HELD(rb_api) a = solved(wheel);
     int rows, steps;
     assert_int_equal(rb_api_newton(a), RB_OK);
     const double *zone = rb_api_array(a, "newton.zone", &rows, &steps);
@@ -239,12 +234,11 @@ TEST(newton_ends_in_the_solution)
             if (zone[i + 12 * k] == 0.0)
                 CHECK_ABS(p[i + 12 * k], 0.0, 0.0, "element %d apart in step %d", i, k);
     }
-    rb_api_free(a);
 }
 
 TEST(matrices_satisfy_their_equations)
 {
-    rb_api *a = solved(wheel);
+    HELD(rb_api) a = solved(wheel);
     int m, columns;
     const double *H = rb_api_array(a, "H", &m, &columns);
     assert_non_null(H);
@@ -266,12 +260,11 @@ TEST(matrices_satisfy_their_equations)
             w += F[i + 26 * j] * p[j] + F[i + 26 * (12 + j)] * q[j];
         CHECK_ABS(gap[i], w, 1e-9 * rb_api_number(a, "approach"), "gap %d", i);
     }
-    rb_api_free(a);
 }
 
 TEST(guesses_are_judged)
 {
-    rb_api *a = solved(wheel);
+    HELD(rb_api) a = solved(wheel);
     int zone[12];
     const double *is = array(a, "zone", 12, 1);
     for (int i = 0; i < 12; i++)
@@ -296,7 +289,6 @@ TEST(guesses_are_judged)
     assert_int_equal(rb_api_guess(a, 12, zone), RB_OK);
     assert_true(array(a, "guess.p", 12, 1)[0] < 0.0);
     assert_true(rb_api_guess(a, 11, zone) < 0);
-    rb_api_free(a);
 }
 
 TEST(steps_are_kept)
@@ -305,7 +297,7 @@ TEST(steps_are_kept)
         "support",  "halfplane", "similar",          "yes", "load",        "500",
         "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
         "distance", "1",         "contact-elements", "20",  NULL};
-    rb_api *a = solved(words);
+    HELD(rb_api) a = solved(words);
     int n, steps;
     const double *p = rb_api_array(a, "step.p", &n, &steps);
     assert_non_null(p);
@@ -319,7 +311,6 @@ TEST(steps_are_kept)
             P += p[k * n + i] * h[i];
         CHECK_REL(load[k], P, 1e-9, "step %d", k);
     }
-    rb_api_free(a);
 }
 
 /* Runs for error bars are steps that nobody sees. */
@@ -330,13 +321,12 @@ TEST(steps_have_error_bars)
         "500",         "mu",        "0.3",      "creep-ratio", "0.5",
         "formulation", "transient", "distance", "0.5",         "contact-elements",
         "16",          "error",     "yes",      NULL};
-    rb_api *a = solved(words);
+    HELD(rb_api) a = solved(words);
     int n, steps;
     assert_non_null(rb_api_array(a, "step.p", &n, &steps));
     const double *bar = array(a, "history.error.tangential_load", steps, 1);
     assert_true(bar[steps - 1] > 0.0);
     assert_true(rb_api_stress(a, 5, 5, 0.0) == RB_OK);
-    rb_api_free(a);
 }
 
 /* The notes of the program, one by one, and Carter's tractions where his law holds. */
@@ -344,7 +334,7 @@ TEST(notes_and_closed_forms)
 {
     char text[200];
     int rows, columns;
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     assert_null(rb_api_note(a, 0, text, sizeof text));
     static const char *const words[][2] = {{"support", "halfplane"}, {"support-b", "halfplane"},
                                            {"similar", "yes"},       {"formulation", "steady"},
@@ -370,12 +360,11 @@ TEST(notes_and_closed_forms)
             fail_msg("closed form %d: off by %g of %g", k, worst, highest);
     }
     assert_null(rb_api_array(a, "closed.x", &rows, &columns));
-    rb_api_free(a);
 }
 
 TEST(results_of_every_table_are_there)
 {
-    rb_api *a = rb_api_create_for("solve");
+    HELD(rb_api) a = rb_api_create_for("solve");
     assert_null(rb_api_create_for("nothing"));
     assert_string_equal(rb_version(), RB_VERSION);
     for (const char *const *w = steady; *w; w += 2)
@@ -399,7 +388,6 @@ TEST(results_of_every_table_are_there)
     assert_true(array(a, "curve.error.force_ratio", 4, 1)[1] > 0.0);
     CHECK_ABS(rb_api_number(a, "curve.free_creepage"), 0.0, 1e-9, "similar bodies");
     assert_true(rb_api_curve_over(a, "slip", 0.0, 1.0, 3) < 0);
-    rb_api_free(a);
 }
 
 /* What the models, the curve, the history and a problem alone are asked by name. */
@@ -423,7 +411,7 @@ TEST(every_name_has_its_value)
                                         "lemke",
                                         NULL};
     static const double M = 2.0, q = -4.0, W = 1.0, v = -1.0, mu = 0.3;
-    rb_api *a = solved(rolls);
+    HELD(rb_api) a = solved(rolls);
     const double R = 50.0, E = 94500.0 / (1.0 - 0.1 * 0.1), P = 500.0;
     const double width = sqrt(4.0 * P * R / (3.14159265358979323846 * E));
     CHECK_REL(rb_api_number(a, "radius"), R, 1e-14, "radius");
@@ -450,7 +438,6 @@ TEST(every_name_has_its_value)
     CHECK_ABS(rb_api_number(a, "task.iterations"), 0.0, 0.0, "none of the problem before");
     assert_true(rb_api_read(a, "nothing.ini") < 0);
     assert_non_null(strstr(rb_api_message(a), "nothing.ini"));
-    rb_api_free(a);
 }
 
 TEST(zones_of_a_yielding_interface_are_no_guess)
@@ -470,18 +457,17 @@ TEST(zones_of_a_yielding_interface_are_no_guess)
                                         "zone",
                                         "2",
                                         NULL};
-    rb_api *a = solved(words);
+    HELD(rb_api) a = solved(words);
     const int zone[12] = {0};
     assert_true(rb_api_guess(a, 12, zone) < 0);
     assert_non_null(strstr(rb_api_message(a), "--yield-stress"));
     assert_int_equal(rb_api_set(a, "mu", "0.1"), RB_OK);
     assert_true(rb_api_guess(a, 12, zone) < 0); /* not solved since */
-    rb_api_free(a);
 }
 
 TEST(stress_is_known_at_points)
 {
-    rb_api *a = solved(steady);
+    HELD(rb_api) a = solved(steady);
     assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
     const double x = array(a, "stress.x", 9, 7)[30], y = array(a, "stress.y", 9, 7)[30],
                  shear = array(a, "stress.max_shear", 9, 7)[30], xy[] = {x, y};
@@ -492,14 +478,13 @@ TEST(stress_is_known_at_points)
     assert_true(most[0] >= shear);
     assert_int_equal(rb_api_stress_at(a, 1, most + 1), RB_OK);
     CHECK_REL(array(a, "stress.max_shear", 1, 1)[0], most[0], 1e-9, "at its place");
-    rb_api_free(a);
 }
 
 TEST(problems_by_themselves_are_solved)
 {
     static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
     static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     for (int k = 0; k < 2; k++) {
         assert_int_equal(rb_api_lcp(a, 2, M, q, k ? "newton" : "lemke", 0), RB_OK);
         const double *z = array(a, "lcp.z", 2, 1), *w = array(a, "lcp.w", 2, 1);
@@ -521,7 +506,6 @@ TEST(problems_by_themselves_are_solved)
     assert_true(rb_api_friction_file(a, "nothing.hdf5", "auto", 1e-8, 0) == RB_ENOENT);
     assert_int_equal(rb_api_friction_file(a, "tests/fuzz/fclib/local", "auto", 1e-8, 0), RB_OK);
     CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-8, "of a file");
-    rb_api_free(a);
 }
 
 TEST(a_sweep_is_its_cases)
@@ -585,11 +569,10 @@ TEST(descriptions_have_their_ends)
                             : r->kind == RB_RESULT_SECONDS ? "seconds"
                                                            : "number");
     }
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     assert_null(rb_api_value(a, "colour", text, sizeof text));
     assert_null(rb_api_value(a, o[group].name, text, sizeof text));
     assert_string_equal(rb_api_value(a, "mu", text, sizeof text), "0.3");
-    rb_api_free(a);
     rb_api_free(NULL);
 }
 
@@ -644,7 +627,7 @@ TEST(solvers_have_their_names)
     static const char *const cone[] = {"support", "halfplane", "load",   "500",    "mu", "0.3",
                                        "zone",    "2",         "solver", "nsn-ac", NULL};
     static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
-    rb_api *a = solved(cone);
+    HELD(rb_api) a = solved(cone);
     assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &mu, "nsn-ac", 1e-10, 0), RB_OK);
     assert_string_equal(rb_api_word(a, "task.solver"), "nsn-ac");
@@ -655,7 +638,6 @@ TEST(solvers_have_their_names)
     assert_int_equal(rb_api_friction(a, 3, 1 << 30, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &(double){-1.0}, "nsn-ac", 1e-10, 0),
                      RB_EINVAL);
-    rb_api_free(a);
 }
 
 static void call_everything(int forced)
@@ -664,21 +646,20 @@ static void call_everything(int forced)
     const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1}, xy[] = {0.0, 1.0};
     for (int k = 0; k < 9; k++) {
         assert_int_equal(rb_blas_threads(2), 2);
-        CHECK_STATUS(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
-                     : k == 1 ? rb_api_stress_at(a, 1, xy)
-                     : k == 2 ? rb_api_stress_maxima(a, 0.0)
-                     : k == 3 ? rb_api_pivots(a)
-                     : k == 4 ? rb_api_newton(a)
-                     : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
-                     : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
-                     : k == 7 ? rb_api_sweep(a, 1, &a, 1)
-                              : rb_api_solve(a),
-                     RB_OK);
+        CHECK_OK(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
+                 : k == 1 ? rb_api_stress_at(a, 1, xy)
+                 : k == 2 ? rb_api_stress_maxima(a, 0.0)
+                 : k == 3 ? rb_api_pivots(a)
+                 : k == 4 ? rb_api_newton(a)
+                 : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
+                 : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
+                 : k == 7 ? rb_api_sweep(a, 1, &a, 1)
+                          : rb_api_solve(a));
     }
     rb_api_free(a);
     a = solved(steady);
     rb_blas_threads(2);
-    CHECK_STATUS(rb_api_curve(a, 0.0, 1.0, 2), RB_OK);
+    CHECK_OK(rb_api_curve(a, 0.0, 1.0, 2));
     assert_int_equal(rb_blas_threads(1), 2);
     rb_api_free(a);
 }
@@ -704,12 +685,11 @@ TEST(matrices_are_at_hand_or_refused)
     assert_string_equal(rb_api_message(a), "stress: expected at least one point, got 0");
     rb_api_free(a);
     a = solved(wheel);
-    rb_api *b = solved(wheel);
+    HELD(rb_api) b = solved(wheel);
     const double *G = rb_api_array(a, "G", &r, &c), *H = rb_api_array(b, "H", &r, &c);
     const size_t bytes = sizeof *G * (size_t)r * (size_t)c;
     assert_memory_equal(H, array(a, "H", r, c), bytes);
     assert_memory_equal(G, array(b, "G", r, c), bytes);
-    rb_api_free(b);
     rb_api_free(a);
 }
 
@@ -829,7 +809,7 @@ typedef struct {
 static rb_status by_handle(void *context)
 {
     const handle_job *j = context;
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     int s = a ? RB_OK : RB_ENOMEM;
     for (const char *const *w = j->words; s == RB_OK && *w; w += 2)
         s = rb_api_set(a, w[0], w[1]);
@@ -839,7 +819,6 @@ static rb_status by_handle(void *context)
         s = j->then(a);
     if (a && s == RB_ENOMEM && rb_api_status(a) == RB_ENOMEM)
         assert_non_null(strstr(rb_api_message(a), "memory"));
-    rb_api_free(a);
     return (rb_status)s;
 }
 
@@ -868,7 +847,7 @@ TEST(short_memory_is_reported)
 TEST(wear)
 {
     int rows = 0, columns = 0, n = 0;
-    rb_api *a = rb_api_create_for("wear");
+    HELD(rb_api) a = rb_api_create_for("wear");
     rb_api_set(a, "support", "halfplane");
     rb_api_set(a, "similar", "yes");
     rb_api_set(a, "gap", "parabola");
@@ -889,7 +868,6 @@ TEST(wear)
     assert_null(rb_api_array(a, "wear.worn", &rows, &columns)); /* refused: nothing old */
     rb_api_set(a, "load", "1,5");
     assert_true(rb_api_wear(a, "archard", 1e-10, 0.0, 1e6, NAN, 5, 8) < 0);
-    rb_api_free(a);
 }
 
 /* A crack by names gives what the program does; units are the handle's. */
@@ -898,7 +876,7 @@ TEST(cracks)
     static const char *const names[] = {"crack-angle", "unloaded", "remote-stress"},
                              *const values[] = {"45", "yes", "2"};
     int rows = 0, columns = 0;
-    rb_api *a = rb_api_create_for("crack");
+    HELD(rb_api) a = rb_api_create_for("crack");
     rb_api_set(a, "half-width", "1");
     assert_int_equal(rb_api_crack(a, 3, names, values), RB_OK);
     const double *K = rb_api_array(a, "crack.summary.K_I_max", &rows, &columns);
@@ -936,7 +914,6 @@ TEST(cracks)
     assert_true(rb_api_crack(a, 2, names, (const char *const[]){"0", "yes"}) < 0);
     assert_true(rb_api_crack(a, 1, (const char *const[]){"crack-lenght"}, values) < 0);
     assert_non_null(strstr(rb_api_message(a), "crack-length"));
-    rb_api_free(a);
 }
 
 /* By handle as by rb_case_differentiate; both sides of a border, one of an end. */

@@ -140,7 +140,7 @@ static double rows_times(const rb_bem_mesh *mesh, const double *u)
     const int dofs = 2 * mesh->n, ld = dofs + 3;
     double *H = rb_alloc((size_t)ld, (size_t)dofs), worst = 0.0, largest = 0.0;
     const rb_bem_material m = {80.0, 0.3};
-    CHECK_STATUS(rb_bem_assemble(mesh, m, H, NULL, ld, NULL), RB_OK);
+    CHECK_OK(rb_bem_assemble(mesh, m, H, NULL, ld, NULL));
     for (int i = 0; i < dofs; i++) {
         double sum = 0.0;
         for (int j = 0; j < dofs; j++)
@@ -183,7 +183,7 @@ static rb_bem_mesh irregular(int n)
         r[k] = between(0.5, 2.0);
     }
     r[n] = r[0];
-    CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+    CHECK_OK(rb_bem_mesh_alloc(n, &mesh));
     for (int k = 0; k < n; k++) {
         const double a = 2 * M_PI * angle[k] / angle[n],
                      b = k + 1 < n ? 2 * M_PI * angle[k + 1] / angle[n] : 0.0;
@@ -229,7 +229,7 @@ TEST(the_unit_of_length_does_not_matter)
     const rb_bem_material m = {80.0, 0.3};
     for (int k = 0; k < 2; k++) {
         OWNED(rb_bem_mesh) mesh = circle(n, k ? 1024.0 : 1.0);
-        CHECK_STATUS(rb_bem_assemble(&mesh, m, H[k], G[k], dofs, NULL), RB_OK);
+        CHECK_OK(rb_bem_assemble(&mesh, m, H[k], G[k], dofs, NULL));
     }
     for (int i = 0; i < dofs * dofs; i++) {
         CHECK_ABS(H[1][i], H[0][i], 1e-15, "H %d", i);

@@ -17,15 +17,15 @@ static rb_bem_system *wheel_system(int n)
     rb_bem_system *system = NULL;
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.0 + 2.0 * i / n;
-    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL));
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));
     return system;
 }
 
 /* Largest difference of two columns' differences: rigid motion of the wheel drops out. */
 static double distance_from_halfplane(int n, int subtracted)
 {
-    rb_bem_system *system = wheel_system(n);
+    HELD(rb_bem_system) system = wheel_system(n);
     OWNED(rb_bem_flexibility) f, flat;
     const int m = n + 1;
     SCRATCH double *ends = rb_alloc((size_t)n + 2, 1), *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
@@ -33,19 +33,17 @@ static double distance_from_halfplane(int n, int subtracted)
     double worst = 0.0, size = 0.0;
     for (int i = 0; i < n + 2; i++)
         ends[i] = -1.0 + 2.0 * i / n;
-    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted
-                             : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL),
-                 RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 1000.0), &flat, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_matrix(&flat, H, 2 * m), RB_OK);
+    CHECK_OK((subtracted ? rb_bem_condense_subtracted
+                         : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
+    CHECK_OK(rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 1000.0), &flat, NULL));
+    CHECK_OK(rb_bem_flexibility_matrix(&f, F, 2 * m));
+    CHECK_OK(rb_bem_flexibility_matrix(&flat, H, 2 * m));
     for (int j = 0; j < 2 * n; j++)
         for (int i = 0; i < 2 * m; i++) {
             const size_t at = (size_t)i + (size_t)j * 2 * m, first = at - (size_t)(i % m);
             worst = fmax(worst, fabs((F[at] - F[first]) - (H[at] - H[first])));
             size = fmax(size, fabs(H[at] - H[first]));
         }
-    rb_bem_system_free(system);
     return worst / size;
 }
 
@@ -63,10 +61,10 @@ static double distance_on_gliding_sides(int side)
     const int touch = side / 5, first = 2 * side / 5;
     static const double corner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
     OWNED(rb_bem_mesh) mesh;
-    rb_bem_system *system;
+    HELD(rb_bem_system) system;
     rb_bem_flexibility f[2];
     double *F[2], worst = 0.0, size = 0.0;
-    CHECK_STATUS(rb_bem_mesh_alloc(4 * side, &mesh), RB_OK);
+    CHECK_OK(rb_bem_mesh_alloc(4 * side, &mesh));
     for (int j = 0; j < 4 * side; j++) {
         const double *a = corner[j / side], *b = corner[j / side + 1];
         const double from = (double)(j % side) / side, to = from + 1.0 / side;
@@ -85,16 +83,13 @@ static double distance_on_gliding_sides(int side)
     }
     mesh.contact_first = first;
     mesh.contact_n = touch;
-    rb_message why = {""};
-    if (rb_bem_system_create(&mesh, steel, &system, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &heard));
     const int m = touch + 1, all = 2 * m * 2 * touch;
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS((k ? rb_bem_condense_subtracted
-                        : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f[k], &why),
-                     RB_OK);
+        CHECK_OK((k ? rb_bem_condense_subtracted : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE,
+                                                                    &f[k], &heard));
         F[k] = rb_alloc((size_t)all, 1);
-        CHECK_STATUS(rb_bem_flexibility_matrix(&f[k], F[k], 2 * m), RB_OK);
+        CHECK_OK(rb_bem_flexibility_matrix(&f[k], F[k], 2 * m));
     }
     for (int i = 0; i < all; i++) {
         worst = fmax(worst, fabs(F[1][i] - F[0][i]));
@@ -104,7 +99,6 @@ static double distance_on_gliding_sides(int side)
         rb_bem_flexibility_free(&f[k]);
         free(F[k]);
     }
-    rb_bem_system_free(system);
     return worst / size;
 }
 
@@ -120,10 +114,9 @@ TEST(a_hollow_contact_is_refused)
     /* a square whose lower side is bent inwards */
     static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
     OWNED(rb_bem_mesh) mesh;
-    rb_bem_system *system;
+    HELD(rb_bem_system) system;
     OWNED(rb_bem_flexibility) f;
-    rb_message why = {""};
-    CHECK_STATUS(rb_bem_mesh_alloc(5, &mesh), RB_OK);
+    CHECK_OK(rb_bem_mesh_alloc(5, &mesh));
     for (int j = 0; j < 5; j++) {
         mesh.x0[j] = x[j];
         mesh.y0[j] = y[j];
@@ -134,12 +127,10 @@ TEST(a_hollow_contact_is_refused)
     mesh.contact_n = 1;
     for (int dof = 4; dof < 8; dof++) /* the right and the upper side */
         mesh.condition[dof] = RB_BEM_DISPLACEMENT;
-    if (rb_bem_system_create(&mesh, steel, &system, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "outside the half-plane"));
-    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
-    rb_bem_system_free(system);
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &heard));
+    CHECK_SAYS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard), RB_EINVAL,
+               "outside the half-plane");
+    CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard));
 }
 
 /* Every contact element alone has the field of its mirror image, mirrored. */
@@ -154,9 +145,9 @@ TEST(fields_have_their_mirror_images)
                                           .hub_ratio = 0.3};
         const double ends[n + 2] = {-1.0, -0.5, 0.0, 0.5, 1.0, 1.5};
         OWNED(rb_bem_mesh) mesh;
-        rb_bem_system *system;
-        CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
-        CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+        HELD(rb_bem_system) system;
+        CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL));
+        CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));
         for (int load = 0; load < 2 * n; load++) {
             double s[2][3 * P];
             const double sign = load % 2 ? 1.0 : -1.0; /* of friction the mirror's */
@@ -168,22 +159,20 @@ TEST(fields_have_their_mirror_images)
                     xy[2 * k] = side ? -aside[k] : aside[k];
                     xy[2 * k + 1] = depth[k];
                 }
-                CHECK_STATUS(rb_bem_field_create(system, t, &field, NULL), RB_OK);
-                CHECK_STATUS(rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL),
-                             RB_OK);
+                CHECK_OK(rb_bem_field_create(system, t, &field, NULL));
+                CHECK_OK(rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL));
                 rb_bem_field_free(field);
             }
             for (int k = 0; k < 3 * P; k++)
                 CHECK_ABS(s[1][k], (k % 3 == 2 ? -1.0 : 1.0) * s[0][k], 1e-9,
                           "load %d, stress %d, support %d", load, k, support);
         }
-        rb_bem_system_free(system);
     }
 }
 
 TEST(every_failed_allocation_is_reported)
 {
-    rb_bem_system *system = wheel_system(4);
+    HELD(rb_bem_system) system = wheel_system(4);
     int refused = 1;
     for (int count = 0; refused; count++) {
         OWNED(rb_bem_flexibility) f;
@@ -204,7 +193,6 @@ TEST(every_failed_allocation_is_reported)
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
         rb_bem_field_free(field);
     }
-    rb_bem_system_free(system);
 }
 
 RUN_TESTS(NULL, NULL)

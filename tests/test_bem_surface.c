@@ -17,7 +17,7 @@ static const rb_bem_material rubber = {1.2, 0.4}, soft = {1.0, 0.5}, core = {7.0
 static void seen(const rb_bem_surface *body, double x, double b, double entry[4])
 {
     const double ends[2] = {-b, b};
-    CHECK_STATUS(rb_bem_surface_displacement(body, 1, ends, 1, &x, entry), RB_OK);
+    CHECK_OK(rb_bem_surface_displacement(body, 1, ends, 1, &x, entry));
 }
 
 static double adaptive(double (*f)(double, void *), void *context, double from)
@@ -290,8 +290,8 @@ TEST(what_lies_far_away_is_met)
     const double ends[2] = {-0.25, 0.25}, at = 18.0, x[2] = {at, 3.0 * at};
     double under[4], alone[4], together[8];
     seen(&body, 0.0, 0.25, under);
-    CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 1, &at, alone), RB_OK);
-    CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 2, x, together), RB_OK);
+    CHECK_OK(rb_bem_surface_displacement(&body, 1, ends, 1, &at, alone));
+    CHECK_OK(rb_bem_surface_displacement(&body, 1, ends, 2, x, together));
     for (int e = 0; e < 4; e++)
         CHECK_ABS(alone[e], together[2 * e], 5e-13 * fabs(under[0]), "entry %d", e);
 }
@@ -315,11 +315,10 @@ TEST(transforms_are_the_dense_matrix)
         r[i] = sin(3.0 * i) + 0.4;
     for (int k = 0; k < 3; k++) {
         OWNED(rb_bem_flexibility) dense, fast;
-        rb_message why;
-        CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &why), RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &why), RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_matrix(&dense, F, ld), RB_OK);
-        CHECK_STATUS(rb_bem_flexibility_matrix(&fast, T, ld), RB_OK);
+        CHECK_OK(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &heard));
+        CHECK_OK(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &heard));
+        CHECK_OK(rb_bem_flexibility_matrix(&dense, F, ld));
+        CHECK_OK(rb_bem_flexibility_matrix(&fast, T, ld));
         for (int j = 0; j < ld * 2 * n; j++)
             CHECK_ABS(T[j], F[j], 1e-12, "body %d, entry %d", k, j);
         rb_bem_flexibility_apply(&dense, r, w);
@@ -349,8 +348,8 @@ TEST(tractions_are_summed_as_by_the_matrix)
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < many; i++)
             w[i] = 1.0;
-        CHECK_STATUS(rb_bem_surface_displacement(&bodies[k], n, ends, many, x, W), RB_OK);
-        CHECK_STATUS(rb_bem_surface_add_normal(&bodies[k], &strips, many, x, w), RB_OK);
+        CHECK_OK(rb_bem_surface_displacement(&bodies[k], n, ends, many, x, W));
+        CHECK_OK(rb_bem_surface_add_normal(&bodies[k], &strips, many, x, w));
         for (int i = 0; i < many; i++) {
             double want = 1.0;
             for (int j = 0; j < n; j++)
@@ -393,10 +392,9 @@ TEST(bad_surfaces_are_refused)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_bem_flexibility f;
-        rb_message why = {""};
-        CHECK_STATUS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, bad[k].word));
-        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &why), RB_EINVAL);
+        CHECK_SAYS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &heard), RB_EINVAL,
+                   bad[k].word);
+        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &heard), RB_EINVAL);
     }
 }
 
@@ -407,13 +405,12 @@ TEST(short_memory_is_told)
     for (int i = 0;; i++) {
         body.material.poisson = 0.2 - 1e-3 * i; /* no table of it is kept */
         rb_bem_flexibility f;
-        rb_message why;
         alloc_fail_after(i);
-        const rb_status s = rb_bem_flexibility_surface(3, ends, &body, &f, &why);
+        const rb_status s = rb_bem_flexibility_surface(3, ends, &body, &f, &heard);
         const int refused = alloc_failed();
         alloc_succeed();
         if (!refused) {
-            CHECK_STATUS(s, RB_OK);
+            CHECK_OK(s);
             assert_true(i > 5);
             rb_bem_flexibility_free(&f);
             break;

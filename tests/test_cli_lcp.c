@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+HELD_TYPE(json_t, json_decref)
+
 static char program[700], folder[] = "/tmp/rollbem-lcp-XXXXXX";
 static char out[20000], err[4000];
 
@@ -390,7 +392,7 @@ static const char *text_of(const json_t *p, const char *key)
 TEST(json_holds_every_file)
 {
     assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
-    json_t *root = json_loads(out, 0, NULL);
+    HELD(json_t) root = json_loads(out, 0, NULL);
     assert_non_null(root);
     assert_string_equal(text_of(root, "schema"), "rollbem/1");
     const json_t *list = json_object_get(root, "problems");
@@ -410,7 +412,6 @@ TEST(json_holds_every_file)
     assert_string_equal(text_of(p, "status"), "malformed file");
     assert_true(json_is_null(json_object_get(p, "residual")));
     assert_true(json_is_null(json_object_get(p, "z")));
-    json_decref(root);
 }
 
 TEST(the_collection_is_solved)

@@ -19,13 +19,12 @@ TEST(the_page_carries_the_case)
     assert_memory_equal(out, "<p>before</p>", 13);
     assert_string_equal(to, strstr(page, "</script><p>after</p>"));
     *to = '\0';
-    json_t *all = json_loads(from + 13, 0, NULL);
+    HELD(json_t) all = json_loads(from + 13, 0, NULL);
     assert_non_null(all);
     assert_int_equal(json_object_size(all), 3);
     assert_string_equal(json_string_value(json_object_get(all, "mu")), "0.25");
     assert_string_equal(json_string_value(json_object_get(all, "load")), "500");
     assert_string_equal(json_string_value(json_object_get(all, "support")), "halfplane");
-    json_decref(all);
 
     assert_int_equal(rollbem("page --page page.html"), 0);
     assert_non_null(strstr(out, "id=\"carried\">{}</script>"));

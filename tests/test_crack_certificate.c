@@ -53,12 +53,11 @@ TEST(results_are_valid)
 static void tampered(const char *part, const char *list, int step, size_t at, double to,
                      const char *says)
 {
-    json_t *root = json_load_file("r.json", 0, NULL);
+    HELD(json_t) root = json_load_file("r.json", 0, NULL);
     json_t *lists = json_object_get(json_object_get(root, part), list);
     json_array_set_new(step < 0 ? lists : json_array_get(lists, (size_t)step), at,
                        strcmp(list, "zone") == 0 ? json_integer((int)to) : json_real(to));
     assert_int_equal(json_dump_file(root, "t.json", JSON_REAL_PRECISION(17)), 0);
-    json_decref(root);
     assert_int_equal(shell("\"$R\" check t.json"), 1);
     if (!strstr(out, says))
         fail_msg("%s of step %d: expected '%s', got %s", list, step, says, out);
@@ -68,7 +67,7 @@ TEST(the_laws_of_the_faces_are_judged)
 {
     (void)state;
     make(CONTACT DRIVEN "--fluid trapped");
-    json_t *root = json_load_file("r.json", 0, NULL);
+    HELD(json_t) root = json_load_file("r.json", 0, NULL);
     json_t *faces = json_object_get(root, "faces");
     json_t *zones = json_object_get(faces, "zone"), *p = json_object_get(faces, "p_MPa");
     int found[4] = {0}, step[4] = {0};
@@ -94,7 +93,6 @@ TEST(the_laws_of_the_faces_are_judged)
     tampered("faces", "opening_mm", step[0], node[0], -1e-3, "faces.opening_mm");
     tampered("table", "fluid_pressure", -1, 0, 1.0, "fluid");
     tampered("faces", "length_mm", -1, 3, 1.0, "length_mm");
-    json_decref(root);
 }
 
 /* The contact that feels its crack: gaps by Betti's theorem, load, largest pressure. */
@@ -102,7 +100,7 @@ TEST(the_coupled_contact_is_judged)
 {
     (void)state;
     make(CONTACT "--mu 0 --coupled --steps 60");
-    json_t *root = json_load_file("r.json", 0, NULL);
+    HELD(json_t) root = json_load_file("r.json", 0, NULL);
     const json_t *p =
         json_array_get(json_object_get(json_object_get(root, "faces"), "contact_p_MPa"), 30);
     size_t most = 0;
@@ -115,7 +113,6 @@ TEST(the_coupled_contact_is_judged)
     tampered("faces", "contact_p_MPa", 30, most, -1.0, "contact: element");
     tampered("faces", "contact_p_MPa", 30, 0, 1.0, "reaches an end");
     tampered("table", "max_pressure", -1, 30, pressure * (1.0 + 1e-4), "max_pressure");
-    json_decref(root);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
@@ -150,10 +147,9 @@ TEST(what_cannot_be_checked_is_refused)
     check_refused("check o.json", 65, "crack-angle");
     assert_int_equal(shell("sed 's/\"fluid_volume_mm2\"/\"else\"/' r.json > o.json"), 0);
     check_refused("check o.json", 65, "fluid_volume_mm2");
-    json_t *root = json_load_file("r.json", 0, NULL);
+    HELD(json_t) root = json_load_file("r.json", 0, NULL);
     json_object_del(root, "contact_table");
     assert_int_equal(json_dump_file(root, "o.json", JSON_REAL_PRECISION(17)), 0);
-    json_decref(root);
     check_refused("check o.json", 65, "contact_table has no elements");
     /* the command line is compared with the inputs */
     assert_int_equal(shell("sed 's/\\(\"command\": .*\\)--steps 60/\\1--steps 61/' r.json "
@@ -166,11 +162,10 @@ static rb_status certify(void *context)
 {
     rb_report_certificate found;
     FILE *lines = tmpfile();
-    rb_case *words = rb_case_create(RB_CASE_CRACK);
+    HELD(rb_case) words = rb_case_create(RB_CASE_CRACK);
     const rb_status s =
         words ? rb_report_certify_solutions(lines, "r", context, words, &found, &(rb_message){""})
               : RB_ENOMEM;
-    rb_case_free(words);
     fclose(lines);
     return s;
 }
@@ -179,9 +174,8 @@ TEST(no_memory)
 {
     (void)state;
     make(CONTACT "--mu 0 --unloaded --remote-stress 3");
-    json_t *root = json_load_file("r.json", 0, NULL);
+    HELD(json_t) root = json_load_file("r.json", 0, NULL);
     assert_true(alloc_fail_each(certify, root) > 10);
-    json_decref(root);
 }
 
 RUN_TESTS(enter_folder, leave_folder)

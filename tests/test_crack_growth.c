@@ -72,7 +72,7 @@ TEST(cycles_converge)
 {
     static const char *const steps[] = {"3", "6", "12"};
     double N[3];
-    rb_api *a = contact("mm", "1", "1000", "94500");
+    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
     for (int k = 0; k < 3; k++) {
         const char *const words[] = {"paris",          "1e-12,3",    "paris-range",
                                      "mode-II",        "grow-steps", steps[k],
@@ -83,7 +83,6 @@ TEST(cycles_converge)
     const double order = log2((N[0] - N[1]) / (N[1] - N[2]));
     print_message("# order %.2f\n", order);
     assert_true(order > 1.8 && order < 2.3);
-    rb_api_free(a);
 }
 
 /* C in m and Pa m^0.5 gives the same passes. */
@@ -110,14 +109,13 @@ TEST(turns)
     static const char *const words[] = {"paris",      "1e-12,3", "growth", "tension",
                                         "grow-steps", "2",       NULL};
     int rows, columns;
-    rb_api *a = contact("mm", "1", "1000", "94500");
+    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double kink = last(a, "crack.summary.kink_angle");
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
     CHECK_REL(angle[1], 30.0 - kink, 1e-9, "first turn");
     const double *x = rb_api_array(a, "crack.growth.tip_x", &rows, &columns);
     CHECK_REL(x[1] - x[0], 0.5 * cos(angle[1] * M_PI / 180.0), 1e-9, "step");
-    rb_api_free(a);
 }
 
 /* A piece an increment, with elements of its own beside those that are asked for: growth
@@ -127,25 +125,23 @@ TEST(turns_many_times)
     static const char *const words[] = {"paris", "1e-12,3",     "growth", "tension", "grow-steps",
                                         "24",    "crack-angle", "15",     NULL};
     int rows, columns;
-    rb_api *a = contact("mm", "1", "1000", "94500");
+    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
     assert_int_equal(rows, 25);
     for (int i = 1; i < rows; i++)
         CHECK_MAX(5.0, fabs(angle[i] - angle[i - 1]), "turn %d", i);
-    rb_api_free(a);
 }
 
 TEST(rests_below_the_threshold)
 {
     static const char *const words[] = {"paris", "1e-12,3", "threshold", "100", NULL};
     int rows, columns;
-    rb_api *a = contact("mm", "1", "1000", "94500");
+    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     assert_non_null(rb_api_array(a, "crack.growth.rate", &rows, &columns));
     assert_int_equal(rows, 1);
     CHECK_ABS(last(a, "crack.growth.rate"), 0.0, 0.0, "rests");
-    rb_api_free(a);
 }
 
 TEST(bad_growth)
@@ -158,13 +154,12 @@ TEST(bad_growth)
                {{"threshold", "grow-steps"}, {"3", "3"}, "--paris"},
                {{"growth", "grow-steps"}, {"tension", "3"}, "--paris"},
                {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
-    rb_api *a = contact("mm", "1", "1000", "94500");
+    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         assert_true(rb_api_crack(a, 2, bad[k].name, bad[k].value) < 0);
         if (!strstr(rb_api_message(a), bad[k].says))
             fail_msg("%s", rb_api_message(a));
     }
-    rb_api_free(a);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -10,14 +10,11 @@
 
 static rb_case *case_of(const char *const *word)
 {
-    rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     assert_non_null(c);
     for (int k = 0; word[k]; k += 2)
-        if (rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
-            fail_msg("%s", why.text);
-    if (rb_case_resolve(c, &why) != RB_OK)
-        fail_msg("%s", why.text);
+        CHECK_OK(rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &heard));
+    CHECK_OK(rb_case_resolve(c, &heard));
     return c;
 }
 
@@ -41,57 +38,47 @@ static rb_status design(const rb_case *c, const char *result, const char *over, 
  * constraint leaves; the load is proportional to p0^2 R. */
 static void contacts_of_hertz(void **state)
 {
-    rb_message why;
-    rb_case_result r;
-    rb_case *c = case_of(hertz);
-    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
+    OWNED(rb_case_result) r;
+    HELD(rb_case) c = case_of(hertz);
+    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard), RB_OK);
     const double p0 = r.solution.max_pressure, a = r.solution.half_width;
 
-    rb_design bound = {.n = 0};
-    CHECK_STATUS(design(c, "max_pressure", "radius=20:200", NULL, &bound, &why), RB_OK);
+    OWNED(rb_design) bound = {.n = 0};
+    CHECK_OK(design(c, "max_pressure", "radius=20:200", NULL, &bound, &heard));
     CHECK_REL(bound.variable[0].value, 200.0, 1e-6, "the bound holds it");
     CHECK_REL(bound.value, p0 * sqrt(50.0 / 200.0), 1e-6, "p0 by R");
-    rb_design_free(&bound);
 
-    rb_design wide = {.n = 0};
-    CHECK_STATUS(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &why), RB_OK);
+    OWNED(rb_design) wide = {.n = 0};
+    CHECK_OK(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &heard));
     CHECK_REL(wide.variable[0].value, 50.0 * (1.2 / a) * (1.2 / a), 1e-5, "a by R");
     CHECK_REL(wide.constraint[0].value, 1.2, 2e-6, "active");
-    rb_design_free(&wide);
 
-    rb_design heavy = {.n = 0, .largest = 1};
-    CHECK_STATUS(design(c, "normal_load", "radius=20:80,load=100:9000",
-                        "max_pressure<=600,half_width>=0.1", &heavy, &why),
-                 RB_OK);
+    OWNED(rb_design) heavy = {.n = 0, .largest = 1};
+    CHECK_OK(design(c, "normal_load", "radius=20:80,load=100:9000",
+                    "max_pressure<=600,half_width>=0.1", &heavy, &heard));
     CHECK_REL(heavy.value, 500.0 * 600.0 * 600.0 / (p0 * p0) * 80.0 / 50.0, 1e-5, "P");
     assert_true(heavy.constraint[1].value > 0.1);
-    rb_design_free(&heavy);
-    rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* Beyond 700 N/mm the contact leaves its zone: the search stays where solutions are, and
  * says why it does not go on. */
 static void search_stays_where_solutions_are(void **state)
 {
-    rb_message why = {""};
-    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
-                                               "500", "mesh", "uniform", "zone", "1",
-                                               "contact-elements", "40", NULL});
-    rb_design d = {.n = 0, .largest = 1};
-    CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &why), RB_MAXITER);
+    HELD(rb_case)
+    c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load", "500",
+                                      "mesh", "uniform", "zone", "1", "contact-elements", "40",
+                                      NULL});
+    OWNED(rb_design) d = {.n = 0, .largest = 1};
+    CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &heard), RB_MAXITER);
     assert_true(d.variable[0].value > 600.0 && d.variable[0].value < 800.0);
-    assert_non_null(strstr(why.text, "zone: the contact is not within"));
-    rb_design_free(&d);
-    rb_case_free(c);
+    assert_non_null(strstr(heard.text, "zone: the contact is not within"));
 }
 
 /* The values of a table of the gap: pressure that is the same all over the span. */
 static void uniform_pressure(void **state)
 {
     char path[] = "/tmp/rollbem-gap-XXXXXX";
-    rb_message why;
-    rb_design d = {.n = 0, .span = 5.0, .most = 900};
+    OWNED(rb_design) d = {.n = 0, .span = 5.0, .most = 900};
     FILE *f = fdopen(mkstemp(path), "w");
     fputs("x gap\n", f);
     for (int i = 0; i < 65; i++) {
@@ -99,16 +86,15 @@ static void uniform_pressure(void **state)
         fprintf(f, "%.6f %.8f\n", x, 1e-4 * x * x + 0.1 * fmax(fabs(x) - 5.0, 0.0));
     }
     fclose(f);
-    rb_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
-                                               "5000", "mu", "0", "gap", path, "mesh", "uniform",
-                                               "zone", "6", "contact-elements", "48", NULL});
-    CHECK_STATUS(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &why), RB_OK);
+    HELD(rb_case)
+    c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load", "5000",
+                                      "mu", "0", "gap", path, "mesh", "uniform", "zone", "6",
+                                      "contact-elements", "48", NULL});
+    CHECK_OK(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &heard));
     print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start, d.evaluations);
     assert_int_equal(d.n, 65);
     assert_true(d.start > 0.5);
     CHECK_MAX(d.value, 1e-3, "ripple");
-    rb_design_free(&d);
-    rb_case_free(c);
     unlink(path);
 }
 
@@ -129,15 +115,13 @@ static void what_is_refused(void **state)
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
                {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
     rb_message why;
-    rb_case *c = case_of(hertz);
+    HELD(rb_case) c = case_of(hertz);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        rb_design d = {.n = 0};
+        OWNED(rb_design) d = {.n = 0};
         const rb_status s = design(c, bad[k].result, bad[k].over, bad[k].subject, &d, &why);
         if (s == RB_OK || !strstr(why.text, bad[k].says))
             fail_msg("%s, %s: %s", bad[k].result, bad[k].over, why.text);
-        rb_design_free(&d);
     }
-    rb_case_free(c);
 }
 
 int main(void)

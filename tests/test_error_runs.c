@@ -79,12 +79,11 @@ static void bars_of_a_solution(rb_bem_support support)
     rb_rolling_case rc = plain_case(support);
     rb_rolling_solution own, run[3];
     rb_rolling_errors errors;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &own, &errors, &why), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &own, &errors, &heard));
     assert_true(isnan(errors.stress.max_shear.value) && isnan(errors.stress.tension.y));
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_STATUS(rb_rolling_solve(&coarser, &run[k], &why), RB_OK);
+        CHECK_OK(rb_rolling_solve(&coarser, &run[k], &heard));
     }
     int seen = 0;
     for (int j = 0; j < rb_rolling_solution_scalars.n; j++) {
@@ -133,11 +132,10 @@ TEST(stresses_have_bars_where_they_are_asked_for)
     OWNED(rb_rolling_solution) own, again;
     rb_rolling_stress_maxima maxima;
     rb_rolling_errors errors, alone;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &own, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &own, &maxima, &errors, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &again, &alone, &why), RB_OK);
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &own, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard));
+    CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, &errors, &heard));
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &again, &alone, &heard));
     assert_true(errors.scalar.max_pressure == alone.scalar.max_pressure &&
                 errors.scalar.force_ratio == alone.scalar.force_ratio);
     assert_true(isnan(alone.stress.max_shear.value));
@@ -153,11 +151,10 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS};
     rb_rolling_curve own, errors, run[2];
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &why), RB_OK);
+    CHECK_OK(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &heard));
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_STATUS(rb_rolling_curve_solve(&coarser, &range, &run[k], &why), RB_OK);
+        CHECK_OK(rb_rolling_curve_solve(&coarser, &range, &run[k], &heard));
     }
     for (int i = 0; i < POINTS; i++) {
         const double Q[] = {run[0].tangential_load[i], run[1].tangential_load[i],
@@ -230,12 +227,10 @@ static void bars_of_a_history(int force_is_given)
     }
     rb_rolling_model model, others[2];
     rb_rolling_history own, run[2];
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &why), RB_OK);
+    CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &heard));
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_STATUS(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &why),
-                     RB_OK);
+        CHECK_OK(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &heard));
     }
     double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0}, power[STEPS + 1] = {0.0};
     assert_int_equal(own.n, STEPS + 1);

@@ -73,9 +73,9 @@ static void check_mirror(const char *rest, const char *control, double value, co
 {
     char line[800];
     snprintf(line, sizeof line, "%s %s --%s %.17g", one, rest, control, value);
-    json_t *a = run_json(line);
+    HELD(json_t) a = run_json(line);
     snprintf(line, sizeof line, "%s %s --%s %.17g", other, rest, control, -value);
-    json_t *b = run_json(line);
+    HELD(json_t) b = run_json(line);
     const double length = fmax(largest(a, UN), largest(a, UT)) / largest(a, SHIFT);
     check_column(a, b, X, 1.0, tol, line);
     check_column(a, b, P, 1.0, tol, line);
@@ -89,8 +89,6 @@ static void check_mirror(const char *rest, const char *control, double value, co
     check_scalar(a, b, "creepage", -1.0, tol, line);
     check_scalar(a, b, "free_creepage", -1.0, 1e2 * tol, line);
     check_scalar(a, b, "dissipation", 1.0, 1e2 * tol, line);
-    json_decref(a);
-    json_decref(b);
 }
 
 TEST(test_mirror)
@@ -130,9 +128,9 @@ static void check_scaling(const char *format, double L, double E)
     const double tol = exact ? 0.0 : 1e-9;
     char line[800];
     snprintf(line, sizeof line, format, 50.0, 94500.0, 700.0, 80.0, 2e5);
-    json_t *a = run_json(line);
+    HELD(json_t) a = run_json(line);
     snprintf(line, sizeof line, format, L * 50.0, E * 94500.0, L * E * 700.0, L * 80.0, E * 2e5);
-    json_t *b = run_json(line);
+    HELD(json_t) b = run_json(line);
     static const int of_length[] = {X, H, GAP, UN, UT, SHIFT}, of_stress[] = {P, Q};
     for (size_t k = 0; k < sizeof of_length / sizeof of_length[0]; k++)
         check_column(a, b, of_length[k], L, tol, line);
@@ -144,8 +142,6 @@ static void check_scaling(const char *format, double L, double E)
     check_scalar(a, b, "half_width", L, tol, line);
     check_scalar(a, b, "creepage", 1.0, tol, line);
     check_scalar(a, b, "dissipation", L * E, tol, line);
-    json_decref(a);
-    json_decref(b);
 }
 
 TEST(test_scaling)
@@ -173,23 +169,23 @@ TEST(test_scaling)
  * And increments of the load end where one load does. */
 TEST(test_no_friction)
 {
-    json_t *pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
-                            "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
-                            "--gap parabola --shift 0");
-    json_t *one = run_json("--support halfplane --formulation static --mu 0 --load 700 "
-                           "--young 75000 --poisson 0 --gap parabola --shift 0");
+    HELD(json_t)
+    pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
+                    "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
+                    "--gap parabola --shift 0");
+    HELD(json_t)
+    one = run_json("--support halfplane --formulation static --mu 0 --load 700 "
+                   "--young 75000 --poisson 0 --gap parabola --shift 0");
     write_file("steps.txt", "load shift\n100 0\n400 0\n700 0\n");
-    json_t *steps = run_json("--support halfplane --formulation static --mu 0 "
-                             "--young 75000 --poisson 0 --gap parabola "
-                             "--history steps.txt");
+    HELD(json_t)
+    steps = run_json("--support halfplane --formulation static --mu 0 "
+                     "--young 75000 --poisson 0 --gap parabola "
+                     "--history steps.txt");
     check_column(one, pair, X, 1.0, 1e-12, "one E*");
     check_column(one, pair, P, 1.0, 1e-10, "one E*");
     check_scalar(one, pair, "half_width", 1.0, 1e-10, "one E*");
     CHECK_REL(summary_of(steps, "approach"), summary_of(one, "approach"), 1e-3, "steps");
     CHECK_REL(summary_of(steps, "max_pressure"), summary_of(one, "max_pressure"), 5e-3, "steps");
-    json_decref(pair);
-    json_decref(one);
-    json_decref(steps);
 }
 
 /* ---- Refinement -------------------------------------------------------------------- */
@@ -202,10 +198,9 @@ static void check_refinement(const char *rest)
     double value[2][3];
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --contact-elements %d", rest, 20 << (2 * k));
-        json_t *root = run_json(line);
+        HELD(json_t) root = run_json(line);
         for (int i = 0; i < 2; i++)
             value[i][k] = summary_of(root, names[i]);
-        json_decref(root);
     }
     for (int i = 0; i < 2; i++)
         CHECK_MAX(fabs(value[i][2] - value[i][1]),
@@ -239,12 +234,10 @@ TEST(test_static_history_of_one_step)
     write_file("one.txt", "load shift\n700 1e-3\n");
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --formulation static --history one.txt", supports[k]);
-        json_t *history = run_json(line);
+        HELD(json_t) history = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700 --shift 1e-3", supports[k]);
-        json_t *single = run_json(line);
+        HELD(json_t) single = run_json(line);
         check_same(single, history, 1e-11, line);
-        json_decref(history);
-        json_decref(single);
     }
 }
 
@@ -256,13 +249,11 @@ TEST(test_transient_at_rest)
     write_file("rest.txt", "distance load\n0 700\n");
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --formulation transient --history rest.txt", supports[k]);
-        json_t *rest = run_json(line);
+        HELD(json_t) rest = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700", supports[k]);
-        json_t *single = run_json(line);
+        HELD(json_t) single = run_json(line);
         for (size_t j = 0; j < sizeof same / sizeof same[0]; j++)
             check_column(single, rest, same[j], 1.0, 1e-12, line);
-        json_decref(rest);
-        json_decref(single);
     }
 }
 
@@ -275,12 +266,12 @@ TEST(test_curve)
         snprintf(line, sizeof line, "curve %s %s --from -0.5 --to 1 --points 4 --json --quiet",
                  supports[k], rest);
         assert_int_equal(rollbem(line), 0);
-        json_t *root = json_loads(out, 0, NULL);
+        HELD(json_t) root = json_loads(out, 0, NULL);
         const json_t *curve = json_object_get(root, "curve");
         for (size_t i = 0; i < 4; i++) {
             snprintf(line, sizeof line, "%s %s --formulation steady --creep-ratio %.17g",
                      supports[k], rest, -0.5 + 0.5 * (double)i);
-            json_t *single = run_json(line);
+            HELD(json_t) single = run_json(line);
             CHECK_REL(entry(curve, "tangential_load", i), summary_of(single, "tangential_load"),
                       1e-9, "%s", line);
             CHECK_REL(entry(curve, "normal_load", i), summary_of(single, "normal_load"), 1e-9, "%s",
@@ -291,9 +282,7 @@ TEST(test_curve)
                       line);
             CHECK_REL(number_in(curve, "free_creepage"), summary_of(single, "free_creepage"), 1e-6,
                       "%s", line);
-            json_decref(single);
         }
-        json_decref(root);
     }
 }
 
@@ -328,14 +317,13 @@ TEST(test_sweep)
                      "%s --formulation steady --load 700 --contact-elements 21 "
                      "--creep-ratio %g --mu %g",
                      supports[k], row <= 2 ? 0.2 : 0.4, row % 2 ? 0.1 : 0.3);
-            json_t *single = run_json(line);
+            HELD(json_t) single = run_json(line);
             CHECK_REL(cell(study, row, "tangential_load_N/mm"),
                       summary_of(single, "tangential_load"), 0.0, "%s", line);
             CHECK_REL(cell(study, row, "approach_mm"), summary_of(single, "approach"), 0.0, "%s",
                       line);
             CHECK_REL(cell(study, row, "free_creepage"), summary_of(single, "free_creepage"), 0.0,
                       "%s", line);
-            json_decref(single);
         }
     }
 }
@@ -353,28 +341,25 @@ TEST(test_library)
     static const char *const held[] = {"halfplane", "hub", "arc"};
     for (int k = 0; k < 3; k++) {
         char line[300];
-        rb_message why = {""};
         OWNED(rb_rolling_solution) s;
-        rb_case *c = rb_case_create(RB_CASE_SINGLE);
+        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
         assert_non_null(c);
-        CHECK_STATUS(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &why), RB_OK);
+        CHECK_OK(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &heard));
         for (int j = 0; j < 5; j++)
-            CHECK_STATUS(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
-        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &why), RB_OK);
+            CHECK_OK(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &heard));
         snprintf(line, sizeof line,
                  "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "
                  "--contact-elements 40",
                  held[k]);
-        json_t *root = run_json(line);
+        HELD(json_t) root = run_json(line);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(entry(table_of(root), "q_MPa", (size_t)i), s.q[i], 0.0, "%s", line);
             CHECK_ABS(entry(table_of(root), "p_MPa", (size_t)i), s.p[i], 0.0, "%s", line);
         }
         CHECK_ABS(summary_of(root, "tangential_load"), s.tangential_load, 0.0, "%s", line);
         CHECK_ABS(summary_of(root, "free_creepage"), s.free_creepage, 0.0, "%s", line);
-        json_decref(root);
-        rb_case_free(c);
     }
 }
 

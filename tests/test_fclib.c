@@ -30,10 +30,8 @@ static void small_local(rb_io_fclib *p)
                        .q = rb_alloc(6, 1),
                        .mu = rb_alloc(2, 1),
                        .r = rb_alloc(6, 1)};
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 6, .cols = 6, .nz = 8, .row = row, .col = col, .x = x}, &p->W),
-        RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 6, .cols = 6, .nz = 8, .row = row, .col = col, .x = x}, &p->W));
     for (int k = 0; k < 6; k++)
         p->q[k] = k - 2.5, p->r[k] = 0.1 * k;
     p->mu[0] = 0.3, p->mu[1] = 0.0;
@@ -51,15 +49,10 @@ static void small_global(rb_io_fclib *p)
                        .w = rb_alloc(2, 1),
                        .mu = rb_alloc(1, 1),
                        .v = rb_alloc(3, 1)};
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = row, .col = col, .x = x}, &p->M),
-        RB_OK);
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 2, .nz = 2, .row = hrow, .col = hcol, .x = one},
-            &p->H),
-        RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = row, .col = col, .x = x}, &p->M));
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 3, .cols = 2, .nz = 2, .row = hrow, .col = hcol, .x = one}, &p->H));
     p->f[0] = -1.0, p->f[2] = 0.1, p->w[1] = 0.5, p->mu[0] = 0.3, p->v[2] = 7.0;
 }
 
@@ -76,11 +69,9 @@ TEST(what_is_written_is_read_in_every_layout)
 {
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
-        rb_message why = {""};
         small_local(&p);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &why),
-                     RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &heard));
+        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
         assert_int_equal(back.global, 0);
         assert_int_equal(back.spacedim, 3);
         assert_int_equal(back.contacts, 2);
@@ -93,9 +84,8 @@ TEST(what_is_written_is_read_in_every_layout)
         rb_io_fclib_free(&p);
 
         small_global(&p);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &why),
-                     RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &heard));
+        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
         assert_int_equal(back.global, 1);
         same_sparse(&p.M, &back.M);
         same_sparse(&p.H, &back.H);
@@ -110,19 +100,15 @@ TEST(what_is_written_is_read_in_every_layout)
 TEST(one_triangle_of_m_is_completed)
 {
     rb_io_fclib p, back;
-    rb_message why = {""};
     for (int lower = 0; lower < 2; lower++) {
         small_global(&p);
         OWNED(rb_sparse) full = p.M;
         int row[] = {0, 1, 2, lower}, col[] = {0, 1, 2, !lower};
         double x[] = {2.0, 2.0, 5.0, -1.0};
-        CHECK_STATUS(
-            rb_sparse_from_triplets(
-                &(rb_triplets){.rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x},
-                &p.M),
-            RB_OK);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &why), RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x}, &p.M));
+        CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &heard));
+        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
         same_sparse(&full, &back.M);
         rb_io_fclib_free(&back);
         rb_io_fclib_free(&p);
@@ -154,25 +140,24 @@ static void fresh_local(void)
 {
     OWNED(rb_io_fclib) p;
     small_local(&p);
-    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL));
 }
 
 static void fresh_global(void)
 {
     OWNED(rb_io_fclib) p;
     small_global(&p);
-    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL));
 }
 
 static void refused(const char *words)
 {
     rb_io_fclib p;
-    rb_message why = {""};
-    CHECK_STATUS(rb_io_fclib_read(path, &p, &why), RB_EFORMAT);
-    if (!strstr(why.text, words) || !strstr(why.text, path))
-        print_error("'%s' lacks '%s'\n", why.text, words);
-    assert_non_null(strstr(why.text, words));
-    assert_non_null(strstr(why.text, path));
+    CHECK_STATUS(rb_io_fclib_read(path, &p, &heard), RB_EFORMAT);
+    if (!strstr(heard.text, words) || !strstr(heard.text, path))
+        print_error("'%s' lacks '%s'\n", heard.text, words);
+    assert_non_null(strstr(heard.text, words));
+    assert_non_null(strstr(heard.text, path));
     assert_null(p.W.p);
 }
 
@@ -219,7 +204,7 @@ TEST(sizes_and_indices_are_checked)
     fresh_local();
     overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_equal); /* empty columns */
     OWNED(rb_io_fclib) gathered;
-    CHECK_STATUS(rb_io_fclib_read(path, &gathered, NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_read(path, &gathered, NULL));
     assert_int_equal(gathered.W.p[4], 0);
     fresh_local();
     set_int("/fclib_local/W/nz", -3);
@@ -244,7 +229,7 @@ TEST(sizes_and_indices_are_checked)
 
     rb_io_fclib p;
     small_local(&p);
-    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL));
     set_int("/fclib_local/W/n", 7);
     refused("W is 6 x 7");
     set_int("/fclib_local/W/m", 7);
@@ -269,7 +254,7 @@ TEST(sizes_and_indices_are_checked)
     fresh_local();
     set_int("/fclib_local/W/nzmax", 900);
     OWNED(rb_io_fclib) back;
-    CHECK_STATUS(rb_io_fclib_read(path, &back, NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_read(path, &back, NULL));
     assert_int_equal(back.W.p[6], 8);
 }
 
@@ -282,22 +267,18 @@ static void small_constrained(rb_io_fclib *p, int entries)
     p->constraints = 1;
     p->s = rb_alloc(1, 1);
     p->s[0] = 0.5;
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x}, &p->V),
-        RB_OK);
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 1, .cols = 1, .nz = entries, .row = zero, .col = zero, .x = x},
-            &p->R),
-        RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x}, &p->V));
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 1, .cols = 1, .nz = entries, .row = zero, .col = zero, .x = x},
+        &p->R));
 }
 
 static void fresh_constrained(void)
 {
     OWNED(rb_io_fclib) p;
     small_constrained(&p, 1);
-    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL));
 }
 
 static void drop(const char *name)
@@ -312,7 +293,7 @@ TEST(constraints_are_whole_or_refused)
     rb_io_fclib p;
     const double few[] = {1.0};
     fresh_constrained();
-    CHECK_STATUS(rb_io_fclib_read(path, &p, NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_read(path, &p, NULL));
     assert_int_equal(p.constraints, 1);
     CHECK_ABS(p.V.x[1], -1.0, 0.0, "V");
     CHECK_ABS(p.R.x[0], 2.0, 0.0, "R");
@@ -327,7 +308,7 @@ TEST(constraints_are_whole_or_refused)
     drop("/fclib_local/R");
     refused("no /fclib_local/V/m");
     drop("/fclib_local/vectors/s"); /* no constraints at all */
-    CHECK_STATUS(rb_io_fclib_read(path, &p, NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_read(path, &p, NULL));
     assert_int_equal(p.constraints, 0);
     rb_io_fclib_free(&p);
     fresh_constrained();
@@ -353,7 +334,7 @@ TEST(constraints_are_whole_or_refused)
     refused("/fclib_local/R is 1 x 2, expected 1 x 1");
     OWNED(rb_io_fclib) g;
     small_global(&g);
-    CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", NULL));
     overwrite("/fclib_global/vectors/b", H5T_NATIVE_DOUBLE, 1, few);
     refused("no /fclib_global/G/m");
 }
@@ -363,12 +344,11 @@ TEST(constraints_are_read_as_written_in_every_layout)
 {
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
-        rb_message why = {""};
         small_constrained(&p, 0);
         p.u = p.r; /* u alone */
         p.r = NULL;
-        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &heard));
+        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
         assert_int_equal(back.constraints, 1);
         same_sparse(&p.V, &back.V);
         same_sparse(&p.R, &back.R);
@@ -389,13 +369,10 @@ TEST(constraints_are_read_as_written_in_every_layout)
         p.b[0] = 0.75;
         free(p.v);
         p.v = NULL;
-        CHECK_STATUS(
-            rb_sparse_from_triplets(
-                &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x},
-                &p.G),
-            RB_OK);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x}, &p.G));
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &heard));
+        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
         same_sparse(&p.G, &back.G);
         CHECK_ABS(back.b[0], 0.75, 0.0, "b");
         assert_null(back.r);
@@ -435,9 +412,8 @@ TEST(files_are_as_the_format_says)
         char text[40];
         int x[8];
         small_global(&problem);
-        CHECK_STATUS(rb_io_fclib_write(path, &problem, (rb_io_fclib_layout)layout,
-                                       layout ? "a title" : NULL, layout ? NULL : "words", NULL),
-                     RB_OK);
+        CHECK_OK(rb_io_fclib_write(path, &problem, (rb_io_fclib_layout)layout,
+                                   layout ? "a title" : NULL, layout ? NULL : "words", NULL));
         const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         texts_of(file, "/fclib_global/info/title", text, sizeof text);
         assert_string_equal(text, layout ? "a title" : "");
@@ -551,8 +527,7 @@ TEST(memory_is_bounded_by_the_size_of_the_file)
 TEST(other_files_are_refused)
 {
     rb_io_fclib p;
-    rb_message why = {""};
-    CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &why), RB_ENOENT);
+    CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &heard), RB_ENOENT);
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     H5Fclose(file);
     refused("no FCLib problem");
@@ -563,7 +538,7 @@ TEST(other_files_are_refused)
     fclose(f);
     for (long cut = size - 1; cut > 8; cut = cut * 2 / 3) {
         assert_int_equal(truncate(path, cut), 0);
-        CHECK_STATUS(rb_io_fclib_read(path, &p, &why), RB_EFORMAT);
+        CHECK_STATUS(rb_io_fclib_read(path, &p, &heard), RB_EFORMAT);
     }
     assert_int_equal(truncate(path, 3), 0);
     refused("not an HDF5 file");
@@ -573,7 +548,7 @@ TEST(other_files_are_refused)
     fresh_local();
     assert_int_equal(rb_io_is_hdf5(path), 1);
     CHECK_STATUS(
-        rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC, "", "", &why),
+        rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC, "", "", &heard),
         RB_EWRITE);
     rb_io_fclib_free(NULL);
 }
@@ -581,31 +556,27 @@ TEST(other_files_are_refused)
 TEST(problems_go_through_files)
 {
     rb_friction_problem p;
-    rb_message why = {""};
     const double bad[] = {0.3, -1.0};
     fresh_local();
-    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    CHECK_OK(rb_friction_read(path, &p, &heard));
     assert_int_equal(p.form, RB_FRICTION_LOCAL_SPARSE);
     assert_int_equal(p.contacts, 2);
-    CHECK_STATUS(
-        rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL}, "again", &why), RB_OK);
+    CHECK_OK(rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL}, "again", &heard));
     rb_friction_problem_free(&p);
-    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    CHECK_OK(rb_friction_read(path, &p, &heard));
     CHECK_ABS(p.q[5], 2.5, 0.0, "q");
     rb_friction_problem_free(&p);
     overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 2, bad);
-    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_EFORMAT);
-    assert_non_null(strstr(why.text, "mu of contact 2 is -1"));
-    assert_non_null(strstr(why.text, path));
+    CHECK_SAYS(rb_friction_read(path, &p, &heard), RB_EFORMAT, "mu of contact 2 is -1");
+    assert_non_null(strstr(heard.text, path));
 
     OWNED(rb_io_fclib) g;
     small_global(&g);
-    CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &why), RB_OK);
-    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    CHECK_OK(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &heard));
+    CHECK_OK(rb_friction_read(path, &p, &heard));
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 3);
-    CHECK_STATUS(rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &why),
-                 RB_OK);
+    CHECK_OK(rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &heard));
     rb_friction_problem_free(&p);
 }
 
@@ -617,7 +588,7 @@ TEST(failing_allocations_are_reported)
             small_global(&p);
         else
             small_local(&p);
-        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
+        CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSR, "", "", NULL));
         rb_io_fclib_free(&p);
         int count = 0;
         for (rb_status s = RB_ENOMEM; s != RB_OK && count < 200; count++) {
@@ -637,7 +608,7 @@ TEST(failing_allocations_are_reported)
                 alloc_succeed();
                 assert_true(s == RB_OK || (s == RB_ENOMEM && strstr(why.text, "memory")));
             }
-            CHECK_STATUS(s, RB_OK);
+            CHECK_OK(s);
             assert_true(count > 5);
         }
         rb_io_fclib_free(&p);
@@ -648,17 +619,15 @@ TEST(outside_files_are_read)
 {
     rb_friction_problem p;
     rb_friction_facts facts;
-    rb_message why = {""};
-    CHECK_STATUS(rb_friction_read(outside_data("fclib/CubeH8.hdf5"), &p, &why), RB_OK);
+    CHECK_OK(rb_friction_read(outside_data("fclib/CubeH8.hdf5"), &p, &heard));
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 162);
     assert_int_equal(p.contacts, 1);
     assert_int_equal(p.K.p[162], 2 * 3168 - 162);
     rb_friction_problem_free(&p);
-    CHECK_STATUS(
-        rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"), &p, &why),
-        RB_OK);
-    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
+    CHECK_OK(rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"), &p,
+                              &heard));
+    CHECK_OK(rb_friction_examine(&p, 1, &facts));
     assert_int_equal(p.contacts, 60);
     assert_true(facts.rank >= 72 && facts.rank <= 73);
     rb_friction_problem_free(&p);

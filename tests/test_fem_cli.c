@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+HELD_TYPE(json_t, json_decref)
+
 static char folder[] = "/tmp/rollbem-fem-XXXXXX";
 
 static int make_folder(void **state)
@@ -53,9 +55,8 @@ static int is_result(const char *name)
 static void matches(const char *recorded)
 {
     OWNED(rb_io_table) got, want;
-    rb_message why = {""};
-    CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &got, &why), RB_OK);
-    CHECK_STATUS(rb_io_table_read(recorded, &want, &why), RB_OK);
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), &got, &heard));
+    CHECK_OK(rb_io_table_read(recorded, &want, &heard));
     assert_int_equal(got.rows, want.rows);
     assert_int_equal(got.columns, want.columns);
     for (int j = 0; j < want.columns; j++) {
@@ -80,15 +81,14 @@ TEST(recorded_outputs_are_todays)
 /* Each column of the table is a member of the steps in JSON, but for their number. */
 static void json_matches_the_table(const char *arguments, int code)
 {
-    rb_io_table table;
-    rb_message why = {""};
+    OWNED(rb_io_table) table;
     char table_of[400], json_of[400];
     snprintf(table_of, sizeof table_of, "%s >%s/out.tsv 2>/dev/null", arguments, folder);
     snprintf(json_of, sizeof json_of, "%s --json >%s/out.json 2>/dev/null", arguments, folder);
     assert_int_equal(run("%s", table_of), code);
     assert_int_equal(run("%s", json_of), code);
-    CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &table, &why), RB_OK);
-    json_t *root = json_load_file(inside("out.json"), 0, NULL);
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), &table, &heard));
+    HELD(json_t) root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     assert_int_equal(json_array_size(steps), table.rows);
     for (int j = 0; j < table.columns; j++)
@@ -99,8 +99,6 @@ static void json_matches_the_table(const char *arguments, int code)
                 CHECK_ABS(json_number_value(x), table.x[i + j * table.rows], 0.0, "%s: step %d, %s",
                           arguments, i, table.name[j]);
         }
-    json_decref(root);
-    rb_io_table_free(&table);
 }
 
 TEST(json_has_the_columns_of_the_table)
@@ -114,7 +112,7 @@ TEST(json_and_picture_are_written)
 {
     assert_int_equal(
         run("truss --nodes 4 --json --output %s --plot %s.png", inside("out.json"), folder), 0);
-    json_t *root = json_load_file(inside("out.json"), 0, NULL);
+    HELD(json_t) root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     static const int stick[] = {0, 16, 4, 0, 0, 0};
     assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
@@ -122,7 +120,6 @@ TEST(json_and_picture_are_written)
     for (size_t k = 0; k < 6; k++)
         assert_int_equal(json_integer_value(json_object_get(json_array_get(steps, k), "stick")),
                          stick[k]);
-    json_decref(root);
     char picture[300];
     snprintf(picture, sizeof picture, "%s.png", folder);
     FILE *file = fopen(picture, "rb");
@@ -140,7 +137,7 @@ TEST(the_wall_writes_its_problems)
                          inside("wall"), folder),
                      0);
     rb_io_table table; /* as many numbers in a row as it has names */
-    CHECK_STATUS(rb_io_table_read(inside("wall.tsv"), &table, NULL), RB_OK);
+    CHECK_OK(rb_io_table_read(inside("wall.tsv"), &table, NULL));
     assert_int_equal(table.rows, 76);
     for (int k = 0; k < table.rows; k++)
         CHECK_ABS(rb_io_table_column(&table, "stick")[k] + rb_io_table_column(&table, "slip")[k] +
@@ -150,9 +147,8 @@ TEST(the_wall_writes_its_problems)
     for (int k = 1; k <= 3; k++) {
         char name[40];
         OWNED(rb_friction_problem) problem;
-        rb_message why = {""};
         snprintf(name, sizeof name, "wall/wall-%02d.hdf5", k);
-        CHECK_STATUS(rb_friction_read(inside(name), &problem, &why), RB_OK);
+        CHECK_OK(rb_friction_read(inside(name), &problem, &heard));
         assert_int_equal(problem.form, RB_FRICTION_GLOBAL);
         assert_int_equal(problem.contacts, 161);
         assert_int_equal(problem.dofs, 901);

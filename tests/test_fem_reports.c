@@ -106,9 +106,8 @@ static int free_walls(void **state)
 
 static const char *draw_wall(const solved_wall *w, rb_report_canvas canvas, int steps)
 {
-    rb_message why = {""};
     FILE *out = tmpfile();
-    CHECK_STATUS(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &why), RB_OK);
+    CHECK_OK(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &heard));
     return written(out);
 }
 
@@ -192,7 +191,7 @@ TEST(wall_at_rest_is_not_magnified)
     static double mesh[2 * POINTS];
     solved_wall still = walls[0];
     double right = 0.0, top = 0.0;
-    CHECK_STATUS(rb_fem_wall_create(&still.options, &still.wall, NULL), RB_OK);
+    CHECK_OK(rb_fem_wall_create(&still.options, &still.wall, NULL));
     const char *script = draw_wall(&still, page, 1);
     check_says(script, "displacements × 1, drift");
     const int points = block(script, "mesh", 2, POINTS, mesh);
@@ -303,8 +302,8 @@ TEST(truss_is_drawn_by_its_slips)
     for (int layout = 0; layout < 2; layout++) {
         OWNED(rb_fem_model) model;
         OWNED(rb_fem_history) history;
-        CHECK_STATUS(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL), RB_OK);
-        CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-9, &history, NULL), RB_OK);
+        CHECK_OK(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL));
+        CHECK_OK(rb_fem_run(&model, "nsn-ac", 1e-9, &history, NULL));
         rb_fem_step *last = &history.step[history.steps - 1];
         for (int i = 0, k = 0; i < model.structure.contacts; i++)
             if (model.mesh.x[3 * i] >= 0.0 && model.mesh.x[3 * i + 1] >= 0.0) {
@@ -312,9 +311,8 @@ TEST(truss_is_drawn_by_its_slips)
                 last->u[3 * i + 1] = k == 2 ? -3.0 : 0.0;
                 k++;
             }
-        rb_message why = {""};
         FILE *out = tmpfile();
-        CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why), RB_OK);
+        CHECK_OK(rb_report_picture_truss(out, page, &model, &history, &heard));
         const char *script = written(out);
         check_says(script, names[layout]);
         assert_null(strstr(script, names[1 - layout]));

@@ -228,11 +228,10 @@ TEST(names_of_any_bytes_are_printed)
     assert_int_equal(shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
                            "\"$R\" \"$n\" " CASE "--json --output a.json"),
                      0);
-    json_t *root = json_load_file("a.json", 0, NULL);
+    HELD(json_t) root = json_load_file("a.json", 0, NULL);
     assert_non_null(root);
     assert_non_null(
         strstr(json_string_value(json_object_get(root, "command")), "a\\xffb\\x1b.ini"));
-    json_decref(root);
     assert_int_equal(shell("\"$R\" \"$(printf 'none\\377\\033')\""), 66);
     assert_non_null(strstr(err, "none\\xff\\x1b: No such file"));
     assert_int_equal(shell("\"$R\" lcp --json \"$(printf 'none\\377')\""), 66);

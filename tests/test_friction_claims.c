@@ -252,8 +252,7 @@ TEST(the_judge_sees_small_errors)
                                    .mu = c.mu,
                                    .W = c.W,
                                    .q = c.q};
-    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
-                 RB_OK);
+    CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL));
     assess(&c, r, &error, &floor);
     CHECK_MAX(error, 1e-8, "a solution");
     int at = 0;

@@ -33,7 +33,7 @@ static int set_up(void **state)
 TEST(the_answer_can_be_checked)
 {
     assert_int_equal(rollbem("friction --json --solution slides"), 0);
-    json_t *root = json_loads(out, 0, NULL);
+    HELD(json_t) root = json_loads(out, 0, NULL);
     assert_non_null(root);
     const json_t *p = json_array_get(json_object_get(root, "problems"), 0);
     assert_non_null(p);
@@ -46,7 +46,6 @@ TEST(the_answer_can_be_checked)
     CHECK_ABS(number_in(p, "contacts"), 1.0, 0.0, "contacts");
     CHECK_ABS(number_in(p, "dimension"), 2.0, 0.0, "dimension");
     assert_true(number_in(p, "floor") > 0.0 && number_in(p, "seconds") > 0.0);
-    json_decref(root);
 }
 
 /* File, solver, status: what does not depend on the clock. */
@@ -64,9 +63,8 @@ TEST(compare_writes_its_file)
                      0);
     assert_string_equal(out, "5\n");
     assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"), 0);
-    json_t *root = json_load_file("runs.json", 0, NULL);
+    HELD(json_t) root = json_load_file("runs.json", 0, NULL);
     assert_non_null(root);
-    json_decref(root);
 }
 
 TEST(every_solver_is_there_by_name)
@@ -225,13 +223,12 @@ TEST(the_command_line_is_checked)
 TEST(profiles_are_printed)
 {
     assert_int_equal(rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
-    json_t *root = json_loads(out, 0, NULL);
+    HELD(json_t) root = json_loads(out, 0, NULL);
     assert_non_null(root);
     assert_int_equal(json_array_size(json_object_get(root, "runs")), 9);
     const json_t *profiles = json_object_get(root, "profiles");
     const size_t last = json_array_size(json_object_get(root, "tau")) - 1;
     CHECK_ABS(entry(profiles, "nsn-ac", last), 2.0 / 3.0, 1e-12, "two of three");
-    json_decref(root);
     assert_int_equal(rollbem("compare --solvers auto slides nowhere --plot p.svg "
                              "--profiles p.tsv --plot-size 85mm --plot-script p.gp"),
                      66);
@@ -256,12 +253,11 @@ TEST(the_chosen_measure_decides)
                  "iterations --json",
                  sweeps[k]);
         assert_int_equal(rollbem(line), 0);
-        json_t *root = json_loads(out, 0, NULL);
+        HELD(json_t) root = json_loads(out, 0, NULL);
         const json_t *run = json_array_get(json_object_get(root, "runs"), 0);
         CHECK_ABS(number_in(run, "iterations"), k == 0 ? 3.0 : 1.0, 0.0, "%s", sweeps[k]);
         assert_string_equal(json_string_value(json_object_get(root, "measure")), sweeps[k]);
         assert_string_equal(json_string_value(json_object_get(root, "cost")), "iterations");
-        json_decref(root);
     }
     check_refused("compare stiff --measure flops", 64, "--measure: expected scaled or");
 }

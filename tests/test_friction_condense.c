@@ -68,8 +68,8 @@ static void make_bodies(rb_friction_problem *p)
     }
     for (int i = 0; i < DOFS; i++)
         p->f[i] = uniform();
-    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&K, &p->K));
+    CHECK_OK(rb_sparse_from_triplets(&H, &p->H));
 }
 
 /* X = K^-1 X without pivoting: K is positive definite. */
@@ -105,9 +105,8 @@ TEST(bodies_that_meet_anywhere_are_condensed)
     static double K[DOFS * DOFS], X[DOFS * (M + 1)], H[DOFS * M], W[M * M];
     for (int trial = 0; trial < 10; trial++) {
         OWNED(rb_friction_problem) p, local;
-        rb_message why;
         make_bodies(&p);
-        CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_OK);
+        CHECK_OK(rb_friction_condense(&p, &local, &heard));
         to_dense(&p.K, K);
         to_dense(&p.H, H);
         to_dense(&local.Ws, W);
@@ -135,16 +134,15 @@ TEST(a_loose_body_is_told)
     for (int b = 0; b < BODIES; b++) {
         const int full = b < FULL && sizes[b] > 1;
         rb_friction_problem p, local;
-        rb_message why = {""};
         char words[40];
         make_bodies(&p);
         for (int i = 0; i < sizes[b]; i++)
             for (int k = p.K.p[dof_of(b, i)]; k < p.K.p[dof_of(b, i) + 1]; k++)
                 p.K.x[k] = full;
-        CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
+        CHECK_STATUS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR);
         snprintf(words, sizeof words, "(nullity %d)", full ? sizes[b] - 1 : sizes[b]);
-        if (!strstr(why.text, words))
-            fail_msg("body %d: %s, expected %s", b, why.text, words);
+        if (!strstr(heard.text, words))
+            fail_msg("body %d: %s, expected %s", b, heard.text, words);
         rb_friction_problem_free(&p);
     }
 }

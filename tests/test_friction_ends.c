@@ -38,7 +38,7 @@ static void make_local(int d, double unit, rb_friction_problem *p)
 static void make_sparse(rb_friction_problem *p)
 {
     const int m = p->dimension * p->contacts;
-    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(m, m, p->W, m, &p->Ws));
     free(p->W);
     p->W = NULL;
     p->form = RB_FRICTION_LOCAL_SPARSE;
@@ -60,8 +60,8 @@ static void make_global(int d, rb_friction_problem *p)
                                .w = rb_copy((size_t)m, local.q)};
     for (int i = 0; i < m; i++)
         rb_triplets_add(&H, i, i, 1.0);
-    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
-    CHECK_STATUS(rb_sparse_from_dense(m, m, local.W, m, &p->K), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&H, &p->H));
+    CHECK_OK(rb_sparse_from_dense(m, m, local.W, m, &p->K));
 }
 
 static rb_status solve(const char *name, const rb_friction_problem *p,
@@ -147,7 +147,7 @@ TEST(sweeps_seldom_look_at_the_measure)
             p.q[c * d] = -1.0 - 0.001 * c;
         opt.progress = count_looks;
         opt.context = &looks;
-        CHECK_STATUS(solve("nsgs-ac", &p, &opt, &info), RB_OK);
+        CHECK_OK(solve("nsgs-ac", &p, &opt, &info));
         assert_true(info.iters > 300);
         CHECK_MAX(looks, 12 + info.iters / 200, "d = %d, %d sweeps", d, info.iters);
         looks = 0;
@@ -169,7 +169,7 @@ TEST(options_that_are_none_are_refused)
     rb_friction_handle *handle;
     rb_friction_info info;
     make_local(3, 1.0, &p);
-    CHECK_STATUS(rb_friction_setup(&p, &handle, NULL), RB_OK);
+    CHECK_OK(rb_friction_setup(&p, &handle, NULL));
     double r[LARGEST], u[LARGEST];
     const rb_friction_solution at = {r, u, NULL};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -198,20 +198,20 @@ TEST(a_handle_keeps_its_last_solution)
             make_global(3, &p);
         else
             make_local(3, 1.0, &p);
-        CHECK_STATUS(rb_friction_setup(&p, &handle, NULL), RB_OK);
+        CHECK_OK(rb_friction_setup(&p, &handle, NULL));
         const rb_friction_solution at = {r, u, global ? v : NULL};
         opt.max_iters = 1;
         CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
                      RB_MAXITER); /* which is no solution to start from */
         opt.max_iters = 0;
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
+        CHECK_OK(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info));
         const int cold = info.iters;
         assert_true(cold > 1);
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
+        CHECK_OK(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info));
         assert_int_equal(info.iters, 0);
         opt.r0 = zero;
         opt.v0 = zero;
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info), RB_OK);
+        CHECK_OK(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info));
         assert_int_equal(info.iters, cold);
         rb_friction_handle_free(handle);
     }
@@ -226,9 +226,9 @@ TEST(facts_do_not_depend_on_the_form)
         rb_friction_facts dense, sparse, global;
         make_local(3, 1.0, &p);
         p.W[1] += 0.3; /* not symmetric any more */
-        CHECK_STATUS(rb_friction_examine(&p, with_rank, &dense), RB_OK);
+        CHECK_OK(rb_friction_examine(&p, with_rank, &dense));
         make_sparse(&p);
-        CHECK_STATUS(rb_friction_examine(&p, with_rank, &sparse), RB_OK);
+        CHECK_OK(rb_friction_examine(&p, with_rank, &sparse));
         CHECK_REL(dense.asymmetry, 0.3 / 3.0, 1e-14, "asymmetry");
         CHECK_ABS(sparse.asymmetry, dense.asymmetry, 0.0, "asymmetry");
         assert_int_equal(dense.rank, with_rank ? LARGEST : 0);
@@ -236,11 +236,11 @@ TEST(facts_do_not_depend_on_the_form)
         assert_int_equal(dense.hyperstaticity, 0);
         assert_int_equal(dense.indefinite, 0);
         p.Ws.x[0] = -1.0;
-        CHECK_STATUS(rb_friction_examine(&p, with_rank, &sparse), RB_OK);
+        CHECK_OK(rb_friction_examine(&p, with_rank, &sparse));
         assert_int_equal(sparse.indefinite, 1);
         rb_friction_problem_free(&p);
         make_global(3, &p);
-        CHECK_STATUS(rb_friction_examine(&p, with_rank, &global), RB_OK);
+        CHECK_OK(rb_friction_examine(&p, with_rank, &global));
         assert_int_equal(global.rank, with_rank ? LARGEST : 0);
         assert_int_equal(global.nullity, 0);
         rb_friction_problem_free(&p);
@@ -255,7 +255,6 @@ TEST(damaged_matrices_are_named)
                                                "H is 11 x 12", "H is 12 x 11", "H: entry 1 is inf"};
     for (defect k = 0; k < DEFECTS; k++) {
         OWNED(rb_friction_problem) p;
-        rb_message why = {""};
         make_global(3, &p);
         rb_sparse whole = p.H;
         const double first = whole.x[0];
@@ -278,14 +277,12 @@ TEST(damaged_matrices_are_named)
         default:
             whole.x[0] = INFINITY;
         }
-        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, words[k]));
+        CHECK_SAYS(rb_friction_problem_check(&p, &heard), RB_EINVAL, words[k]);
         p.H = whole;
         p.H.x[0] = first;
-        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
+        CHECK_OK(rb_friction_problem_check(&p, &heard));
         p.dofs = 0;
-        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, "0 degrees of freedom"));
+        CHECK_SAYS(rb_friction_problem_check(&p, &heard), RB_EINVAL, "0 degrees of freedom");
         p.dofs = LARGEST;
     }
     rb_friction_problem_free(NULL);
@@ -295,7 +292,6 @@ TEST(damaged_vectors_are_named)
 {
     for (int global = 0; global < 2; global++) {
         OWNED(rb_friction_problem) p;
-        rb_message why = {""};
         if (global)
             make_global(3, &p);
         else
@@ -310,19 +306,19 @@ TEST(damaged_vectors_are_named)
             char words[40];
             double *const whole = *all[k].x, right = whole[2];
             whole[2] = NAN;
-            CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+            CHECK_STATUS(rb_friction_problem_check(&p, &heard), RB_EINVAL);
             snprintf(words, sizeof words, "%s: entry 3 is", all[k].name);
-            if (!strstr(why.text, words))
-                fail_msg("%s, expected %s", why.text, words);
+            if (!strstr(heard.text, words))
+                fail_msg("%s, expected %s", heard.text, words);
             whole[2] = right;
             *all[k].x = NULL;
-            CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+            CHECK_STATUS(rb_friction_problem_check(&p, &heard), RB_EINVAL);
             snprintf(words, sizeof words, "%s is missing", all[k].name);
-            if (!strstr(why.text, words))
-                fail_msg("%s, expected %s", why.text, words);
+            if (!strstr(heard.text, words))
+                fail_msg("%s, expected %s", heard.text, words);
             *all[k].x = whole;
         }
-        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
+        CHECK_OK(rb_friction_problem_check(&p, &heard));
     }
 }
 
@@ -339,11 +335,9 @@ TEST(nearly_loose_bodies_are_not_condensed)
                              .f = f,
                              .w = w};
     rb_friction_problem local;
-    rb_message why = {""};
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, K, 2, &p.K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, H, 2, &p.H), RB_OK);
-    CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
-    assert_non_null(strstr(why.text, "K is singular to rounding"));
+    CHECK_OK(rb_sparse_from_dense(2, 2, K, 2, &p.K));
+    CHECK_OK(rb_sparse_from_dense(2, 2, H, 2, &p.H));
+    CHECK_SAYS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR, "K is singular to rounding");
     rb_sparse_free(&p.K);
     rb_sparse_free(&p.H);
 }
@@ -357,7 +351,6 @@ TEST(constraints_are_redundant_but_for_rounding)
             double G[3 * LARGEST], b[3] = {uniform(), uniform(), 0.0};
             OWNED(rb_friction_problem) p;
             OWNED(rb_sparse) rows;
-            rb_message why = {""};
             make_global(3, &p);
             for (int i = 0; i < LARGEST; i++) {
                 G[i] = uniform();
@@ -365,8 +358,8 @@ TEST(constraints_are_redundant_but_for_rounding)
                 G[i + 2 * LARGEST] = 0.7 * G[i] - 1.3 * G[i + LARGEST];
             }
             b[2] = 0.7 * b[0] - 1.3 * b[1] + 0.01 * contradicts;
-            CHECK_STATUS(rb_sparse_from_dense(LARGEST, 3, G, LARGEST, &rows), RB_OK);
-            CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &why),
+            CHECK_OK(rb_sparse_from_dense(LARGEST, 3, G, LARGEST, &rows));
+            CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &heard),
                          contradicts ? RB_EINVAL : RB_OK);
             assert_int_equal(p.dofs, contradicts ? LARGEST : LARGEST - 2);
         }
@@ -442,7 +435,7 @@ TEST(limits_hold_on_cones)
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
     double x[3], y[3], again[3];
-    CHECK_STATUS(rb_friction_soclcp(&on_cones, NULL, x, y, NULL), RB_OK);
+    CHECK_OK(rb_friction_soclcp(&on_cones, NULL, x, y, NULL));
     for (int i = 0; i < 3; i++) {
         double want = cone_q[i];
         for (int j = 0; j < 3; j++)
@@ -454,7 +447,7 @@ TEST(limits_hold_on_cones)
     CHECK_ABS(x[0] * y[0] + x[1] * y[1], 0.0, 1e-7, "orthogonal");
     CHECK_ABS(fmin(x[2], y[2]), 0.0, 1e-7, "half-line");
     opt.r0 = x;
-    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_OK);
+    CHECK_OK(rb_friction_soclcp(&on_cones, &opt, again, y, &info));
     CHECK_MAX(info.iters, 2, "from the solution");
     opt.r0 = NULL;
     opt.max_iters = 1;
@@ -463,10 +456,10 @@ TEST(limits_hold_on_cones)
     opt.seconds = 1e-9;
     CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_INTERRUPTED);
     opt.seconds = 60.0;
-    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_OK);
+    CHECK_OK(rb_friction_soclcp(&on_cones, &opt, again, y, &info));
     const double zero[9] = {0.0}, up[3] = {1.0, 0.5, 1.0};
     const rb_friction_soclcp_problem flat = {3, zero, up, 2, cone_sizes};
-    CHECK_STATUS(rb_friction_soclcp(&flat, NULL, x, y, NULL), RB_OK); /* x = 0 */
+    CHECK_OK(rb_friction_soclcp(&flat, NULL, x, y, NULL)); /* x = 0 */
     CHECK_ABS(fmax(fabs(x[0]), fabs(x[2])), 0.0, 1e-6, "M = 0");
 }
 
@@ -488,8 +481,8 @@ static void make_wheels(rb_friction_problem *p)
         rb_triplets_add(&K, i, i, 2.0 + 0.1 * i);
         rb_triplets_add(&H, i, i, 1.0);
     }
-    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&K, &p->K));
+    CHECK_OK(rb_sparse_from_triplets(&H, &p->H));
 }
 
 TEST(what_does_not_roll_is_refused)
@@ -498,7 +491,6 @@ TEST(what_does_not_roll_is_refused)
     static const double bad[][2] = {{0.1, -0.1}, {NAN, 0.1}, {0.1, INFINITY}};
     for (int k = 0; k < 9; k++) {
         rb_friction_problem p, whole;
-        rb_message why = {""};
         make_wheels(&p);
         whole = p;
         p.form = k == 0 ? RB_FRICTION_LOCAL_SPARSE : p.form;
@@ -507,8 +499,8 @@ TEST(what_does_not_roll_is_refused)
         p.H.cols -= k == 3;
         p.H.rows -= k == 4;
         p.K.cols -= k == 5;
-        CHECK_STATUS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, k < 6 ? "five columns of H" : "mu_r of contact"));
+        CHECK_SAYS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &heard), RB_EINVAL,
+                   k < 6 ? "five columns of H" : "mu_r of contact");
         rb_friction_problem_free(&whole);
     }
 }
@@ -519,12 +511,11 @@ TEST(wheels_without_stiffness_have_the_length_one)
     static const double mu_r[] = {0.1, 0.2};
     for (int k = 0; k < 3; k++) {
         OWNED(rb_friction_problem) p;
-        rb_message why = {""};
         make_wheels(&p);
         for (int a = 0; a < 5; a++) /* the normal; the slip; the turn */
             if ((k == 0 && a == 0) || (k == 1 && (a == 1 || a == 2)) || (k == 2 && a > 2))
                 p.K.x[a] = 0.0;
-        CHECK_STATUS(rb_friction_split_rolling(&p, mu_r, &why), RB_OK);
+        CHECK_OK(rb_friction_split_rolling(&p, mu_r, &heard));
         assert_int_equal(p.contacts, 2 * WHEELS);
         const double slip = 1.0 / 2.1 + 1.0 / 2.2, turn = 1.0 / 2.3 + 1.0 / 2.4;
         CHECK_REL(p.lengths[0], k ? 1.0 : sqrt(slip / turn), 1e-14, "length");
@@ -557,9 +548,7 @@ TEST(contacts_without_tangential_compliance_slip)
         rb_friction_info info;
         double r[2 * NC], u[2 * NC];
         make_loose(&p);
-        CHECK_STATUS(
-            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-            RB_OK);
+        CHECK_OK(rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info));
         for (int c = 0; c < NC; c++) {
             const double rn = fmax(0.0, -p.q[2 * c] / 2.0);
             CHECK_ABS(r[2 * c], rn, 1e-7, "%s, r_N of %d", names[k], c);
@@ -570,9 +559,7 @@ TEST(contacts_without_tangential_compliance_slip)
         memset(p.W, 0, 4 * NC * NC * sizeof *p.W); /* nothing can be pushed: all open */
         for (int c = 0; c < NC; c++)
             p.q[2 * c] = 1.0 + c;
-        CHECK_STATUS(
-            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
-            RB_OK);
+        CHECK_OK(rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){r, u, NULL}, &info));
         CHECK_ABS(rb_norm_inf(2 * NC, r), 0.0, 0.0, "%s, W = 0", names[k]);
     }
 }

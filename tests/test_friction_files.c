@@ -29,11 +29,9 @@ static const char cones[] = "4 2 0 4 4 4 4\n"
 
 static void read_whole(const char *text, rb_friction_file kind, rb_friction_problem *p)
 {
-    rb_message why = {""};
     put(text);
-    if (rb_friction_read_as(path, kind, p, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    assert_string_equal(why.text, "");
+    CHECK_OK(rb_friction_read_as(path, kind, p, &heard));
+    assert_string_equal(heard.text, "");
 }
 
 TEST(local_problems_come_from_text)
@@ -86,7 +84,6 @@ TEST(global_problems_come_from_text)
 TEST(a_head_of_both_forms_is_followed_to_the_end)
 {
     rb_friction_problem p;
-    rb_message why = {""};
     read_whole(two_ways, RB_FRICTION_FILE_ANY, &p);
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     CHECK_ABS(p.K.x[1], 4.0, 0.0, "K(2, 2)");
@@ -96,10 +93,10 @@ TEST(a_head_of_both_forms_is_followed_to_the_end)
     char text[300], wanted[1200];
     snprintf(text, sizeof text, "%s 99", full);
     put(text);
-    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_EFORMAT);
+    CHECK_STATUS(rb_friction_read(path, &p, &heard), RB_EFORMAT);
     snprintf(wanted, sizeof wanted,
              "%s:5: after the last number: expected an integer from 0 to 1, got '99'", path);
-    assert_string_equal(why.text, wanted);
+    assert_string_equal(heard.text, wanted);
 }
 
 /* A cone ||x_T|| <= x_0 / slope becomes one of slope 1 by x_0 / slope in the place of
@@ -109,10 +106,8 @@ TEST(cones_get_the_slope_one)
     static const double M[] = {8.0, 1.0, 2.0, 4.0, 1.0, 6.0, 3.0, 5.0,
                                2.0, 3.0, 9.0, 7.0, 4.0, 5.0, 7.0, 10.0};
     OWNED(rb_friction_soclcp_data) d;
-    rb_message why = {""};
     put(cones);
-    if (rb_friction_soclcp_read(path, &d, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_friction_soclcp_read(path, &d, &heard));
     assert_int_equal(d.problem.n, 4);
     assert_int_equal(d.problem.cones, 2);
     assert_int_equal(d.problem.size[0], 3);
@@ -146,11 +141,10 @@ TEST(what_is_no_friction_problem_is_refused)
         {"nothing", RB_FRICTION_FILE_ANY, ""}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_friction_problem p;
-        rb_message why = {""};
         put(all[k].text);
-        CHECK_STATUS(rb_friction_read_as(path, all[k].kind, &p, &why), RB_EFORMAT);
-        if (!strstr(why.text, all[k].words) || !strstr(why.text, path))
-            fail_msg("row %zu: %s", k, why.text);
+        CHECK_STATUS(rb_friction_read_as(path, all[k].kind, &p, &heard), RB_EFORMAT);
+        if (!strstr(heard.text, all[k].words) || !strstr(heard.text, path))
+            fail_msg("row %zu: %s", k, heard.text);
         assert_null(p.mu);
     }
     static const struct {
@@ -161,11 +155,8 @@ TEST(what_is_no_friction_problem_is_refused)
         {full, ""}};
     for (size_t k = 0; k < sizeof of_cones / sizeof *of_cones; k++) {
         rb_friction_soclcp_data d;
-        rb_message why = {""};
         put(of_cones[k].text);
-        CHECK_STATUS(rb_friction_soclcp_read(path, &d, &why), RB_EFORMAT);
-        if (!strstr(why.text, of_cones[k].words))
-            fail_msg("row %zu: %s", k, why.text);
+        CHECK_SAYS(rb_friction_soclcp_read(path, &d, &heard), RB_EFORMAT, of_cones[k].words);
         assert_null(d.M);
     }
 }
@@ -185,18 +176,17 @@ TEST(problems_go_into_fclib_and_come_back)
     for (int k = 0; k < 6; k++) {
         OWNED(rb_friction_problem) p, back;
         OWNED(rb_io_fclib) file;
-        rb_message why = {""};
         const rb_friction_solution at = {r, u, v};
         const int solved = k / 3;
         read_whole(texts[k % 3], RB_FRICTION_FILE_ANY, &p);
         const int is_global = p.form == RB_FRICTION_GLOBAL;
-        CHECK_STATUS(rb_friction_write(path, &p, solved ? &at : NULL, "title", &why), RB_OK);
-        CHECK_STATUS(rb_io_fclib_read(path, &file, &why), RB_OK);
+        CHECK_OK(rb_friction_write(path, &p, solved ? &at : NULL, "title", &heard));
+        CHECK_OK(rb_io_fclib_read(path, &file, &heard));
         assert_int_equal(file.global, is_global);
         check_vector("r", 2, file.r, solved ? r : NULL);
         check_vector("u", 2, file.u, solved ? u : NULL);
         check_vector("v", 3, file.v, solved && is_global ? v : NULL);
-        CHECK_STATUS(rb_friction_read(path, &back, &why), RB_OK);
+        CHECK_OK(rb_friction_read(path, &back, &heard));
         check_vector("mu", 1, back.mu, p.mu);
         check_vector("q", 2, back.q, p.q);
         check_vector("f", 3, back.f, p.f);
@@ -215,17 +205,15 @@ TEST(problems_go_into_fclib_and_come_back)
 static rb_status read_problem(void *context)
 {
     OWNED(rb_friction_problem) p;
-    rb_message why;
-    const rb_status s = rb_friction_read_as(path, *(rb_friction_file *)context, &p, &why);
+    const rb_status s = rb_friction_read_as(path, *(rb_friction_file *)context, &p, &heard);
     return s;
 }
 
 static rb_status read_cones(void *context)
 {
     OWNED(rb_friction_soclcp_data) d;
-    rb_message why;
     (void)context;
-    const rb_status s = rb_friction_soclcp_read(path, &d, &why);
+    const rb_status s = rb_friction_soclcp_read(path, &d, &heard);
     return s;
 }
 

@@ -57,7 +57,7 @@ static double given(const rb_friction_problem *p)
 static void check_infeasible(const rb_friction_problem *p, const char *what)
 {
     double y[MOST], least;
-    CHECK_STATUS(rb_friction_infeasible(p, y, &least), RB_OK);
+    CHECK_OK(rb_friction_infeasible(p, y, &least));
     CHECK_MAX(1e8 * given(p), least, "%s", what);
     CHECK_MAX(1e8 * given(p), proof(p, y), "%s", what);
 }
@@ -88,7 +88,7 @@ TEST(two_walls_close)
         check_infeasible(&p, "walls");
         q[0] = 0.6; /* one of them opens faster */
         double y[2], least;
-        CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_OK);
+        CHECK_OK(rb_friction_infeasible(&p, y, &least));
         CHECK_MAX(least, 1e8 * given(&p), "no proof where there is a solution");
     }
 }
@@ -138,7 +138,7 @@ TEST(planted_proofs_are_found)
         for (int i = 0; i < m; i++)
             q[i] += 2.0 / size * plan[i];
         double y[MOST], least;
-        CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_OK);
+        CHECK_OK(rb_friction_infeasible(&p, y, &least));
         CHECK_MAX(least, 1e8 * given(&p), "problem %d has a solution", k);
     }
 }

@@ -57,7 +57,7 @@ static void compare(const char *name, const rb_friction_problem *p, double most)
         if (k == 0)
             first = info;
     }
-    CHECK_STATUS(run("auto", p, r, &info), RB_OK);
+    CHECK_OK(run("auto", p, r, &info));
     CHECK_MAX(violation(p, r), 1e-7, "%s", name);
     CHECK_MAX(info.flops, most * best, "%s", name);
     if (first.iters <= 100 && !strcmp(info.solver, "nsgs-aa"))
@@ -89,12 +89,11 @@ TEST(the_first_member_costs_auto_nothing)
                                         "siconos/fc3d/NESpheres_10_1.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         OWNED(rb_friction_problem) p;
-        rb_message why;
         rb_friction_info first, whole;
-        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
         SCRATCH double *r = rb_alloc((size_t)(p.dimension * p.contacts), 1);
-        CHECK_STATUS(run("nsgs-aa", &p, r, &first), RB_OK);
-        CHECK_STATUS(run("auto", &p, r, &whole), RB_OK);
+        CHECK_OK(run("nsgs-aa", &p, r, &first));
+        CHECK_OK(run("auto", &p, r, &whole));
         CHECK_MAX(whole.flops, 1.1 * first.flops, "%s", files[k]);
         CHECK_ABS(whole.scaled, first.scaled, 0.0, "%s: what is proved", files[k]);
         CHECK_ABS(whole.floor, first.floor, 0.0, "%s: its floor", files[k]);
@@ -107,12 +106,11 @@ TEST(auto_condenses_rigid_bodies_first)
 {
     OWNED(rb_friction_problem) global, local;
     rb_friction_info of_global, of_local;
-    rb_message why;
     packing("spheres 150 1 6 global", &global);
-    CHECK_STATUS(rb_friction_condense(&global, &local, &why), RB_OK);
+    CHECK_OK(rb_friction_condense(&global, &local, &heard));
     SCRATCH double *r = rb_alloc((size_t)(3 * global.contacts), 1);
-    CHECK_STATUS(run("auto", &global, r, &of_global), RB_OK);
-    CHECK_STATUS(run("auto", &local, r, &of_local), RB_OK);
+    CHECK_OK(run("auto", &global, r, &of_global));
+    CHECK_OK(run("auto", &local, r, &of_local));
     assert_string_equal(of_global.solver, of_local.solver);
     CHECK_MAX(of_global.flops, 1.2 * of_local.flops, "operations");
 }
@@ -124,13 +122,12 @@ TEST(auto_on_the_packings_it_lost_on)
                                         "packings/disks2d_300_mu0.5.dat"};
     for (int k = 0; k < 2; k++) {
         OWNED(rb_friction_problem) p;
-        rb_message why;
         rb_friction_info plain, fast;
-        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
         compare(files[k], &p, 3.0);
         SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
-        CHECK_STATUS(run("nsgs-ac", &p, r, &plain), RB_OK);
-        CHECK_STATUS(run("nsgs-aa", &p, r, &fast), RB_OK);
+        CHECK_OK(run("nsgs-ac", &p, r, &plain));
+        CHECK_OK(run("nsgs-aa", &p, r, &fast));
         CHECK_MAX(fast.iters, plain.iters, "%s: acceleration", files[k]);
     }
 }
@@ -144,7 +141,6 @@ TEST(global_packings_condense_to_the_local_ones)
     for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
         rb_friction_problem local, global, p = {0};
         rb_friction_info info;
-        rb_message why;
         char arguments[80];
         double condense = INFINITY, solve = INFINITY;
         snprintf(arguments, sizeof arguments, "%s global 5", packings[k]);
@@ -155,9 +151,9 @@ TEST(global_packings_condense_to_the_local_ones)
         for (int again = 0; again < 3; again++) {
             const double start = rb_seconds();
             rb_friction_problem_free(&p);
-            CHECK_STATUS(rb_friction_condense(&global, &p, &why), RB_OK);
+            CHECK_OK(rb_friction_condense(&global, &p, &heard));
             condense = fmin(condense, rb_seconds() - start);
-            CHECK_STATUS(run("auto", &p, r, &info), RB_OK);
+            CHECK_OK(run("auto", &p, r, &info));
             solve = fmin(solve, info.seconds);
         }
         assert_int_equal(p.Ws.cols, m);
@@ -187,11 +183,11 @@ TEST(splitting_solves_redundant_contacts)
     rb_friction_info info;
     packing("bricks 100 1 5", &p);
     SCRATCH double *r = rb_alloc((size_t)(3 * p.contacts), 1);
-    CHECK_STATUS(run("admm", &p, r, &info), RB_OK);
+    CHECK_OK(run("admm", &p, r, &info));
     CHECK_MAX(info.iters, 200, "ADMM");
     CHECK_MAX(violation(&p, r), 1e-7, "ADMM");
     const double best = info.flops;
-    CHECK_STATUS(run("auto", &p, r, &info), RB_OK);
+    CHECK_OK(run("auto", &p, r, &info));
     CHECK_MAX(info.flops, 3.0 * best, "auto");
 }
 
@@ -212,7 +208,7 @@ TEST(lemke_solves_redundant_contacts)
         rb_friction_info info;
         packing(cases[k].packing, &p);
         SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
-        CHECK_STATUS(run("lemke", &p, r, &info), RB_OK);
+        CHECK_OK(run("lemke", &p, r, &info));
         CHECK_MAX(violation(&p, r), 1e-11, "%s", cases[k].packing);
         CHECK_MAX(info.iters, cases[k].pivots * p.contacts, "%s: pivots", cases[k].packing);
     }
@@ -244,14 +240,12 @@ TEST(the_winner_hands_over_all_it_has)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         OWNED(rb_friction_problem) p, condensed = {0};
         rb_friction_info info;
-        rb_message why;
         packing(cases[k].packing, &p);
         const int m = p.dimension * p.contacts, n = p.dofs;
         const int global = p.form == RB_FRICTION_GLOBAL;
         double *r = rb_alloc((size_t)(2 * m + 2 * n + 1), 1), *u = r + m, *v = u + m;
-        CHECK_STATUS(rb_friction_solve("auto", &p, NULL,
-                                       &(rb_friction_solution){r, u, global ? v : NULL}, &info),
-                     RB_OK);
+        CHECK_OK(rb_friction_solve("auto", &p, NULL,
+                                   &(rb_friction_solution){r, u, global ? v : NULL}, &info));
         assert_string_equal(info.solver, cases[k].winner);
         if (global) {
             double *rest = v + n;
@@ -260,7 +254,7 @@ TEST(the_winner_hands_over_all_it_has)
             const double size = rb_norm_inf((size_t)n, rest);
             rb_sparse_apply(-1.0, &p.K, v, 1.0, rest);
             CHECK_MAX(rb_norm_inf((size_t)n, rest), 1e-12 * size, "forces of case %d", (int)k);
-            CHECK_STATUS(rb_friction_condense(&p, &condensed, &why), RB_OK);
+            CHECK_OK(rb_friction_condense(&p, &condensed, &heard));
         }
         const rb_friction_problem *local = global ? &condensed : &p;
         CHECK_MAX(violation(local, r), 1e-7, "case %d", (int)k);
@@ -281,8 +275,8 @@ TEST(auto_repeats_itself)
     packing("boxes 100 0.7 2", &p);
     const size_t m = (size_t)(2 * p.contacts);
     SCRATCH double *r = rb_alloc(m, 2);
-    CHECK_STATUS(run("auto", &p, r, &one), RB_OK);
-    CHECK_STATUS(run("auto", &p, r + m, &two), RB_OK);
+    CHECK_OK(run("auto", &p, r, &one));
+    CHECK_OK(run("auto", &p, r + m, &two));
     assert_int_equal(one.iters, two.iters);
     assert_true(one.flops == two.flops);
     assert_int_equal(memcmp(r, r + m, m * sizeof *r), 0);

@@ -93,12 +93,12 @@ TEST(the_scaled_measure_sees_no_units)
         random_problem(d, NC, 4u, &p);
         for (int i = 0; i < d * NC; i++)
             r[i] = uniform_from(&seed);
-        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &first), RB_OK);
+        CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &first));
         CHECK_REL(first.scaled, measure_again(&p, r), 1e-12, "by hand, d = %d", d);
         rescale(&p, 1e-6, 1e3);
         for (int i = 0; i < d * NC; i++)
             r[i] *= 1e9;
-        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &again), RB_OK);
+        CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &again));
         CHECK_REL(again.scaled, first.scaled, 1e-12, "in other units");
         assert_true(again.residual > 10.0 * first.scaled); /* (13) adds forces to velocities */
     }
@@ -171,8 +171,7 @@ TEST(every_solver_on_files_in_other_units)
                                         "packings/scale_small.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         OWNED(rb_friction_problem) p;
-        rb_message why = {""};
-        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
         same_in_other_units(files[k], &p, 1e-8);
     }
 }
@@ -190,7 +189,7 @@ TEST(a_light_touch_is_solved_at_once)
         if (all[k].needs & RB_FRICTION_ONLY_2D)
             continue;
         const outcome o = solved(all[k].name, &p, 1e-8);
-        CHECK_STATUS(o.status, RB_OK);
+        CHECK_OK(o.status);
         const int slow = !strncmp(all[k].method, "projection", 10);
         CHECK_MAX(o.iters, slow ? 300 : 12, "%s", all[k].name);
     }
@@ -221,7 +220,7 @@ TEST(cones_in_other_units)
         }
         const rb_friction_soclcp_problem p = {N, M, qs, 3, size};
         rb_friction_info info;
-        CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_OK);
+        CHECK_OK(rb_friction_soclcp(&p, NULL, x, y, &info));
         if (k)
             assert_int_equal(info.iters, iters);
         iters = info.iters;
@@ -252,10 +251,10 @@ TEST(the_measure_of_acary_decides_where_asked)
                 opt.measure = acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
                 const rb_status got = rb_friction_solve(solvers[s].name, &p, &opt, &at, &info);
                 if (s == 0)
-                    CHECK_STATUS(got, RB_OK);
+                    CHECK_OK(got);
                 if (got != RB_OK)
                     continue;
-                CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &again), RB_OK);
+                CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &again));
                 CHECK_REL(info.residual, again.residual, 1e-9, "%s", solvers[s].name);
                 CHECK_REL(info.scaled, again.scaled, 1e-9, "%s", solvers[s].name);
                 CHECK_MAX(acary ? info.residual : info.scaled, opt.tol, "%s, %s", solvers[s].name,

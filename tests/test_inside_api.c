@@ -26,7 +26,7 @@ TEST(the_last_call_gives_the_threads_back)
 /* As many arrays as there are names in all tables, twice for the errors, fit. */
 TEST(arrays_of_every_name_fit)
 {
-    rb_api *a = rb_api_create();
+    HELD(rb_api) a = rb_api_create();
     char name[20];
     int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
     for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
@@ -43,7 +43,6 @@ TEST(arrays_of_every_name_fit)
     assert_null(rb_api_find_array(a, "a17"));
     assert_non_null(rb_api_find_array(a, "a27"));
     assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0), RB_OK);
-    rb_api_free(a);
 }
 
 /* A value from elsewhere against a table of two options, which share no bit: what the
@@ -63,21 +62,18 @@ TEST(values_from_elsewhere_resolve_a_table)
     const rb_option_set set = {.options = options, .n = 2, .target = &target, .given = given};
     const rb_option_precedence how = {.defaults = &defaults, .path = "case.ini"};
     rb_option other = {.name = "c", .excludes = 4};
-    rb_message why = {""};
 
     options[0].kind = options[1].kind = RB_OPTION_NUMBER;
-    CHECK_STATUS(rb_option_resolve(&set, &how, &why), RB_OK);
-    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-                 RB_OK);
+    CHECK_OK(rb_option_resolve(&set, &how, &heard));
+    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard));
     assert_true(target.a == 1.0 && target.b == 2.0);
     other.excludes = 2;
-    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
-                 RB_OK);
+    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard));
     assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
     other.excludes = 1;
-    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard),
                  RB_EINVAL);
-    assert_string_equal(why.text, "--a: no");
+    assert_string_equal(heard.text, "--a: no");
 }
 
 RUN_TESTS(NULL, NULL)

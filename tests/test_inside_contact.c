@@ -20,8 +20,8 @@ TEST(uncoupled_problems_are_solved_in_turn)
             p.force = p.force_ratio * 0.1 * of.mu * p.load;
             p.force_ratio = 0.0;
         }
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
-        CHECK_STATUS(rb_contact_newton(&p, 0, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
+        CHECK_OK(rb_contact_newton(&p, 0, &s));
         CHECK_MAX(residual_of(&p, &s), 1e-11, "case %d", k);
         for (int i = 0; i < of.n; i++) {
             sticks += s.zone[i] == RB_ZONE_STICK;
@@ -41,10 +41,10 @@ TEST(pairs_move_as_their_elements)
     double gap[4], slip[4], most;
 
     random_problem(&of, &p);
-    CHECK_STATUS(rb_contact_halve(&p, &half), RB_OK);
+    CHECK_OK(rb_contact_halve(&p, &half));
     assert_int_equal(half.n, 4);
-    CHECK_STATUS(rb_contact_state_alloc(8, &fine), RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(4, &coarse), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(8, &fine));
+    CHECK_OK(rb_contact_state_alloc(4, &coarse));
     for (int i = 0; i < 4; i++) {
         coarse.p[i] = STRESS * uniform(0.0, 1.0);
         coarse.q[i] = STRESS * uniform(-0.3, 0.3);
@@ -85,8 +85,8 @@ TEST(paths_lead_back_to_the_solution)
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
-        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
+        CHECK_OK(rb_contact_solve(&p, &options, 0, &s, NULL));
         const int first = (int)uniform(0.0, of.n), second = (int)uniform(0.0, of.n);
         s.zone[first] = k % 4 ? (s.zone[first] + 1) % 4 : RB_ZONE_SEPARATED;
         s.zone[second] = (s.zone[second] + k / 4) % 4;
@@ -125,16 +125,15 @@ TEST(products_follow_friction)
         OWNED(rb_contact_state) s;
         by_products by;
         outcome o = {0};
-        rb_message why = {""};
         numbers = all[k].seed;
         random_problem(&of, &with);
         numbers = all[k].seed;
         random_problem(&of, &p);
         use_products(&p, &by);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
         assert_true(rb_contact_newton(&p, 0, &s) > 0);
-        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
-        check_outcome(&with, &s, status, &why, &o);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &heard);
+        check_outcome(&with, &s, status, &heard, &o);
         assert_true(o.solved == 1 || (k == 2 && status == RB_MAXITER));
         CHECK_ABS(p.mu, of.mu, 0.0, "friction");
         for (int i = 0; i < of.n; i++)
@@ -160,7 +159,7 @@ TEST(zones_are_told_by_what_is_larger)
         OWNED(rb_contact_state) s;
         double u[7];
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
         for (int i = 0; i < of.n; i++)
             s.lambda[i] = s.plastic[i] = yields_by[i] * SLIP;
         rb_contact_yielded(&p, s.plastic, u);
@@ -199,7 +198,7 @@ TEST(residuals_and_forces_are_sums_over_elements)
         rb_contact_violation v;
         double most, gap = 0.0, slip, friction = 0.0;
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
         for (int i = 0; i < of.n; i++) {
             s.p[i] = STRESS * uniform(-0.2, 1.0);
             s.q[i] = STRESS * uniform(-0.5, 0.5);
@@ -213,7 +212,7 @@ TEST(residuals_and_forces_are_sums_over_elements)
             gap = fmax(gap, GAP * conflict(one / GAP, s.p[i] / STRESS));
             friction = fmax(friction, fabs(s.q[i]) - p.bound[i] * s.p[i]);
         }
-        CHECK_STATUS(rb_contact_residual(&p, &s, &v), RB_OK);
+        CHECK_OK(rb_contact_residual(&p, &s, &v));
         CHECK_REL(v.scaled, residual_of(&p, &s), 1e-12, "residual");
         CHECK_REL(v.gap, gap, 1e-12, "gap");
         CHECK_ABS(v.slip, SLIP * friction_residual(&p, &s), 1e-12 * SLIP, "slip");
@@ -237,7 +236,7 @@ TEST(residuals_and_forces_are_sums_over_elements)
         for (int bad = 0; bad < 4; bad++) {
             const double kept = *spoilt[bad];
             *spoilt[bad] = NAN;
-            CHECK_STATUS(rb_contact_residual(&p, &s, &v), RB_OK);
+            CHECK_OK(rb_contact_residual(&p, &s, &v));
             assert_true(isinf(v.scaled));
             *spoilt[bad] = kept;
         }
@@ -265,9 +264,8 @@ TEST(cones_move_as_the_problem_does)
     OWNED(rb_contact_problem) p;
     OWNED(rb_contact_state) s;
     OWNED(rb_contact_cone) cone;
-    rb_message why = {""};
     random_problem(&of, &p);
-    CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(of.n, &s));
     s.delta = p.delta;
     s.xi = p.xi;
     s.iterations = 1;
@@ -276,13 +274,12 @@ TEST(cones_move_as_the_problem_does)
     } refused[] = {{"it", "'it'"}, {NULL, "''"}};
     for (int k = 0; k < 2; k++) {
         options.cone_solver = (rb_contact_cone_solver){refused[k].name, NULL};
-        CHECK_STATUS(rb_contact_cone_solve(&p, &options, &s, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, refused[k].said));
+        CHECK_SAYS(rb_contact_cone_solve(&p, &options, &s, &heard), RB_EINVAL, refused[k].said);
     }
     options.cone_solver = (rb_contact_cone_solver){"it", number_tractions};
-    CHECK_STATUS(rb_contact_cone_solve(&p, &options, &s, &why), RB_OK);
+    CHECK_OK(rb_contact_cone_solve(&p, &options, &s, &heard));
     assert_int_equal(s.iterations, 8);
-    CHECK_STATUS(rb_contact_cone_create(&p, s.delta, s.xi, &cone, &why), RB_OK);
+    CHECK_OK(rb_contact_cone_create(&p, s.delta, s.xi, &cone, &heard));
     for (int i = 0; i < of.n; i++) {
         double gap, slip, u[2] = {cone.q[2 * i], cone.q[2 * i + 1]};
         move(&p, &s, i, &gap, &slip);
@@ -315,7 +312,7 @@ TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
         OWNED(rb_contact_state) s;
         int zone[8], same = 1;
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
         if (rb_contact_solve(&p, &options, 0, &s, NULL) == RB_OK) {
             memcpy(zone, s.zone, (size_t)of.n * sizeof *zone);
             for (int i = 0; i < of.n; i++) {
@@ -323,7 +320,7 @@ TEST(a_layer_is_solved_from_what_is_nearly_its_solution)
                 s.q[i] *= 1.0 + 1e-9;
                 s.plastic[i] *= 1.0 - 1e-9;
             }
-            CHECK_STATUS(rb_contact_yield_polish(&p, &s), RB_OK);
+            CHECK_OK(rb_contact_yield_polish(&p, &s));
             CHECK_MAX(residual_of(&p, &s), 1e-12, "case %d", k);
             for (int i = 0; i < of.n; i++)
                 same = same && s.zone[i] == zone[i];
@@ -346,7 +343,7 @@ TEST(a_layer_that_cannot_be_followed_is_not_solved)
     for (int i = 0; i < of.n; i++)
         for (int j = 0; j < 2 * of.n; j++)
             F[i + j * ldf] = 0.0;
-    CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(of.n, &s));
     for (int i = 0; i < of.n; i++) {
         s.zone[i] = RB_ZONE_STICK;
         s.p[i] = s.q[i] = STRESS;
@@ -381,17 +378,17 @@ TEST(what_is_kept_can_be_forgotten)
         double gap[24];
         numbers = 25;
         random_problem(&of, &p);
-        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(of.n, &s));
         for (int i = 0; i < of.n; i++)
             s.zone[i] = i % 3 ? RB_ZONE_STICK : RB_ZONE_SLIP_NEGATIVE;
-        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        CHECK_OK(rb_contact_try_zones(&p, &s, gap));
         const int again = allocations(&p, &s);
         p.op->kind->forget(p.op);
-        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        CHECK_OK(rb_contact_try_zones(&p, &s, gap));
         assert_int_equal(allocations(&p, &s), again);
         rb_contact_set_friction(&p, p.mu, p.bound); /* the same */
         alloc_fail_after(again);
-        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        CHECK_OK(rb_contact_try_zones(&p, &s, gap));
         alloc_succeed();
         p.op->kind->forget(p.op);
         alloc_fail_after(again);

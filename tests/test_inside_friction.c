@@ -180,7 +180,7 @@ TEST(blocks_multiply_as_the_matrix_does)
             x[i] = i / d == 4 ? 0.0 : uniform_from(&seed);
         if (k / 2)
             make_sparse(&p);
-        CHECK_STATUS(rb_friction_blocks_init(&p, &b), RB_OK);
+        CHECK_OK(rb_friction_blocks_init(&p, &b));
         for (int c = 0; c < nc; c++)
             assert_int_equal(b.i[b.diag[c]], c);
         rb_friction_blocks_apply(&b, x, y);
@@ -221,8 +221,8 @@ TEST(a_newton_step_solves_its_system)
         }
         rb_friction_shared shared = {.problem = &p, .local = &p};
         rb_friction_task task = {.shared = &shared, .problem = &p, .d = d, .contacts = nc, .m = m};
-        CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
-        CHECK_STATUS(rb_friction_system_step(&s, &at, NULL, dr, NULL), RB_OK);
+        CHECK_OK(rb_friction_system_init(&task, &s));
+        CHECK_OK(rb_friction_system_step(&s, &at, NULL, dr, NULL));
         assert_true((s.lu != NULL) == (k / 2));
         rb_friction_blocks_apply(&shared.blocks, dr, y);
         for (int c = 0; c < nc; c++)
@@ -248,7 +248,7 @@ TEST(acceleration_solves_a_linear_iteration)
     OWNED(rb_anderson) a;
     for (int k = 0; k < M * M; k++)
         matrix[k] = 0.6 * uniform_from(&seed); /* on its own it need not converge */
-    CHECK_STATUS(rb_anderson_init(M, &a), RB_OK);
+    CHECK_OK(rb_anderson_init(M, &a));
     for (int k = 0; k < M + 3; k++) {
         memcpy(start, r, sizeof r);
         for (int i = 0; i < M; i++) {
@@ -274,7 +274,7 @@ TEST(acceleration_goes_back_where_it_was_led_astray)
     static const double led_to[] = {1.0, 1.5, 40.0};
     double r[1] = {0.0}, u[1] = {0.0}, start[1];
     OWNED(rb_anderson) a;
-    CHECK_STATUS(rb_anderson_init(1, &a), RB_OK);
+    CHECK_OK(rb_anderson_init(1, &a));
     for (int k = 0; k < 3; k++) {
         start[0] = k == 1 ? 1.0 : r[0];
         r[0] = u[0] = led_to[k];
@@ -310,10 +310,8 @@ TEST(acceleration_saves_sweeps)
     rb_friction_info plain, fast;
     double r[60], s[60], u[60];
     pile(30, 1.0, &p);
-    CHECK_STATUS(
-        rb_friction_solve("nsgs-ac", &p, NULL, &(rb_friction_solution){r, u, NULL}, &plain), RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL, &(rb_friction_solution){s, u, NULL}, &fast),
-                 RB_OK);
+    CHECK_OK(rb_friction_solve("nsgs-ac", &p, NULL, &(rb_friction_solution){r, u, NULL}, &plain));
+    CHECK_OK(rb_friction_solve("nsgs-aa", &p, NULL, &(rb_friction_solution){s, u, NULL}, &fast));
     CHECK_MAX((double)fast.iters, plain.iters / 5.0, "%d sweeps without", plain.iters);
     for (int k = 0; k < 60; k++)
         CHECK_ABS(s[k], r[k], 1e-4, "r[%d]", k);
@@ -345,13 +343,13 @@ TEST(a_step_of_all_bodies_solves_its_system)
             A[k] = (k % 4 % 3 == 0) * 3.0 + uniform_from(&seed);
             B[k] = uniform_from(&seed);
         }
-        CHECK_STATUS(rb_sparse_from_triplets(&tk, &p.K), RB_OK);
-        CHECK_STATUS(rb_sparse_from_triplets(&th, &p.H), RB_OK);
+        CHECK_OK(rb_sparse_from_triplets(&tk, &p.K));
+        CHECK_OK(rb_sparse_from_triplets(&th, &p.H));
         OWNED(rb_friction_system) s;
         rb_friction_task task = {.problem = &p, .d = 2, .contacts = nc, .m = m, .n = n};
-        CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
-        CHECK_STATUS(rb_friction_system_estimate(&s, &estimate), RB_OK);
-        CHECK_STATUS(rb_friction_system_step(&s, &at, e, dr, dv), RB_OK);
+        CHECK_OK(rb_friction_system_init(&task, &s));
+        CHECK_OK(rb_friction_system_estimate(&s, &estimate));
+        CHECK_OK(rb_friction_system_step(&s, &at, e, dr, dv));
         assert_true((s.lu != NULL) == sparse);
         const double order = n + m, lu = 2.0 / 3.0 * order * order * order;
         if (!sparse) {
@@ -392,12 +390,10 @@ TEST(the_hybrid_sees_what_sweeps_are_worth)
             p.q[2 * c] = strong ? -1.0 : 0.1 * (c % 9) - 0.5;
             p.q[2 * c + 1] = strong ? 0.05 * (c - 30) : 0.2 * (c % 5) - 0.3;
         }
-        CHECK_STATUS(
-            rb_friction_solve("nsn-ac-nls", &p, NULL, &(rb_friction_solution){r, u, NULL}, &newton),
-            RB_OK);
-        CHECK_STATUS(rb_friction_solve("nsn-ac-hybrid", &p, NULL,
-                                       &(rb_friction_solution){r, u, NULL}, &hybrid),
-                     RB_OK);
+        CHECK_OK(rb_friction_solve("nsn-ac-nls", &p, NULL, &(rb_friction_solution){r, u, NULL},
+                                   &newton));
+        CHECK_OK(rb_friction_solve("nsn-ac-hybrid", &p, NULL, &(rb_friction_solution){r, u, NULL},
+                                   &hybrid));
         assert_true(newton.iters > 2);
         assert_int_equal(hybrid.iters, 7 + (strong ? newton.iters : 1));
     }
@@ -413,7 +409,7 @@ TEST(sweeps_that_stall_yield)
     double r[8] = {0.0}, u[8], v[1], best[8];
     rb_friction_record record = {.r = best, .error = INFINITY};
     pile(4, 3.0, &p);
-    CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
+    CHECK_OK(rb_friction_shared_init(&p, &shared, NULL));
     rb_friction_task task = {.shared = &shared,
                              .problem = &p,
                              .measure = &shared.measure,
@@ -429,7 +425,7 @@ TEST(sweeps_that_stall_yield)
                              .v = v};
     const rb_friction_method *method = &rb_friction_sweeps;
     void *sweeps = calloc(1, method->size);
-    CHECK_STATUS(method->start(&task, RB_FRICTION_SWEEP_YIELD, sweeps), RB_OK);
+    CHECK_OK(method->start(&task, RB_FRICTION_SWEEP_YIELD, sweeps));
     CHECK_STATUS(method->go_on(sweeps), RB_MAXITER);
     assert_int_equal(info.iters, 16);
     assert_true(info.flops >= task.budget);
@@ -455,10 +451,9 @@ TEST(pauses_change_nothing)
         OWNED(rb_friction_shared) shared;
         double v[1];
         rb_friction_record record = {.r = best, .error = INFINITY};
-        CHECK_STATUS(
-            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){whole, u, NULL}, &info),
-            RB_OK);
-        CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
+        CHECK_OK(
+            rb_friction_solve(names[k], &p, NULL, &(rb_friction_solution){whole, u, NULL}, &info));
+        CHECK_OK(rb_friction_shared_init(&p, &shared, NULL));
         memset(r, 0, (size_t)m * sizeof *r);
         rb_friction_task task = {.shared = &shared,
                                  .problem = &p,
@@ -484,7 +479,7 @@ TEST(pauses_change_nothing)
         }
         solver->run->finish(state_of);
         free(state_of);
-        CHECK_STATUS(s, RB_OK);
+        CHECK_OK(s);
         assert_true(pauses >= 1);
         assert_int_equal(parts.iters, info.iters);
         assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);

@@ -237,9 +237,9 @@ TEST(single_entries_make_blocks)
             for (int sparse = 0; sparse < 2; sparse++) {
                 OWNED(rb_friction_blocks) b;
                 if (sparse)
-                    CHECK_STATUS(rb_sparse_from_dense(m, m, W, m, &p.Ws), RB_OK);
+                    CHECK_OK(rb_sparse_from_dense(m, m, W, m, &p.Ws));
                 p.form = sparse ? RB_FRICTION_LOCAL_SPARSE : RB_FRICTION_LOCAL_DENSE;
-                CHECK_STATUS(rb_friction_blocks_init(&p, &b), RB_OK);
+                CHECK_OK(rb_friction_blocks_init(&p, &b));
                 rb_friction_blocks_apply(&b, x, y);
                 for (int k = 0; k < m; k++)
                     CHECK_ABS(y[k], k == entry % m ? 2.0 * x[entry / m] : 0.0, 0.0,
@@ -295,7 +295,7 @@ TEST(rho_is_the_inverse_of_a_contacts_own_compliance)
         double W[9 * NC * NC], rho[2 * NC], same[2 * NC], mean = 0.0;
         rb_friction_problem p;
         make_w(d, &p, W);
-        CHECK_STATUS(rb_friction_rho(&p, rho), RB_OK);
+        CHECK_OK(rb_friction_rho(&p, rho));
         for (int c = 0; c < NC; c++) {
             if (c == 3)
                 continue;
@@ -307,14 +307,14 @@ TEST(rho_is_the_inverse_of_a_contacts_own_compliance)
         CHECK_REL(rho[6], 1.0 / mean, 1e-9, "without compliance, normal");
         CHECK_REL(rho[7], 1.0 / mean, 1e-9, "without compliance, tangential");
         p.form = RB_FRICTION_LOCAL_SPARSE;
-        CHECK_STATUS(rb_sparse_from_dense(m, m, W, m, &p.Ws), RB_OK);
-        CHECK_STATUS(rb_friction_rho(&p, same), RB_OK);
+        CHECK_OK(rb_sparse_from_dense(m, m, W, m, &p.Ws));
+        CHECK_OK(rb_friction_rho(&p, same));
         for (int k = 0; k < 2 * NC; k++)
             CHECK_REL(same[k], rho[k], 1e-15, "sparse, %d", k);
         rb_sparse_free(&p.Ws);
         memset(W, 0, sizeof W); /* nothing is known at all */
         p.form = RB_FRICTION_LOCAL_DENSE;
-        CHECK_STATUS(rb_friction_rho(&p, rho), RB_OK);
+        CHECK_OK(rb_friction_rho(&p, rho));
         for (int k = 0; k < 2 * NC; k++)
             CHECK_ABS(rho[k], 1.0, 0.0, "W = 0");
     }
@@ -326,15 +326,11 @@ TEST(rho_of_a_structure_comes_from_its_diagonal)
     int rows[] = {0, 1, 2, 0, 1}, cols[] = {0, 1, 2, 1, 0};
     double k[] = {2.0, 4.0, 5.0, -1.0, -1.0}, h[] = {1.0, 3.0, 2.0, 0.5, 0.0}, rho[2];
     rb_friction_problem p = {.form = RB_FRICTION_GLOBAL, .dimension = 3, .contacts = 1, .dofs = 3};
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = k}, &p.K),
-        RB_OK);
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = h}, &p.H),
-        RB_OK);
-    CHECK_STATUS(rb_friction_rho(&p, rho), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = k}, &p.K));
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = rows, .col = cols, .x = h}, &p.H));
+    CHECK_OK(rb_friction_rho(&p, rho));
     /* columns (1, 0, 0), (0.5, 3, 0), (0, 0, 2) */
     CHECK_REL(rho[0], 0.1 / (1.0 / 2.0), 1e-15, "normal");
     CHECK_REL(rho[1], 0.1 / (0.25 / 2.0 + 9.0 / 4.0), 1e-15, "tangential");
@@ -361,8 +357,8 @@ TEST(velocities_and_imbalance_are_those_of_the_structure)
         w[j] = uniform();
         r[j] = uniform();
     }
-    CHECK_STATUS(rb_sparse_from_dense(DOFS, DOFS, K, DOFS, &p.K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_dense(DOFS, M, H, DOFS, &p.H), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(DOFS, DOFS, K, DOFS, &p.K));
+    CHECK_OK(rb_sparse_from_dense(DOFS, M, H, DOFS, &p.H));
     const rb_friction_system s = {.problem = &p, .d = 2, .contacts = 1, .m = M, .n = DOFS};
     for (int c = 0; c < 3; c++) {
         rb_friction_system_velocity(&s, c, r, v, u);

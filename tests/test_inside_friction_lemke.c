@@ -54,7 +54,7 @@ static void local_problem(kind k, rb_friction_problem *p)
     }
     if (k == DENSE)
         return;
-    CHECK_STATUS(rb_sparse_from_dense(M, M, p->W, M, &p->Ws), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(M, M, p->W, M, &p->Ws));
     free(p->W);
     p->W = NULL;
     p->form = RB_FRICTION_LOCAL_SPARSE;
@@ -87,8 +87,8 @@ static void global_problem(kind k, rb_friction_problem *p)
         rb_triplets_add(&H, j, j, 1.0);
         rb_triplets_add(&H, j + 2, j, 0.2 * uniform());
     }
-    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&K, &p->K));
+    CHECK_OK(rb_sparse_from_triplets(&H, &p->H));
     rb_triplets_free(&K);
     rb_triplets_free(&H);
     rb_sparse_apply(1.0, &p->K, v, 0.0, p->f); /* f = K v - H r, w = u - H'v */
@@ -150,7 +150,7 @@ typedef struct {
 static void prepare(const rb_friction_problem *p, bench *b)
 {
     *b = (bench){.record = {.r = b->best, .error = INFINITY}};
-    CHECK_STATUS(rb_friction_shared_init(p, &b->shared, NULL), RB_OK);
+    CHECK_OK(rb_friction_shared_init(p, &b->shared, NULL));
     b->task = (rb_friction_task){.shared = &b->shared,
                                  .problem = p,
                                  .measure = &b->shared.measure,

@@ -56,14 +56,13 @@ TEST(a_child_answers_or_is_located)
                {ENDS, RB_ENOMEM, "it: out of memory"}};
     char *bytes;
     size_t size;
-    rb_message why;
-    CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_OK);
+    CHECK_OK(in_child(ANSWERS, &bytes, &size, &heard));
     assert_int_equal(size, strlen("an answer"));
     assert_memory_equal(bytes, "an answer", size);
     free(bytes);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        CHECK_STATUS(in_child(bad[k].what, &bytes, &size, &why), bad[k].status);
-        assert_string_equal(why.text, bad[k].words);
+        CHECK_STATUS(in_child(bad[k].what, &bytes, &size, &heard), bad[k].status);
+        assert_string_equal(heard.text, bad[k].words);
         assert_null(bytes);
     }
 }
@@ -79,21 +78,20 @@ TEST(a_child_without_means_is_told)
                {"fdopen", ENOMEM, "it: out of memory"}};
     char *bytes;
     size_t size;
-    rb_message why;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const int next = dup(0);
         close(next);
         fail_call(all[k].call, all[k].error, 1);
-        CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_ENOMEM);
+        CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &heard), RB_ENOMEM);
         assert_true(calls_succeed());
-        assert_string_equal(why.text, all[k].words);
+        assert_string_equal(heard.text, all[k].words);
         assert_null(bytes);
         const int after = dup(0);
         close(after);
         assert_int_equal(after, next); /* no descriptor is left open */
     }
     fail_call("waitpid", EINTR, 1);
-    CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_OK);
+    CHECK_OK(in_child(ANSWERS, &bytes, &size, &heard));
     assert_true(calls_succeed());
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* nobody is left to wait for */
     free(bytes);
@@ -103,15 +101,14 @@ TEST(a_child_is_quiet)
 {
     char *bytes;
     size_t size;
-    rb_message why;
     struct stat st;
     const int own = dup(2), file = open(path, O_WRONLY | O_TRUNC);
     dup2(file, 2);
-    const rb_status s = in_child(IS_LOUD, &bytes, &size, &why);
+    const rb_status s = in_child(IS_LOUD, &bytes, &size, &heard);
     dup2(own, 2);
     close(own);
     close(file);
-    CHECK_STATUS(s, RB_OK);
+    CHECK_OK(s);
     assert_int_equal(size, 0);
     assert_int_equal(stat(path, &st), 0);
     assert_int_equal(st.st_size, 0);

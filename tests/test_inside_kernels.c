@@ -62,7 +62,7 @@ static void fill_columns(const column_case *c, const rb_column_variant *variant,
 {
     const rb_constants k = rb_constants_make(&c->e, c->material);
     OWNED(rb_points) points;
-    CHECK_STATUS(rb_points_make(n_seen, c->x, c->y, &points), RB_OK);
+    CHECK_OK(rb_points_make(n_seen, c->x, c->y, &points));
     variant->fill(&k, &c->e, c->self, &points,
                   (double *const[4]){to[0], to[1], with_G ? to[2] : NULL, with_G ? to[3] : NULL});
 }

@@ -74,10 +74,10 @@ static void check_half(const rb_rolling_model *model)
     OWNED(rb_contact_problem) half;
     OWNED(rb_contact_state) fine, coarse;
 
-    CHECK_STATUS(rb_contact_halve(p, &half), RB_OK);
+    CHECK_OK(rb_contact_halve(p, &half));
     assert_int_equal(half.n, (p->n + 1) / 2);
-    CHECK_STATUS(rb_contact_state_alloc(p->n, &fine), RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(half.n, &coarse), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(p->n, &fine));
+    CHECK_OK(rb_contact_state_alloc(half.n, &coarse));
     for (int k = 0; k < half.n; k++) {
         coarse.p[k] = p->stress * rand() / RAND_MAX;
         coarse.q[k] = 0.2 * p->stress * rand() / RAND_MAX;
@@ -116,11 +116,11 @@ static void check_beside_lemke(rb_rolling_model *model)
     rb_rolling_case rc = *model->rc;
     OWNED(rb_contact_state) newton, lemke;
 
-    CHECK_STATUS(rb_contact_state_alloc(p->n, &newton), RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(p->n, &lemke), RB_OK);
-    CHECK_STATUS(rb_contact_newton(p, 0, &newton), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(p->n, &newton));
+    CHECK_OK(rb_contact_state_alloc(p->n, &lemke));
+    CHECK_OK(rb_contact_newton(p, 0, &newton));
     rc.contact.solver = RB_SOLVER_LEMKE;
-    CHECK_STATUS(rb_rolling_problem_solve(p, &rc, 0, &lemke, NULL), RB_OK);
+    CHECK_OK(rb_rolling_problem_solve(p, &rc, 0, &lemke, NULL));
     assert_int_equal(lemke.solver, RB_SOLVER_LEMKE);
     for (int i = 0; i < p->n; i++) {
         CHECK_ABS(newton.p[i], lemke.p[i], 1e-10 * p->stress, "p of %d", i);
@@ -144,7 +144,7 @@ TEST(cold_starts_end_where_lemke_does)
         if (k == 3)
             rc.mesh = RB_MESH_FITTED;
         OWNED(rb_rolling_model) model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
+        CHECK_OK(rb_rolling_model_add_matrix(&model, NULL)); /* Lemke's */
         check_beside_lemke(&model);
     }
 }
@@ -168,7 +168,7 @@ TEST(circles_are_left_on_a_path)
         if (!isnan(rc.force_ratio))
             rc.creep_ratio = NAN;
         OWNED(rb_rolling_model) model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_model_add_matrix(&model, NULL), RB_OK); /* Lemke's */
+        CHECK_OK(rb_rolling_model_add_matrix(&model, NULL)); /* Lemke's */
         check_beside_lemke(&model);
     }
 }
@@ -205,8 +205,8 @@ TEST(steps_grow_by_levels)
             rc.b.young = rc.a.young;
         for (int doubled = 0; doubled < 3; doubled++, rc.contact_elements *= 2) {
             OWNED(rb_rolling_model) model = solved_model(&rc);
-            CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
-            CHECK_STATUS(rb_contact_newton(&model.problem, 0, &cold), RB_OK);
+            CHECK_OK(rb_contact_state_alloc(model.mesh.n, &cold));
+            CHECK_OK(rb_contact_newton(&model.problem, 0, &cold));
             if (doubled == 0)
                 few = cold.iterations;
             CHECK_MAX(cold.iterations, few + 6 * doubled, "level %d", doubled);
@@ -222,10 +222,10 @@ TEST(steps_grow_by_levels)
 static int direct(rb_contact_problem *p, rb_contact_unknowns unknowns, rb_contact_lu lu,
                   rb_contact_state *s, rb_contact_reduced *r)
 {
-    CHECK_STATUS(rb_contact_reduced_alloc(p, unknowns, s, r), RB_OK);
+    CHECK_OK(rb_contact_reduced_alloc(p, unknowns, s, r));
     rb_contact_reduced_clear(p, r, s);
     rb_contact_reduced_right_side(p, s, r);
-    CHECK_STATUS(rb_contact_reduced_direct(p, s->zone, lu, r), RB_OK);
+    CHECK_OK(rb_contact_reduced_direct(p, s->zone, lu, r));
     return r->changes;
 }
 
@@ -269,7 +269,7 @@ TEST(a_kept_lu_serves_other_zones)
     int changes = 0;
 
     srand(5);
-    CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(model.mesh.n, &s));
     for (int k = 0; k < 60; k++) {
         memcpy(s.zone, model.state.zone, (size_t)s.n * sizeof(int));
         disturb(3, &s);
@@ -287,7 +287,7 @@ TEST(a_kept_lu_gives_way_to_a_new_one)
     rb_contact_reduced r;
     OWNED(rb_contact_state) s;
 
-    CHECK_STATUS(rb_contact_state_alloc(p->n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(p->n, &s));
     p->load_given = 0;
     p->delta = 0.1;
     assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
@@ -310,7 +310,7 @@ static void solve_with(rb_rolling_model *model, const double *bound, int anew, r
     rb_contact_set_friction(p, p->mu, bound);
     if (anew)
         p->op->kind->forget(p->op);
-    CHECK_STATUS(rb_contact_solve_zones(p, RB_BOTH, s), RB_OK);
+    CHECK_OK(rb_contact_solve_zones(p, RB_BOTH, s));
 }
 
 /* As laws change it from round to round: the LU of other coefficients of friction, up to
@@ -324,8 +324,8 @@ TEST(a_kept_lu_serves_friction_that_changes)
     OWNED(rb_contact_state) kept, fresh;
     SCRATCH double *bound = rb_alloc((size_t)n, 1);
 
-    CHECK_STATUS(rb_contact_state_alloc(n, &kept), RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(n, &fresh), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(n, &kept));
+    CHECK_OK(rb_contact_state_alloc(n, &fresh));
     memcpy(kept.zone, model.state.zone, (size_t)n * sizeof(int));
     memcpy(fresh.zone, model.state.zone, (size_t)n * sizeof(int));
     for (int k = 0; k < 5; k++) {
@@ -352,10 +352,10 @@ TEST(a_kept_lu_serves_friction_that_changes)
 /* How the approach grows with the load where the zones stay. */
 static double compliance(rb_contact_problem problem, rb_contact_state *s)
 {
-    CHECK_STATUS(rb_contact_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    CHECK_OK(rb_contact_solve_zones(&problem, RB_BOTH, s));
     const double delta = s->delta, load = problem.load;
     problem.load *= 2.0;
-    CHECK_STATUS(rb_contact_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    CHECK_OK(rb_contact_solve_zones(&problem, RB_BOTH, s));
     return (s->delta - delta) / load;
 }
 
@@ -370,7 +370,7 @@ TEST(a_given_load_does_not_feel_the_datum)
     rb_contact_problem *p;
     OWNED(rb_contact_state) s;
 
-    CHECK_STATUS(rb_contact_state_alloc(usual.mesh.n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(usual.mesh.n, &s));
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
     rc.a.datum =
@@ -382,7 +382,7 @@ TEST(a_given_load_does_not_feel_the_datum)
     CHECK_ABS(critical.mesh.ends[p->n], usual.mesh.ends[p->n], 0.0, "zone");
     p->op->kind->forget(p->op); /* a new LU, of just these zones */
     CHECK_ABS(compliance(*p, &s), 0.0, 1e-9 * soft, "compliance");
-    CHECK_STATUS(rb_contact_solve_zones(p, RB_BOTH, &s), RB_OK);
+    CHECK_OK(rb_contact_solve_zones(p, RB_BOTH, &s));
     for (int i = 0; i < p->n; i++) {
         CHECK_ABS(s.p[i], usual.state.p[i], 1e-9 * p->stress, "pressure %d", i);
         CHECK_ABS(s.q[i], usual.state.q[i], 1e-9 * p->stress, "friction %d", i);
@@ -398,7 +398,7 @@ TEST(failing_allocations)
 
     for (int k = 0, refused = 1; refused; k += 1 + k / 10) {
         OWNED(rb_contact_state) cold;
-        CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(model.mesh.n, &cold));
         alloc_fail_after(k);
         const rb_status s = rb_contact_newton(&model.problem, 0, &cold);
         refused = alloc_failed();

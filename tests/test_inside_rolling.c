@@ -61,7 +61,7 @@ TEST(an_irregularity_rides_with_the_material)
     rc.gap = RB_GAP_PARABOLA;
     rc.irregularity = (rb_rolling_table){3, x, y};
     assert_false(rb_rolling_is_convex(&rc));
-    CHECK_STATUS(rb_rolling_gap_along(&rc, 3.0, 6, places, gap), RB_OK);
+    CHECK_OK(rb_rolling_gap_along(&rc, 3.0, 6, places, gap));
     for (int i = 0; i < 6; i++) {
         const double s = fmin(1.0, fabs(places[i] + 3.0));
         const double own = 0.2 * (1.0 - 1.5 * s * s + 0.5 * s * s * s);
@@ -81,7 +81,7 @@ TEST(elements_stand_within_bodies_and_table)
     rc.b.radius = 2.0;
     rb_rolling_extent(&rc, &from, &to);
     CHECK_REL(to, 1.9, 1e-15, "0.95 of the smaller radius");
-    CHECK_STATUS(rb_rolling_profile_create(4, x, y, 0.0, &profile, NULL), RB_OK);
+    CHECK_OK(rb_rolling_profile_create(4, x, y, 0.0, &profile, NULL));
     rc.gap = RB_GAP_TABLE;
     rc.profile = profile;
     rb_rolling_extent(&rc, &from, &to);
@@ -102,24 +102,24 @@ TEST(fitted_elements_reach_as_far_as_asked)
     rb_rolling_span span = {.from = -1.0, .to = 1.0, .margin_left = 2.5 * step};
     rb_rolling_mesh mesh;
     span.margin_right = step * (pow(1.5, 9) - 1.0) / 0.5 * 1.0001;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL));
     assert_int_equal(mesh.n, 60 + 6 + 10); /* nine do not reach it */
     rb_rolling_mesh_free(&mesh);
 
     span = (rb_rolling_span){.from = -1e-9, .to = 1e-9, .margin_right = 10.0};
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 1, &span, &mesh, NULL));
     assert_int_equal(mesh.n, 60 + 6 + 64);
     rb_rolling_mesh_free(&mesh);
 
     /* 0.1 is left of 47.5, where an element beside the edge is 0.065 long */
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -47.4, 47.4, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_fitted(&rc, NULL, -47.4, 47.4, &mesh, NULL));
     assert_int_equal(mesh.n, 60 + 2 + 2);
     CHECK_REL(mesh.ends[0], -47.5, 1e-14, "to the end of what there is");
     CHECK_REL(mesh.ends[64], 47.5, 1e-14, "to the end of what there is");
     CHECK_REL(length(&mesh, 64), 1.5 * length(&mesh, 63), 1e-9, "there is room for it");
     rb_rolling_mesh_free(&mesh);
     /* 0.075 are less than 1.25 elements: one longer one */
-    CHECK_STATUS(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 47.425, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_fitted(&rc, NULL, -1.0, 47.425, &mesh, NULL));
     CHECK_REL(mesh.ends[mesh.n], 47.5, 1e-14, "to the end of what there is");
     CHECK_MAX(mesh.n, 60 + 6 + 2, "elements");
     rb_rolling_mesh_free(&mesh);
@@ -155,7 +155,7 @@ TEST(patches_share_the_elements_by_their_width)
         const rb_rolling_span span[2] = {{.from = 0.0, .to = rows[k].to[0]},
                                          {.from = 4.0, .to = rows[k].to[1]}};
         OWNED(rb_rolling_mesh) mesh;
-        CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+        CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL));
         for (int i = 0; i < 2; i++) {
             assert_int_equal(count_between(&mesh, span[i].from, span[i].to), rows[k].across[i]);
             assert_true(has_end(&mesh, span[i].from) && has_end(&mesh, span[i].to));
@@ -174,7 +174,7 @@ TEST(elements_between_patches_meet)
         const rb_rolling_span span[2] = {{.from = -1.0 - e, .to = -e}, {.from = e, .to = 1.0 + e}};
         const double step = gsl_pow_2(sin(0.5 * M_PI / 30.0));
         OWNED(rb_rolling_mesh) mesh;
-        CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+        CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL));
         const int n = count_between(&mesh, -e, e), first = 6 + 30;
         int side = 0; /* so many elements of either side, unstretched, are no longer */
         while (2.0 * step * (pow(1.5, side + 1) - 1.0) / 0.5 <= 2.0 * e)
@@ -199,7 +199,7 @@ TEST(patches_far_apart_have_64_elements_between_them)
     const rb_rolling_span span[2] = {{.from = -20.0, .to = -19.9999},
                                      {.from = 19.9999, .to = 20.0}};
     OWNED(rb_rolling_mesh) mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL));
     const int n = count_between(&mesh, -19.9999, 19.9999);
     assert_in_range(n, 60, 64);
     for (int i = 0; i < mesh.n; i++)
@@ -212,7 +212,7 @@ TEST(unequal_elements_grow_until_they_are_alike)
     const rb_rolling_case rc = half_plane(RB_STATIC, 60);
     const rb_rolling_span span[2] = {{.from = -0.1, .to = 0.0}, {.from = 1.0, .to = 9.0}};
     OWNED(rb_rolling_mesh) mesh;
-    CHECK_STATUS(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL), RB_OK);
+    CHECK_OK(rb_rolling_mesh_spans(&rc, rc.contact_elements, 2, span, &mesh, NULL));
     const int n = count_between(&mesh, 0.0, 1.0), first = 6 + 15;
     assert_in_range(n, 6, 24);
     CHECK_REL(length(&mesh, first + 1), 1.5 * length(&mesh, first), 1e-9, "on the left");
@@ -263,12 +263,11 @@ static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, d
 {
     rb_rolling_model model;
     rb_rolling_mesh mesh;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_model_begin(rc, NULL, &model, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &why), RB_OK);
-    const rb_status s = rb_rolling_model_build(&model, &mesh, &why);
+    CHECK_OK(rb_rolling_model_begin(rc, NULL, &model, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &heard));
+    const rb_status s = rb_rolling_model_build(&model, &mesh, &heard);
     if (s != RB_OK && s != RB_ZONE)
-        fail_msg("%s", why.text);
+        fail_msg("%s", heard.text);
     return model;
 }
 
@@ -281,7 +280,7 @@ TEST(every_bump_that_overlaps_is_found)
     rb_rolling_model model = solved_between(&t->rc, -0.4, 0.4);
     rb_rolling_overlap o;
     assert_int_equal(model.state.status, RB_ZONE);
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
     assert_int_equal(o.count, 4);
     for (int k = 0; k < 4; k++) {
         const double place = x[k < 2 ? k : k + 1];
@@ -293,7 +292,7 @@ TEST(every_bump_that_overlaps_is_found)
 
     /* where its own elements see it, a bump is no overlap */
     model = solved_between(&t->rc, -3.5, 4.0);
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
     assert_int_equal(o.count, 2);
     rb_rolling_model_free(&model);
     bumps_free(t);
@@ -311,7 +310,7 @@ TEST(a_bump_overlaps_where_the_surface_has_not_sunk)
      * the half-plane: -2 P/(pi E') ln(r) up to the same datum */
     const double E = 94500.0 / 0.99, P = rb_rolling_model_load(&model);
     double w[2 * 41];
-    CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w), RB_OK);
+    CHECK_OK(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w));
     const double far = w[0] - 2.0 * P / (M_PI * E) * log(4.0 / fabs(model.bodies.f.x[0]));
     const double limit = model.state.delta - far; /* gaps below it overlap */
     rb_rolling_model_free(&model);
@@ -320,7 +319,7 @@ TEST(a_bump_overlaps_where_the_surface_has_not_sunk)
         const double height[] = {0.0, limit * (k ? 1.05 : 0.95)};
         t = bumps(2, x, height);
         model = solved_between(&t->rc, -0.5, 0.5);
-        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+        CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
         assert_int_equal(o.count, k ? 0 : 1);
         assert_int_equal(model.state.status, k ? RB_OK : RB_ZONE);
         rb_rolling_model_free(&model);
@@ -340,8 +339,7 @@ TEST(a_wheel_sinks_as_its_elements_tell)
         t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
         t->rc.contact_elements = WIDE;
         rb_rolling_model model = solved_between(&t->rc, -0.5, 6.5);
-        CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-                     RB_OK);
+        CHECK_OK(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w));
         const int at = (int)(6.5 / 7.0 * WIDE);
         CHECK_ABS(model.bodies.f.x[at], 6.0, 0.05, "there");
         height[1] = (model.state.delta - w[at]) * (k % 2 ? 1.05 : 0.95);
@@ -350,7 +348,7 @@ TEST(a_wheel_sinks_as_its_elements_tell)
         t = bumps(2, x, height);
         t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
         model = solved_between(&t->rc, -0.5, 0.5);
-        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+        CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
         assert_int_equal(o.count, k % 2 ? 0 : 1);
         rb_rolling_model_free(&model);
         bumps_free(t);
@@ -365,7 +363,7 @@ TEST(more_overlaps_than_there_is_room_end_in_one)
     table *t = bumps(MOST, x, height);
     OWNED(rb_rolling_model) model = solved_between(&t->rc, -0.5, 0.5);
     rb_rolling_overlap o;
-    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
     assert_int_equal(o.count, RB_MOST_OVERLAPS);
     CHECK_ABS(o.to[RB_MOST_OVERLAPS - 1], x[MOST - 1], 0.3, "up to the last one");
     bumps_free(t);
@@ -383,8 +381,7 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
         t->rc.a.support = RB_BEM_HUB;
         OWNED(rb_rolling_model) near = solved_between(&t->rc, -0.5, 0.5);
         rb_rolling_model model = solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
-        CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
-                     RB_OK);
+        CHECK_OK(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w));
         for (int i = 0; i + 1 < model.mesh.n; i++)
             if (model.bodies.f.x[i] <= x[1] && model.bodies.f.x[i + 1] > x[1])
                 limit = near.state.delta - w[i];
@@ -396,7 +393,7 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
             t = bumps(2, x, height);
             t->rc.a.support = RB_BEM_HUB;
             model = solved_between(&t->rc, -0.5, 0.5);
-            CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+            CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
             assert_int_equal(o.count, k ? 0 : 1);
             rb_rolling_model_free(&model);
             bumps_free(t);

@@ -48,18 +48,18 @@ static const char *content(void)
 static void write_line(const char *line)
 {
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(path, &w, NULL));
     fputs(line, w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
 }
 
 TEST_WITH(make_folder, remove_folder, the_target_appears_on_commit)
 {
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(path, &w, NULL));
     fputs("hello", w.file);
     assert_int_not_equal(access(path, F_OK), 0);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
     assert_string_equal(content(), "hello");
     assert_int_equal(entries(), 1);
 }
@@ -68,7 +68,7 @@ TEST_WITH(make_folder, remove_folder, abandoning_leaves_the_old_file)
 {
     rb_io_writer w;
     write_line("old");
-    CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(path, &w, NULL));
     fputs("new", w.file);
     rb_io_writer_abandon(&w);
     rb_io_writer_abandon(&w);
@@ -82,7 +82,7 @@ TEST_WITH(make_folder, remove_folder, no_descriptor_stays_open)
     const int before = dup(STDIN_FILENO);
     close(before);
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(path, &w, NULL));
     rb_io_writer_abandon(&w);
     write_line("whole");
     const int after = dup(STDIN_FILENO);
@@ -99,9 +99,9 @@ TEST_WITH(make_folder, remove_folder, an_old_file_keeps_its_mode_and_a_link_its_
     chmod(path, 0640);
     assert_int_equal(symlink(path, link), 0);
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open(link, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(link, &w, NULL));
     fputs("new", w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
     assert_string_equal(content(), "new");
     assert_int_equal(lstat(link, &st), 0);
     assert_true(S_ISLNK(st.st_mode));
@@ -118,9 +118,9 @@ TEST_WITH(make_folder, remove_folder, a_link_to_a_file_yet_to_come_is_followed)
     snprintf(link, sizeof link, "%s/link", folder);
     assert_int_equal(symlink("out", link), 0);
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open(link, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(link, &w, NULL));
     fputs("new", w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
     assert_string_equal(content(), "new");
     assert_int_equal(lstat(link, &st), 0);
     assert_true(S_ISLNK(st.st_mode));
@@ -148,9 +148,9 @@ TEST_WITH(make_folder, remove_folder, the_longest_name_is_taken)
     const int n = snprintf(name, sizeof name, "%s/", folder);
     memset(name + n, 'a', 255);
     name[n + 255] = '\0';
-    CHECK_STATUS(rb_io_writer_open(name, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open(name, &w, NULL));
     fputs("new", w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
     assert_int_equal(unlink(name), 0);
 }
 
@@ -172,46 +172,43 @@ TEST_WITH(make_folder, remove_folder, a_program_that_is_killed_leaves_nothing)
 
 TEST_WITH(make_folder, remove_folder, checking_changes_nothing)
 {
-    CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_check(path, NULL));
     assert_int_equal(entries(), 0);
     write_line("old");
-    CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_check(path, NULL));
     assert_string_equal(content(), "old");
     CHECK_STATUS(rb_io_writer_check(folder, NULL), RB_EWRITE);
-    CHECK_STATUS(rb_io_writer_check("/dev/null", NULL), RB_OK);
+    CHECK_OK(rb_io_writer_check("/dev/null", NULL));
 }
 
 TEST_WITH(make_folder, remove_folder, what_cannot_be_written_is_refused)
 {
     rb_io_writer w;
-    rb_message why;
     char inside[160];
     snprintf(inside, sizeof inside, "%s/no/such", folder);
-    CHECK_STATUS(rb_io_writer_open(inside, &w, &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, inside));
-    CHECK_STATUS(rb_io_writer_open(folder, &w, &why), RB_EWRITE);
+    CHECK_SAYS(rb_io_writer_open(inside, &w, &heard), RB_EWRITE, inside);
+    CHECK_STATUS(rb_io_writer_open(folder, &w, &heard), RB_EWRITE);
     assert_int_equal(entries(), 0);
 }
 
 TEST(a_full_device_is_noticed)
 {
     rb_io_writer w;
-    rb_message why = {""};
     if (access("/dev/full", W_OK) != 0)
         skip();
-    CHECK_STATUS(rb_io_writer_open("/dev/full", &w, &why), RB_OK);
+    CHECK_OK(rb_io_writer_open("/dev/full", &w, &heard));
     fputs("lost", w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
-    assert_true(strlen(why.text) > 0);
+    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
+    assert_true(strlen(heard.text) > 0);
 }
 
 TEST(stdout_is_not_closed)
 {
     rb_io_writer w;
-    CHECK_STATUS(rb_io_writer_open("-", &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open("-", &w, NULL));
     assert_ptr_equal(w.file, stdout);
-    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
-    CHECK_STATUS(rb_io_writer_open(NULL, &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_commit(&w, NULL));
+    CHECK_OK(rb_io_writer_open(NULL, &w, NULL));
     rb_io_writer_abandon(&w);
     assert_true(printf("# stdout is still open\n") > 0);
 }
@@ -287,7 +284,7 @@ TEST_WITH(make_folder, remove_folder, every_call_that_fails_leaves_the_old_file)
             fail_call(all[k].call, all[k].error, 1);
         s = rb_io_writer_open(path, &w, &why);
         if (all[k].opened) {
-            CHECK_STATUS(s, RB_OK);
+            CHECK_OK(s);
             fputs("new", w.file);
             fail_call(all[k].call, all[k].error, 1);
             s = rb_io_writer_commit(&w, &why);
@@ -355,24 +352,23 @@ TEST_WITH(make_folder, remove_folder, names_in_use_are_passed_over)
 TEST(devices_that_fail_are_named)
 {
     rb_io_writer w;
-    rb_message why = {""};
     fail_call("access", EACCES, 1);
-    CHECK_STATUS(rb_io_writer_check("/dev/null", &why), RB_EWRITE);
-    assert_string_equal(why.text, "/dev/null: cannot write: Permission denied");
+    CHECK_STATUS(rb_io_writer_check("/dev/null", &heard), RB_EWRITE);
+    assert_string_equal(heard.text, "/dev/null: cannot write: Permission denied");
     assert_true(calls_succeed());
-    CHECK_STATUS(rb_io_writer_open("/dev/null", &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open("/dev/null", &w, NULL));
     fail_call("fclose", EIO, 1);
-    CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
-    assert_string_equal(why.text, "/dev/null: cannot write: Input/output error");
+    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
+    assert_string_equal(heard.text, "/dev/null: cannot write: Input/output error");
     assert_true(calls_succeed());
     if (access("/dev/full", W_OK) != 0)
         skip();
-    CHECK_STATUS(rb_io_writer_open("/dev/full", &w, NULL), RB_OK);
+    CHECK_OK(rb_io_writer_open("/dev/full", &w, NULL));
     fputs("lost", w.file);
     fflush(w.file); /* its reason is forgotten by the time of the commit */
     fail_call("fclose", EIO, 1);
-    CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
-    assert_string_equal(why.text, "/dev/full: cannot write: write error");
+    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
+    assert_string_equal(heard.text, "/dev/full: cannot write: write error");
     calls_succeed();
 }
 
@@ -385,8 +381,7 @@ TEST_WITH(make_folder, remove_folder, a_reason_that_is_forgotten_is_asked_for_ag
         skip();
     for (int still = 0; still < 2; still++) {
         rb_io_writer w;
-        rb_message why = {""};
-        CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+        CHECK_OK(rb_io_writer_open(path, &w, NULL));
         const int own = dup(fileno(w.file));
         dup2(full, fileno(w.file));
         fputs("lost", w.file);
@@ -396,9 +391,9 @@ TEST_WITH(make_folder, remove_folder, a_reason_that_is_forgotten_is_asked_for_ag
         assert_true(ferror(w.file));
         if (still)
             fail_call("write", ENOSPC, 1);
-        CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
+        CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
         assert_true(calls_succeed());
-        assert_non_null(strstr(why.text, still ? "No space left" : "write error"));
+        assert_non_null(strstr(heard.text, still ? "No space left" : "write error"));
         assert_int_equal(entries(), 0);
     }
     close(full);
@@ -407,31 +402,28 @@ TEST_WITH(make_folder, remove_folder, a_reason_that_is_forgotten_is_asked_for_ag
 TEST_WITH(make_folder, remove_folder, folders_are_made_or_refused)
 {
     char name[4][160], *joined;
-    rb_message why = {""};
     static const char *const below[] = {"below", "below///", "dangling", "no/such"};
     for (int k = 0; k < 4; k++)
         snprintf(name[k], sizeof name[k], "%s/%s", folder, below[k]);
-    CHECK_STATUS(rb_io_folder_check(name[0], NULL), RB_OK);
-    CHECK_STATUS(rb_io_folder_check(name[1], NULL), RB_OK);
-    CHECK_STATUS(rb_io_folder_check("here-there-is-none", NULL), RB_OK);
-    CHECK_STATUS(rb_io_folder_check(name[3], &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, "no/such: cannot write: No such file"));
+    CHECK_OK(rb_io_folder_check(name[0], NULL));
+    CHECK_OK(rb_io_folder_check(name[1], NULL));
+    CHECK_OK(rb_io_folder_check("here-there-is-none", NULL));
+    CHECK_SAYS(rb_io_folder_check(name[3], &heard), RB_EWRITE,
+               "no/such: cannot write: No such file");
     assert_int_equal(entries(), 0);
-    CHECK_STATUS(rb_io_make_folder(name[0], NULL), RB_OK);
-    CHECK_STATUS(rb_io_make_folder(name[0], NULL), RB_OK);
-    CHECK_STATUS(rb_io_folder_check(name[0], NULL), RB_OK);
+    CHECK_OK(rb_io_make_folder(name[0], NULL));
+    CHECK_OK(rb_io_make_folder(name[0], NULL));
+    CHECK_OK(rb_io_folder_check(name[0], NULL));
     fail_call("access", EACCES, 1);
-    CHECK_STATUS(rb_io_folder_check(name[0], &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, "below: cannot write: Permission denied"));
+    CHECK_SAYS(rb_io_folder_check(name[0], &heard), RB_EWRITE,
+               "below: cannot write: Permission denied");
     assert_true(calls_succeed());
     write_line("a file");
-    CHECK_STATUS(rb_io_folder_check(path, &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, "out: cannot write: Not a directory"));
-    CHECK_STATUS(rb_io_make_folder(path, &why), RB_EWRITE);
+    CHECK_SAYS(rb_io_folder_check(path, &heard), RB_EWRITE, "out: cannot write: Not a directory");
+    CHECK_STATUS(rb_io_make_folder(path, &heard), RB_EWRITE);
     assert_int_equal(symlink("nowhere", name[2]), 0);
-    CHECK_STATUS(rb_io_make_folder(name[2], &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, "dangling: cannot write: "));
-    CHECK_STATUS(rb_io_make_folder(name[3], &why), RB_EWRITE);
+    CHECK_SAYS(rb_io_make_folder(name[2], &heard), RB_EWRITE, "dangling: cannot write: ");
+    CHECK_STATUS(rb_io_make_folder(name[3], &heard), RB_EWRITE);
     joined = rb_io_join("a", "b.txt");
     assert_string_equal(joined, "a/b.txt");
     free(joined);

@@ -92,9 +92,7 @@ TEST(the_solver_is_said)
         assert_int_equal(lcp_family_create(cases[k].kind, cases[k].n, &f), RB_OK);
         SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
         rb_lcp_info info;
-        CHECK_STATUS(
-            rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q}, NULL, z, &info),
-            RB_OK);
+        CHECK_OK(rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q}, NULL, z, &info));
         assert_string_equal(info.solver, cases[k].solver);
         lcp_family_free(&f);
     }
@@ -114,9 +112,9 @@ TEST(coarser_problems_come_first)
             ones[i] = 1.0;
         rb_lcp_info info, plain;
         rb_lcp_options opt = rb_lcp_defaults();
-        CHECK_STATUS(rb_lcp_newton(&f.M, f.q, NULL, z, &info), RB_OK);
+        CHECK_OK(rb_lcp_newton(&f.M, f.q, NULL, z, &info));
         opt.start = ones; /* no coarser problem */
-        CHECK_STATUS(rb_lcp_newton(&f.M, f.q, &opt, same, &plain), RB_OK);
+        CHECK_OK(rb_lcp_newton(&f.M, f.q, &opt, same, &plain));
         CHECK_TRUE(2 * info.iters < plain.iters, "%d systems, %d without coarser problems",
                    info.iters, plain.iters);
         for (int i = 0; i < f.n; i++)
@@ -178,15 +176,15 @@ TEST(options_reach_the_methods)
     CHECK_STATUS(rb_lcp_solve("auto", &p, &opt, z, &info), RB_MAXITER);
     assert_int_equal(info.iters, 15);
     opt.max_iters = 0;
-    CHECK_STATUS(rb_lcp_solve("auto", &box, &opt, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_solve("auto", &box, &opt, z, &info));
     assert_string_equal(info.solver, "lemke-sparse");
     CHECK_STATUS(rb_lcp_solve("newton", &box, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "bounds"));
     CHECK_STATUS(rb_lcp_solve("simplex", &p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "expected auto, lemke"));
-    CHECK_STATUS(rb_lcp_solve("auto", &p, NULL, z, NULL), RB_OK);
+    CHECK_OK(rb_lcp_solve("auto", &p, NULL, z, NULL));
     opt.start = z; /* of the solution: one system confirms it */
-    CHECK_STATUS(rb_lcp_solve("auto", &p, &opt, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_solve("auto", &p, &opt, z, &info));
     assert_string_equal(info.solver, "newton");
     assert_int_equal(info.iters, 1);
     opt.start = NULL;
@@ -217,7 +215,7 @@ TEST(short_memory_is_reported)
             if (s == RB_ENOMEM)
                 assert_non_null(strstr(info.msg.text, "memory"));
         }
-        CHECK_STATUS(s, RB_OK);
+        CHECK_OK(s);
         lcp_family_free(&f);
     }
 }

@@ -41,7 +41,7 @@ static double natural_residual(const problem *p, const double *z)
 static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z, rb_lcp_info *info)
 {
     OWNED(rb_sparse) M;
-    CHECK_STATUS(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M));
     const rb_status s =
         rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p->q, p->lower, p->upper}, opt, z, info);
     return s;
@@ -92,8 +92,8 @@ TEST(without_boxes_it_is_the_lcp)
     rb_lcp_info info;
     for (int k = 0; k < 300; k++) {
         positive_definite(1 + k % N, &p);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL), RB_OK);
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL));
+        CHECK_OK(solve(&p, NULL, z, &info));
         const double size = 1.0 + rb_norm_inf((size_t)p.n, want);
         CHECK_MAX(natural_residual(&p, z), 1e-12 * size, "problem %d", k);
         CHECK_MAX(info.res, 1e-12 * size, "problem %d", k);
@@ -108,7 +108,7 @@ TEST(the_floor_is_of_magnitudes)
     const double M[4] = {3.0, -1.0, 2.0, 0.5}, q[2] = {6.0, -8.0}, z[2] = {-2.0, 1.0};
     double room[2];
     OWNED(rb_sparse) sparse;
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &sparse), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &sparse));
     CHECK_REL(rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
               14e-14, 1e-12, "|3 (-2)| + |2| + 6");
 }
@@ -121,7 +121,7 @@ TEST(boxes_of_all_kinds_are_solved)
     for (int k = 0; k < 600; k++) {
         positive_definite(1 + k % N, &p);
         random_boxes(&p, 5);
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         for (int i = 0; i < p.n; i++)
@@ -212,7 +212,7 @@ TEST(finite_boxes_are_solved_for_every_matrix)
         for (int i = 0; i < p.n; i++)
             p.q[i] = uniform();
         random_boxes(&p, 1);
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         assert_true(is_enumerated(&p, z, &solutions));
@@ -230,7 +230,7 @@ TEST(open_boxes_have_the_enumerated_solution)
         int solutions;
         positive_definite(1 + k % 6, &p);
         random_boxes(&p, 5);
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         assert_true(is_enumerated(&p, z, &solutions));
     }
 }
@@ -252,7 +252,7 @@ TEST(integers_full_of_ties_do_not_cycle)
             p.lower[i] = 0.0;
             p.upper[i] = 1.0 + (uniform() > 0.0);
         }
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
     }
 }
@@ -265,12 +265,12 @@ TEST(the_rule_decides_whether_kostreva_cycles)
     double z[3];
     rb_lcp_info info;
     no_boxes(&p);
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+    CHECK_OK(solve(&p, NULL, z, &info));
     for (int i = 0; i < 3; i++)
         CHECK_REL(z[i], 1.0 / 3.0, 1e-15, "z(%d)", i + 1);
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = 20;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+    CHECK_OK(solve(&p, &opt, z, &info));
     opt.rule = RB_LCP_FIRST_INDEX;
     CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
 }
@@ -341,7 +341,7 @@ TEST(every_point_of_the_path_solves_with_a_cover)
         for (int i = 0; i < p.n; i++)
             cover[i] = 1.5 + uniform();
         own = (path){.p = &p, .cover = cover};
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
         assert_int_equal(info.iters, own.count);
         if (own.count == 0)
             continue;
@@ -369,8 +369,8 @@ TEST(a_cover_is_that_of_both_halves_of_a_free_z)
             if (i % 3 == 0)
                 p.lower[i] = -INFINITY;
         }
-        CHECK_STATUS(solve(&p, NULL, want, NULL), RB_OK);
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, want, NULL));
+        CHECK_OK(solve(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "order %d", p.n);
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(z[i], want[i], 1e-10, "order %d, z(%d)", p.n, i + 1);
@@ -410,7 +410,7 @@ TEST(a_path_through_ties_meets_no_basis_twice)
         }
         no_boxes(&p);
         own = (path){.p = &p};
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
         for (int i = 1; i < own.count; i++)
             for (int j = 0; j < i; j++)
                 if (own.basis[i] == own.basis[j])
@@ -454,7 +454,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
         opt.start = from;
         opt.trace_context = &own;
         own = (path){.p = &p};
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
 
         other = p;
         for (int i = 0; i < p.n; i++) {
@@ -468,7 +468,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
         opt.start = there;
         opt.trace_context = &theirs;
         theirs = (path){.p = &other};
-        CHECK_STATUS(solve(&other, &opt, at, &info), RB_OK);
+        CHECK_OK(solve(&other, &opt, at, &info));
         check_same_path(&own, &theirs, "moved");
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(at[i], z[i] + 3.0 + i % 4, 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -480,7 +480,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
             there[i] = -from[i];
         }
         theirs = (path){.p = &other};
-        CHECK_STATUS(solve(&other, &opt, at, &info), RB_OK);
+        CHECK_OK(solve(&other, &opt, at, &info));
         check_same_path(&own, &theirs, "mirrored");
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(at[i], -z[i], 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -515,7 +515,7 @@ TEST(programs_with_equations_are_solved)
                 p.q[n + i] -= a * x;
             }
         }
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "program %d", k);
     }
@@ -534,14 +534,14 @@ TEST(a_solution_is_recognised_and_a_neighbour_is_near)
     for (int k = 0; k < 200; k++) {
         positive_definite(2 + k % (N - 1), &p);
         random_boxes(&p, 5);
-        CHECK_STATUS(solve(&p, NULL, from, &info), RB_OK);
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, from, &info));
+        CHECK_OK(solve(&p, &opt, z, &info));
         assert_int_equal(info.iters, 0);
         for (int i = 0; i < p.n; i++)
             p.q[i] += 0.05 * uniform();
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         cold += info.iters;
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         warm += info.iters;
@@ -579,12 +579,12 @@ TEST(a_degenerate_solution_is_exactly_at_its_bounds)
     for (int k = 0; k < 100; k++) {
         const double side = k % 2 ? -1.0 : 1.0;
         plant_at_bounds(12, side, &p, want);
-        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_OK(solve(&p, NULL, z, &info));
         for (int i = 0; i < p.n; i++) {
             CHECK_ABS(z[i], want[i], i % 3 ? 0.0 : 1e-12, "problem %d, z(%d)", k, i + 1);
             from[i] = want[i] + (i % 3 == 2 ? 1e-3 * side : 0.0);
         }
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
         assert_int_equal(info.iters, 0);
         for (int i = 0; i < p.n; i++) {
             CHECK_ABS(z[i], want[i], 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -638,7 +638,7 @@ TEST(a_start_that_leads_away_is_given_up)
             from[i] = uniform() > 0.0 ? p.upper[i] : 0.5 * p.upper[i];
         }
         h = (heights){0};
-        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_OK(solve(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
         assert_true(h.paths <= 2);
         gone += h.gone;
@@ -663,7 +663,7 @@ TEST(limits_end_the_path)
     CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, &opt, z, &info),
                  RB_INTERRUPTED);
     opt.seconds = 100.0;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+    CHECK_OK(solve(&p, &opt, z, &info));
 }
 
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
@@ -675,7 +675,7 @@ TEST(a_start_without_basis_begins_at_the_bounds)
     rb_lcp_options opt = rb_lcp_defaults();
     opt.start = from;
     no_boxes(&p);
-    CHECK_STATUS(solve(&p, &opt, z, NULL), RB_OK);
+    CHECK_OK(solve(&p, &opt, z, NULL));
     CHECK_MAX(natural_residual(&p, z), 1e-15, "residual");
 }
 
@@ -698,7 +698,7 @@ static void obstacle(int m, rb_sparse *M, double *q)
                 rb_triplets_add(&t, k, next[s], s ? -1.0 : 4.0);
         }
     }
-    CHECK_STATUS(rb_sparse_from_triplets(&t, M), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&t, M));
 }
 
 TEST(a_large_obstacle_is_solved_as_by_newton)
@@ -708,8 +708,8 @@ TEST(a_large_obstacle_is_solved_as_by_newton)
     OWNED(rb_sparse) M;
     rb_lcp_info info;
     obstacle(SIDE, &M, q);
-    CHECK_STATUS(rb_lcp_newton(&M, q, NULL, want, &info), RB_OK);
-    CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_newton(&M, q, NULL, want, &info));
+    CHECK_OK(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info));
     assert_true(info.iters < SIDE * SIDE);
     CHECK_MAX(info.res, 1e-15, "residual");
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -728,7 +728,7 @@ TEST(a_ray_names_its_variable)
     assert_int_equal(info.ray_variable, 1);
     assert_non_null(strstr(info.msg.text, "z(1)"));
     p.upper[0] = 3.0; /* the box stops it */
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+    CHECK_OK(solve(&p, NULL, z, &info));
     CHECK_REL(z[0], 3.0, 1e-15, "z(1)");
 }
 
@@ -781,7 +781,7 @@ TEST(bad_input_is_named)
     CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
     rb_sparse wide, empty = {.rows = 0};
-    CHECK_STATUS(rb_sparse_from_dense(1, 2, endless, 1, &wide), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(1, 2, endless, 1, &wide));
     CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &wide, .q = p.q}, NULL, z, &info),
                  RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M is 1 by 2"));
@@ -791,7 +791,7 @@ TEST(bad_input_is_named)
     /* of what is no number the residual is none */
     const double one[] = {1.0}, no[] = {NAN};
     OWNED(rb_sparse) M;
-    CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 1, &M), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(1, 1, one, 1, &M));
     assert_true(isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = one}, no, z)));
     assert_true(isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = no}, one, z)));
     assert_true(isnan(rb_lcp_residual(&(rb_lcp_problem){1, one, 1, no}, one, z)));
@@ -809,7 +809,7 @@ TEST(short_memory_is_reported)
     positive_definite(6, &p);
     p.lower[2] = -INFINITY;
     OWNED(rb_sparse) M;
-    CHECK_STATUS(rb_sparse_from_dense(p.n, p.n, p.M, p.n, &M), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(p.n, p.n, p.M, p.n, &M));
     for (int i = 0;; i++) {
         double z[N];
         alloc_fail_after(i);
@@ -835,10 +835,8 @@ TEST(a_large_row_hides_no_wrong_one)
     double z[2];
     OWNED(rb_sparse) M;
     rb_lcp_info info;
-    CHECK_STATUS(
-        rb_sparse_from_triplets(
-            &(rb_triplets){.rows = 2, .cols = 2, .nz = 4, .row = row, .col = col, .x = x}, &M),
-        RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 2, .cols = 2, .nz = 4, .row = row, .col = col, .x = x}, &M));
     assert_int_not_equal(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info),
                          RB_OK);
     assert_int_not_equal(rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, q, lower, upper}, NULL, z, &info),

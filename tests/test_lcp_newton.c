@@ -52,9 +52,9 @@ TEST(p_matrices_are_solved_as_by_lemke)
         OWNED(rb_sparse) a;
         rb_lcp_info info;
         random_problem(n, M, q);
-        CHECK_STATUS(rb_sparse_from_dense(n, n, M, n, &a), RB_OK);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, want, NULL), RB_OK);
-        CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_OK);
+        CHECK_OK(rb_sparse_from_dense(n, n, M, n, &a));
+        CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, want, NULL));
+        CHECK_OK(rb_lcp_newton(&a, q, NULL, z, &info));
         CHECK_MAX(natural_residual(n, M, q, z), 1e-12 * (1.0 + rb_norm_inf((size_t)n, z)),
                   "problem %d", k);
         for (int i = 0; i < n; i++)
@@ -63,7 +63,7 @@ TEST(p_matrices_are_solved_as_by_lemke)
         rb_lcp_options warm = rb_lcp_defaults();
         memcpy(want, z, sizeof want);
         warm.start = want;
-        CHECK_STATUS(rb_lcp_newton(&a, q, &warm, z, &info), RB_OK);
+        CHECK_OK(rb_lcp_newton(&a, q, &warm, z, &info));
         assert_int_equal(info.iters, 1);
     }
 }
@@ -79,8 +79,8 @@ TEST(cycling_newton_steps_end_by_single_ones)
     double z[3];
     rb_lcp_options opt = rb_lcp_defaults();
     opt.start = start;
-    CHECK_STATUS(rb_sparse_from_dense(3, 3, M, 3, &a), RB_OK);
-    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(3, 3, M, 3, &a));
+    CHECK_OK(rb_lcp_newton(&a, q, &opt, z, &info));
     CHECK_MAX(natural_residual(3, M, q, z), 1e-15, "residual");
     opt.max_iters = 1;
     CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_MAXITER);
@@ -93,7 +93,7 @@ TEST(what_it_cannot_solve_is_said)
     OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[2];
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &a));
     CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_SINGULAR);
     assert_non_null(strstr(info.msg.text, "order 1 is singular"));
     CHECK_STATUS(rb_lcp_newton(&a, bad, NULL, z, &info), RB_EINVAL);
@@ -112,9 +112,9 @@ TEST(columns_of_any_scale_are_solved)
     OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[2];
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &a));
     opt.start = both;
-    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_newton(&a, q, &opt, z, &info));
     CHECK_REL(z[0], 1e16, 1e-15, "z(1)");
     CHECK_ABS(z[1], 0.0, 0.0, "z(2)");
 }
@@ -129,18 +129,17 @@ TEST(a_large_row_hides_no_small_one)
     OWNED(rb_sparse) a;
     rb_lcp_info info;
     double z[3];
-    CHECK_STATUS(rb_sparse_from_dense(3, 3, M, 3, &a), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(3, 3, M, 3, &a));
     opt.start = all;
-    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_newton(&a, q, &opt, z, &info));
     CHECK_ABS(z[1], 0.0, 0.0, "z(2)");
     CHECK_REL(z[2], 1.0, 1e-15, "z(3)");
     CHECK_MAX(info.scaled, 1e-15, "residual");
     const double wrong[] = {1e16, 0.0, 1.1};
     double scaled;
     int row;
-    CHECK_STATUS(
-        rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &a, .q = q}, wrong, &scaled, &row),
-        RB_OK);
+    CHECK_OK(
+        rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &a, .q = q}, wrong, &scaled, &row));
     CHECK_REL(scaled, 0.1 / 2.1, 1e-9, "residual of row 3 as a part of its terms");
     assert_int_equal(row, 2);
 }
@@ -156,7 +155,7 @@ TEST(short_memory_is_reported)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     OWNED(rb_sparse) a;
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &a));
     for (int i = 0;; i++) {
         double z[2];
         alloc_fail_after(i);

@@ -89,7 +89,7 @@ static int solve(const problem *p, int k)
     double z[LARGEST];
     OWNED(rb_sparse) M;
     int solved = 0;
-    CHECK_STATUS(rb_sparse_from_dense(n, n, p->scaled, n, &M), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(n, n, p->scaled, n, &M));
     const rb_lcp_mixed_problem sparse = {.M = &M, .q = p->scaled_q};
     for (int solver = 0; solver < 3; solver++) {
         rb_lcp_info info;
@@ -103,7 +103,7 @@ static int solve(const problem *p, int k)
         double scaled;
         solved++;
         CHECK_MAX(judge(p, z), 1e-11 * n, "problem %d, n = %d, solver %d", k, n, solver);
-        CHECK_STATUS(rb_lcp_scaled_residual(&sparse, z, &scaled, NULL), RB_OK);
+        CHECK_OK(rb_lcp_scaled_residual(&sparse, z, &scaled, NULL));
         CHECK_MAX(scaled, 1e-12, "problem %d, n = %d, solver %d", k, n, solver);
     }
     return solved;
@@ -134,12 +134,12 @@ TEST(rows_in_other_units_change_nothing)
         for (int j = 0; j < 3; j++)
             M[i + 3 * j] = row[i] * base[i + 3 * j];
     }
-    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){3, M, 3, q}, NULL, z, &info), RB_OK);
+    CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){3, M, 3, q}, NULL, z, &info));
     CHECK_REL(z[0], 1.0, 1e-14, "z(1)");
     CHECK_REL(z[1], 2.0, 1e-14, "z(2)");
     CHECK_ABS(z[2], 0.0, 0.0, "z(3)");
     OWNED(rb_lcp_solutions) all;
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL), RB_OK);
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL));
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], 1.0, 1e-14, "enumerated z(1)");
     CHECK_REL(all.z[1], 2.0, 1e-14, "enumerated z(2)");
@@ -156,18 +156,16 @@ TEST(the_scaled_residual_has_no_units)
         double plain, scaled;
         int row;
         make(&p, 1, n, 40.0);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, z, NULL), RB_OK);
+        CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, z, NULL));
         z[k % n] += 1e-3;
         for (int i = 0; i < n; i++)
             scaled_z[i] = z[i] / p.col[i];
-        CHECK_STATUS(rb_sparse_from_dense(n, n, p.M, n, &M), RB_OK);
-        CHECK_STATUS(rb_sparse_from_dense(n, n, p.scaled, n, &S), RB_OK);
-        CHECK_STATUS(
-            rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &M, .q = p.q}, z, &plain, NULL),
-            RB_OK);
-        CHECK_STATUS(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &S, .q = p.scaled_q},
-                                            scaled_z, &scaled, &row),
-                     RB_OK);
+        CHECK_OK(rb_sparse_from_dense(n, n, p.M, n, &M));
+        CHECK_OK(rb_sparse_from_dense(n, n, p.scaled, n, &S));
+        CHECK_OK(
+            rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &M, .q = p.q}, z, &plain, NULL));
+        CHECK_OK(rb_lcp_scaled_residual(&(rb_lcp_mixed_problem){.M = &S, .q = p.scaled_q}, scaled_z,
+                                        &scaled, &row));
         assert_true(plain > 1e-5 && scaled > 1e-5);
         assert_true(scaled < 8.0 * plain && plain < 8.0 * scaled);
         assert_in_range(row, 0, n - 1);
@@ -221,8 +219,7 @@ TEST(the_trace_keeps_the_units_of_the_caller)
         opt.trace_context = &f;
         opt.trace_tableau = 1;
         make(&p, k % 2, 2 + k % 13, 40.0);
-        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.scaled, p.n, p.scaled_q}, &opt, z, NULL),
-                     RB_OK);
+        CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.scaled, p.n, p.scaled_q}, &opt, z, NULL));
         CHECK_MAX(f.worst, 1e-12, "problem %d, %d pivots", k, f.pivots);
     }
 }

@@ -49,10 +49,9 @@ static int leave(void **state)
 /* All that is written of one case and read again, as text. */
 static void write_all(char *text, size_t size)
 {
-    rb_api *a = rb_api_create();
-    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    HELD(rb_api) a = rb_api_create();
+    HELD(rb_case) words = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) result = {0};
-    rb_message why = {""};
     char value[64];
     FILE *out = fmemopen(text, size, "w");
     assert_non_null(out);
@@ -72,7 +71,6 @@ static void write_all(char *text, size_t size)
     CHECK_REL(rb_api_number(a, "normal_load"), 0.0105, 1e-9, "load [N/mm]");
     fprintf(out, "%s %s\n", rb_api_value(a, "load", value, sizeof value),
             rb_api_value(a, "young", value, sizeof value));
-    rb_api_free(a);
 
     static const char *const given[][2] = {
         {"support", "halfplane"},         {"formulation", "steady"},
@@ -80,23 +78,22 @@ static void write_all(char *text, size_t size)
         {"contact-elements", "12"},       {"relaxation-time", "0.01,0.1"},
         {"relaxation-ratio", "0.5,0.25"}, {"speed", "12.5"}};
     for (size_t k = 0; k < sizeof given / sizeof *given; k++)
-        CHECK_STATUS(rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
-    CHECK_STATUS(rb_case_set_number(words, "load", 123.456, &why), RB_OK);
-    CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
+        CHECK_OK(rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &heard));
+    CHECK_OK(rb_case_set_number(words, "load", 123.456, &heard));
+    CHECK_OK(rb_case_resolve(words, &heard));
     const rb_resolved_case *c = rb_case_resolved(words);
     CHECK_REL(c->rc.load, 123.456, 1e-15, "load");
-    CHECK_STATUS(rb_case_solve(c, NULL, NULL, &result, &why), RB_OK);
+    CHECK_OK(rb_case_solve(c, NULL, NULL, &result, &heard));
     const rb_rolling_solution *s = &result.solution;
     const rb_report_style style = {0};
-    CHECK_STATUS(rb_report_table(out, &c->rc, s, "rollbem", &style), RB_OK);
+    CHECK_OK(rb_report_table(out, &c->rc, s, "rollbem", &style));
     json_t *inputs = rb_report_json_inputs(words);
-    CHECK_STATUS(rb_report_json_write(out, inputs), RB_OK);
+    CHECK_OK(rb_report_json_write(out, inputs));
     rb_report_notes(out, &c->rc, s, 0);
     assert_int_equal(fclose(out), 0);
-    rb_case_free(words);
 
     OWNED(rb_io_table) t;
-    CHECK_STATUS(rb_io_table_read_columns("gap.txt", 2, &t, &why), RB_OK);
+    CHECK_OK(rb_io_table_read_columns("gap.txt", 2, &t, &heard));
     CHECK_REL(t.x[1], 0.5, 1e-15, "x");
 }
 

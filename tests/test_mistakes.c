@@ -394,14 +394,13 @@ TEST(doubtful_values_are_noted)
         snprintf(line, sizeof line, "%s --json --quiet", all[k][0]);
         rollbem(line);
         assert_string_equal(err, "");
-        json_t *root = json_loads(out, 0, NULL);
+        HELD(json_t) root = json_loads(out, 0, NULL);
         int found = 0;
         size_t i;
         json_t *text;
         json_array_foreach(json_object_get(root, "notes"), i, text) found |=
             strstr(json_string_value(text), all[k][1]) != NULL;
         assert_true(found);
-        json_decref(root);
     }
 }
 

@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+HELD_TYPE(json_t, json_decref)
+
 enum { N = 20 };
 
 static double arrays[9][N];
@@ -159,19 +161,17 @@ TEST(json_holds_the_same_numbers)
 TEST(no_number_is_null)
 {
     const double bad[] = {NAN, INFINITY, -INFINITY, 1.0};
-    json_t *list = rb_report_json_numbers(4, bad);
+    HELD(json_t) list = rb_report_json_numbers(4, bad);
     for (int i = 0; i < 3; i++)
         assert_true(json_is_null(json_array_get(list, (size_t)i)));
     assert_true(json_is_real(json_array_get(list, 3)));
-    json_decref(list);
     assert_int_equal(rb_report_json_write(stdout, NULL), RB_ENOMEM);
 }
 
 TEST(command_that_is_not_utf8)
 {
-    json_t *root = rb_report_json_start("rollbem \xff");
+    HELD(json_t) root = rb_report_json_start("rollbem \xff");
     assert_string_equal(json_string_value(json_object_get(root, "command")), "rollbem \\xff");
-    json_decref(root);
 }
 
 /* ---- For people ------------------------------------------------------------------- */
@@ -227,7 +227,7 @@ static void show(const char *text, int rows, int columns, int colour, char *show
     char copy[4000];
     FILE *file = tmpfile();
     snprintf(copy, sizeof copy, "%s", text);
-    CHECK_STATUS(rb_report_terminal(file, copy, &window), RB_OK);
+    CHECK_OK(rb_report_terminal(file, copy, &window));
     snprintf(shown, size, "%.*s", (int)size - 1, content(file));
     fclose(file);
 }
@@ -353,10 +353,9 @@ TEST(pictures_of_three_kinds)
     const rb_rolling_case rc = rb_rolling_case_defaults();
     for (int k = 0; k < 3; k++) {
         rb_report_picture_kind kind;
-        rb_message why = {""};
         FILE *file = tmpfile();
-        assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &why), RB_OK);
-        assert_int_equal(rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &why),
+        assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &heard), RB_OK);
+        assert_int_equal(rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &heard),
                          RB_OK);
         assert_int_equal(strncmp(content(file), starts[k], strlen(starts[k])), 0);
         fclose(file);
@@ -443,13 +442,12 @@ TEST(history_of_few_steps_is_drawn)
                             .slipping = slipping};
     const rb_rolling_case rc = rb_rolling_case_defaults();
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
-    rb_message why = {""};
     FILE *out = tmpfile();
     h.shift[0] = 0.25;
     h.normal_load[0] = 100.0;
     h.contact_from[0] = -1.0;
     h.contact_to[0] = 3.0;
-    CHECK_STATUS(rb_report_history_picture(out, canvas, &rc, &h, &why), RB_OK);
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
     const char *script = content(out);
     assert_non_null(strstr(script, "set xrange [1:1.000001]\n"));
     assert_non_null(strstr(script, "$data << EOD\n1 0.25 0 0.75 0 0\nEOD"));
@@ -461,7 +459,7 @@ TEST(history_of_few_steps_is_drawn)
     h.time = column[9];
     h.time[1] = 0.5;
     h.contact_from[1] = h.contact_to[1] = NAN;
-    CHECK_STATUS(rb_report_history_picture(out, canvas, &rc, &h, &why), RB_OK);
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
     script = content(out);
     assert_non_null(strstr(script, "Static contact in time}   2 steps"));
     assert_non_null(strstr(script, "$data << EOD\n0 2 100 0\n0.5 0 0 0\nEOD"));
@@ -481,7 +479,6 @@ TEST(what_is_not_known_is_left_out)
     const rb_rolling_case rc = rb_rolling_case_defaults();
     for (int without = 0; without <= 3; without++) {
         rb_rolling_solution s = carter();
-        rb_message why = {""};
         if (without > 0)
             s.force_ratio = NAN;
         if (without > 1)
@@ -491,7 +488,7 @@ TEST(what_is_not_known_is_left_out)
         for (int title = 0; title < 2; title++) {
             FILE *file = tmpfile();
             if (title)
-                CHECK_STATUS(rb_report_picture(file, canvas, &rc, &s, &why), RB_OK);
+                CHECK_OK(rb_report_picture(file, canvas, &rc, &s, &heard));
             else
                 rb_report_summary(file, &s, 80);
             const char *text = content(file);
@@ -524,7 +521,6 @@ TEST(picture_without_contact_says_so)
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s = carter();
-    rb_message why = {""};
     FILE *out = tmpfile();
     memset(s.p, 0, N * sizeof *s.p);
     memset(s.q, 0, N * sizeof *s.q);
@@ -532,7 +528,7 @@ TEST(picture_without_contact_says_so)
     memset(s.zone, 0, N * sizeof *s.zone);
     s.contact = s.stick = s.slipping = 0;
     s.half_width = s.max_pressure = s.normal_load = s.tangential_load = 0.0;
-    CHECK_STATUS(rb_report_picture(out, canvas, &rc, &s, &why), RB_OK);
+    CHECK_OK(rb_report_picture(out, canvas, &rc, &s, &heard));
     const char *script = content(out);
     assert_non_null(strstr(script, "set label 2 '{/*0.95 no contact}'"));
     assert_non_null(strstr(script, "set xrange [-1.25:1.25]")); /* all elements */
@@ -552,7 +548,7 @@ TEST(wear_keeps_some_profiles)
     for (int k = 0; k <= STEPS; k++) {
         way[k] = 10.0 * k;
         depth[k] = 1e-3 * k;
-        CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, k, STEPS), RB_OK);
+        CHECK_OK(rb_report_wear_keep(&w, &s, &h, k, STEPS));
     }
     const int last = RB_REPORT_WEAR_PROFILES - 1;
     assert_int_equal(w.profiles, last + 1);
@@ -567,12 +563,12 @@ TEST(wear_keeps_some_profiles)
             CHECK_ABS(p->depth[i], depth[step], 0.0, "depth");
         }
     }
-    CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, 0, STEPS), RB_OK);
+    CHECK_OK(rb_report_wear_keep(&w, &s, &h, 0, STEPS));
     assert_int_equal(w.profiles, last + 1);
     rb_report_wear_free(&w);
     assert_int_equal(w.profiles, 0);
     for (int k = 0; k < 3; k++) /* few steps: each of them */
-        CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, k, 2), RB_OK);
+        CHECK_OK(rb_report_wear_keep(&w, &s, &h, k, 2));
     assert_int_equal(w.profiles, 3);
     alloc_fail_after(0);
     const rb_status refused = rb_report_wear_keep(&w, &s, &h, 3, 3);
@@ -593,10 +589,9 @@ TEST(profiles_are_drawn)
             const rb_report_canvas canvas = {.kind = RB_REPORT_SVG,
                                              .size = column ? RB_REPORT_85MM : RB_REPORT_OWN_SIZE,
                                              .script = 1};
-            rb_message why = {""};
             char title[100];
             FILE *out = tmpfile();
-            CHECK_STATUS(rb_report_profiles_picture(out, canvas, &profiles, &why), RB_OK);
+            CHECK_OK(rb_report_profiles_picture(out, canvas, &profiles, &heard));
             const char *script = content(out);
             snprintf(title, sizeof title, "Performance profiles}   %d problem%s'", problems,
                      problems > 1 ? "s" : "");
@@ -630,14 +625,13 @@ TEST(start_up_files_are_off)
     setenv("HOME", folder, 1);
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_message why = {""};
     const rb_status status =
-        rb_report_picture(out, (rb_report_canvas){.kind = RB_REPORT_SVG}, &rc, &s, &why);
+        rb_report_picture(out, (rb_report_canvas){.kind = RB_REPORT_SVG}, &rc, &s, &heard);
     setenv("HOME", home, 1);
     unlink(name);
     rmdir(folder);
     fclose(out);
-    CHECK_STATUS(status, RB_OK);
+    CHECK_OK(status);
 }
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
@@ -657,8 +651,7 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 TEST(columns_are_read)
 {
     OWNED(rb_io_table) t;
-    rb_message why = {""};
-    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why), RB_OK);
+    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &heard), RB_OK);
     assert_int_equal(t.rows, 3);
     CHECK_ABS(t.x[2], -0.5, 0.0, "x");
     CHECK_ABS(t.x[3 + 1], 4.0, 0.0, "gap");

@@ -335,7 +335,7 @@ TEST(studies_that_make_no_picture_are_named)
     ragged.n = 5;
     rb_message why = {""};
     CHECK_STATUS(rb_report_study_check(&ragged, 1, &why), RB_EINVAL);
-    CHECK_STATUS(rb_report_study_check(&ragged, 0, &why), RB_OK);
+    CHECK_OK(rb_report_study_check(&ragged, 0, &why));
     alloc_fail_after(0);
     const rb_status s = rb_report_study_check(&ragged, 0, &why);
     alloc_succeed();
@@ -346,9 +346,8 @@ TEST(studies_that_make_no_picture_are_named)
 static const char *drawn(const rb_report_study *s, int map)
 {
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
-    rb_message why = {""};
     FILE *out = tmpfile();
-    CHECK_STATUS(rb_report_study_picture(out, canvas, s, map, &why), RB_OK);
+    CHECK_OK(rb_report_study_picture(out, canvas, s, map, &heard));
     const char *script = content(out);
     fclose(out);
     return script;
@@ -429,29 +428,25 @@ TEST(vtk_files_are_known_by_their_names)
 {
     static const char *const none[] = {"a", "a.vtk", ".", "vti", "a.vti.gz"};
     rb_report_vtk_kind kind;
-    rb_message why;
-    CHECK_STATUS(rb_report_vtk_kind_of("a.b.vti", &kind, &why), RB_OK);
+    CHECK_OK(rb_report_vtk_kind_of("a.b.vti", &kind, &heard));
     assert_int_equal(kind, RB_REPORT_VTI);
-    CHECK_STATUS(rb_report_vtk_kind_of(".vtu", &kind, &why), RB_OK);
+    CHECK_OK(rb_report_vtk_kind_of(".vtu", &kind, &heard));
     assert_int_equal(kind, RB_REPORT_VTU);
     for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
-        CHECK_STATUS(rb_report_vtk_kind_of(none[k], &kind, &why), RB_EINVAL);
-        assert_non_null(strstr(why.text, "expected a name ending in .vti or .vtu"));
+        CHECK_SAYS(rb_report_vtk_kind_of(none[k], &kind, &heard), RB_EINVAL,
+                   "expected a name ending in .vti or .vtu");
     }
 }
 
 /* A case of "name value" pairs, solved. */
 static void solve(const char *const *words, rb_case_result *result)
 {
-    rb_message why = {""};
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
     for (; *words; words += 2)
-        if (rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
-            fail_msg("%s", why.text);
-    if (rb_case_resolve(c, &why) != RB_OK ||
-        rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    rb_case_free(c);
+        CHECK_OK(rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &heard));
+    if (rb_case_resolve(c, &heard) != RB_OK ||
+        rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &heard) != RB_OK)
+        fail_msg("%s", heard.text);
 }
 
 static const char *const wheels[] = {"contact-elements",
@@ -516,14 +511,13 @@ TEST(matrices_are_written_all_or_none)
     solve(wheels, &two);
     solve(planes, &flat);
     dump_job j = {folder, &two.model};
-    rb_message why = {""};
-    CHECK_STATUS(rb_report_dump(folder, &two.model, &why), RB_OK);
+    CHECK_OK(rb_report_dump(folder, &two.model, &heard));
     assert_int_equal(files_in(folder), 12); /* two meshes, H, G; contact, F; LCP: four */
-    CHECK_STATUS(rb_report_dump(folder, &flat.model, &why), RB_OK);
+    CHECK_OK(rb_report_dump(folder, &flat.model, &heard));
     assert_int_equal(files_in(folder), 6);
     assert_true(alloc_fail_every_call(dump, &j) > 10);
-    CHECK_STATUS(rb_report_dump("/dev/null/d", &flat.model, &why), RB_EWRITE);
-    assert_non_null(strstr(why.text, "/dev/null/d: cannot write"));
+    CHECK_SAYS(rb_report_dump("/dev/null/d", &flat.model, &heard), RB_EWRITE,
+               "/dev/null/d: cannot write");
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
 }

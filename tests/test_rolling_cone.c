@@ -22,18 +22,17 @@ TEST(cone_solvers_agree_with_lemke)
     static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
     rb_rolling_case rc = dissimilar_rolling();
     OWNED(rb_rolling_model) model;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         OWNED(rb_contact_state) cone;
-        rb_message why = {""};
-        CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cone), RB_OK);
+        CHECK_OK(rb_contact_state_alloc(model.mesh.n, &cone));
         cone.delta = model.state.delta;
         cone.xi = model.state.xi;
         rb_contact_options by = rb_contact_defaults();
         by.solver = RB_SOLVER_CONE;
         by.cone_solver = rb_friction_cone_solver(names[k]);
-        if (rb_contact_solve(&model.problem, &by, 0, &cone, &why) != RB_OK)
-            fail_msg("%s: %s", names[k], why.text);
+        if (rb_contact_solve(&model.problem, &by, 0, &cone, &heard) != RB_OK)
+            fail_msg("%s: %s", names[k], heard.text);
         assert_int_equal(cone.solver, RB_SOLVER_CONE);
         for (int i = 0; i < cone.n; i++) {
             CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress, "%s: p %d",
@@ -48,17 +47,15 @@ TEST(a_case_may_name_a_cone_solver)
 {
     rb_rolling_case rc = dissimilar_rolling();
     OWNED(rb_rolling_solution) lemke, cone;
-    CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve(&rc, &lemke, NULL));
     rc.contact.solver = RB_SOLVER_CONE;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL);
     rc.contact.cone_solver.name = "nsn-ac"; /* nobody has handed it in */
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "nsn-ac"));
+    CHECK_SAYS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL, "nsn-ac");
     rc.contact.cone_solver = rb_friction_cone_solver("no-such");
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL);
     rc.contact.cone_solver = rb_friction_cone_solver("nsn-ac");
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_OK);
+    CHECK_OK(rb_rolling_solve(&rc, &cone, &heard));
     assert_int_equal(cone.solver, RB_SOLVER_CONE);
     CHECK_MAX(cone.residual, 1e-10, "residual");
     CHECK_ABS(cone.force_ratio, lemke.force_ratio, 1e-9, "Q");
@@ -86,12 +83,12 @@ TEST(separated_elements_carry_nothing)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
     int separated = 0;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
     known = &model.state;
     known_stress = model.problem.stress;
     rc.contact.solver = RB_SOLVER_CONE;
     rc.contact.cone_solver = (rb_contact_cone_solver){"rough", solve_roughly};
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     assert_string_equal(s.cone_solver, "rough");
     CHECK_MAX(s.residual, 1e-10, "residual");
     for (int i = 0; i < s.n; i++)

@@ -312,7 +312,7 @@ TEST(dissimilar_bodies_roll_from_rest)
         rc.mesh = RB_MESH_UNIFORM;
         rc.contact_elements = 240;
         rc.distance = 1.2;
-        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, NULL), RB_OK);
+        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, NULL));
         set_up(&c, b, 121);
         shift_from_rest(&c);
         alternate(&c);

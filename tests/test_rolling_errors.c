@@ -18,10 +18,8 @@ TEST(an_accuracy_is_reached_by_more_elements)
         const rb_rolling_case rc = carter_case(24);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
-        rb_message why = {""};
         int elements;
-        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why) != RB_OK)
-            fail_msg("%s", why.text);
+        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &heard));
         CHECK_MAX(e.scalar.force_ratio, accuracy[k], "Q/(mu P)");
         CHECK_MAX(e.scalar.half_width / s.half_width, accuracy[k], "half-width");
         CHECK_MAX(e.scalar.max_pressure / s.max_pressure, accuracy[k], "p0");
@@ -39,14 +37,12 @@ TEST(little_friction_asks_for_no_more_elements)
     rb_rolling_case rc = carter_case(40);
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
-    rb_message why = {""};
     int elements;
     rc.b.young = rc.a.young / 40.0;
     rc.creep_ratio = NAN;
     rc.force = 0.0;
     rc.mu = 1e-4;
-    if (rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &heard));
     const double unit = rc.mu * s.hertz_half_width / rc.a.radius;
     const double exact = rb_closed_bentall_johnson_slip(fabs(rb_rolling_derive(&rc).dundurs),
                                                         s.hertz_half_width, rc.a.radius);
@@ -63,11 +59,9 @@ TEST(what_is_no_accuracy_is_refused)
         const rb_rolling_case rc = carter_case(20);
         rb_rolling_solution s;
         rb_rolling_errors e;
-        rb_message why = {""};
         int elements;
-        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &why),
-                     RB_EINVAL);
-        assert_non_null(strstr(why.text, "accuracy: expected in (0, 1)"));
+        CHECK_SAYS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &heard),
+                   RB_EINVAL, "accuracy: expected in (0, 1)");
     }
 }
 
@@ -78,14 +72,13 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
         rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
-        rb_message why = {""};
         int elements;
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &why),
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &heard),
                      RB_INACCURATE);
         assert_int_equal(elements, 12);
-        assert_non_null(strstr(why.text, "accuracy 1e-12 not reached with 12 elements"));
-        assert_int_equal(strstr(why.text, "a fitted mesh needs fewer") != NULL, !k);
+        assert_non_null(strstr(heard.text, "accuracy 1e-12 not reached with 12 elements"));
+        assert_int_equal(strstr(heard.text, "a fitted mesh needs fewer") != NULL, !k);
     }
 }
 
@@ -97,11 +90,10 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
         rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors errors;
-        rb_message why = {""};
         int elements;
         alloc_fail_after(count);
         const rb_status status =
-            rb_rolling_solve_to_accuracy(&rc, 0.05, &s, &errors, &elements, &why);
+            rb_rolling_solve_to_accuracy(&rc, 0.05, &s, &errors, &elements, &heard);
         const int failed = alloc_failed();
         alloc_succeed();
         if (failed && elements > 0) {
@@ -123,13 +115,11 @@ TEST(a_given_force_has_an_accurate_creepage)
         rb_rolling_case rc = carter_case(12);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
-        rb_message why = {""};
         int elements;
         rc.creep_ratio = NAN;
         rc.force_ratio = -0.9;
         rc.mesh = k < 3 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
-        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &why) != RB_OK)
-            fail_msg("%s", why.text);
+        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &heard));
         CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
                   accuracy[k % 3], "case %d", k);
     }
@@ -145,7 +135,7 @@ TEST(accuracy_takes_more_steps_too)
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;
     rc.steps = 4;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL));
     assert_true(elements > 12 && elements % 12 == 0);
     rc.contact_elements = elements;
     rc.steps = 4 * elements / 12;

@@ -153,7 +153,7 @@ TEST(patches_of_wheels)
         x[i] = 0.2 * (i - ROWS / 2);
         gap[i] = fmin(gsl_pow_2(x[i] - 2.0), gsl_pow_2(x[i] + 2.0) + 0.01) / 20.0;
     }
-    CHECK_STATUS(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL), RB_OK);
+    CHECK_OK(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL));
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(10);
         rc.a.support = RB_BEM_HUB;

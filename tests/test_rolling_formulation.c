@@ -174,7 +174,6 @@ TEST(softening_has_a_limit)
         most = fmax(most, S(&d, i, N + i));
     release(&d);
     for (int k = 0; k < 2; k++) {
-        rb_message why = {""};
         rc.hardening = -(k ? 1.0001 : 0.9999) / most;
         if (k == 0) {
             d = pose(&rc, NULL);
@@ -182,11 +181,10 @@ TEST(softening_has_a_limit)
             continue;
         }
         d = (posed){.rc = rc};
-        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &why),
-                     RB_EINVAL);
-        assert_non_null(strstr(why.text, "has no unique solution"));
+        CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &heard));
+        CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &heard));
+        CHECK_SAYS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &heard),
+                   RB_EINVAL, "has no unique solution");
         release(&d);
     }
 }

@@ -21,7 +21,7 @@ static rb_rolling_model dissimilar_model(int load_given, int force_given)
         rc.force_ratio = 0.3;
     else
         rc.creep = 1e-3;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
     return model;
 }
 
@@ -57,7 +57,7 @@ static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp, c
     double *gap = rb_alloc((size_t)n, 2), *slip = gap + n;
     OWNED(rb_contact_state) s;
 
-    CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
+    CHECK_OK(rb_contact_state_alloc(n, &s));
     rb_contact_lcp_recover(p, lcp, z, &s);
     rb_contact_kinematics(p, &s, gap, slip);
     for (int i = 0; i < n; i++) {
@@ -86,9 +86,8 @@ static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp, c
 static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form, int mirrored)
 {
     OWNED(rb_contact_lcp) lcp;
-    CHECK_STATUS(
-        rb_contact_lcp_create(&model->problem, form, mirrored, mirrored ? 1e-3 : -1e-3, &lcp, NULL),
-        RB_OK);
+    CHECK_OK(rb_contact_lcp_create(&model->problem, form, mirrored, mirrored ? 1e-3 : -1e-3, &lcp,
+                                   NULL));
     double *z = rb_alloc((size_t)lcp.size, 2), *w = z + lcp.size;
     for (int i = 0; i < lcp.size; i++)
         z[i] = rand() / (double)RAND_MAX;
@@ -134,7 +133,7 @@ TEST(pivots_tell_their_attempt)
         rc.contact.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         model.problem.pivot_trace = keep_attempt;
         model.problem.trace_context = &attempt;
-        CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL), RB_OK);
+        CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL));
         assert_int_equal(attempt, kwak ? 2 : 0);
     }
 }

@@ -101,7 +101,7 @@ TEST(nothing_presses_a_thin_disc_from_its_side)
         OWNED(rb_rolling_model) model = solved_model(&rc);
         const double xy[] = {0.0, 0.3, 0.4, 0.2};
         rb_rolling_stress at[2];
-        CHECK_STATUS(rb_rolling_stress_at(&model, 2, xy, at, NULL), RB_OK);
+        CHECK_OK(rb_rolling_stress_at(&model, 2, xy, at, NULL));
         for (int k = 0; k < 2; k++) {
             CHECK_ABS(at[k].szz, plane ? 0.0 : 0.35 * (at[k].sxx + at[k].syy), 1e-9,
                       "szz of point %d", k);
@@ -128,10 +128,10 @@ TEST(a_thin_disc_shakes_down_below_two_k)
         for (int plane = 0; plane < 2; plane++) {
             rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
             OWNED(rb_rolling_model) model = solved_model(&rc);
-            CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit[plane], NULL), RB_OK);
+            CHECK_OK(rb_rolling_shakedown_find(&model, &limit[plane], NULL));
             rb_rolling_shakedown again = limit[plane];
             again.shear_yield = NAN;
-            CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_OK);
+            CHECK_OK(rb_rolling_shakedown_at(&model, &again, NULL));
             CHECK_REL(again.shear_yield, limit[plane].shear_yield, 1e-12, "again");
             if (k == 0 && plane == 1) {
                 CHECK_REL(limit[1].shear_yield, 0.5 * rb_rolling_derive(&rc).stress, 5e-3, "p0/2");

@@ -42,9 +42,7 @@ static int tabulate(double from, double to, double step, double noise, unsigned 
 static double peak(const rb_rolling_case *rc)
 {
     OWNED(rb_rolling_solution) s;
-    rb_message why = {""};
-    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_solve(rc, &s, &heard));
     const double p0 = s.max_pressure;
     return p0;
 }
@@ -90,7 +88,7 @@ TEST(a_table_of_a_parabola_has_its_zone)
         rc.contact_elements = 40;
         rc.gap = k ? RB_GAP_TABLE : RB_GAP_PARABOLA;
         rc.profile = profile;
-        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
         ends[k][0] = s.x[0] - 0.5 * s.h[0];
         ends[k][1] = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
         CHECK_REL(ends[k][1], 1.3 * rb_rolling_derive(&rc).half_width, 1e-3, "zone");
@@ -184,11 +182,10 @@ TEST(the_spline_passes_through_its_points)
 static void check_refused(int n, const double *u, const double *g, double noise, const char *text)
 {
     rb_rolling_profile *profile;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_profile_create(n, u, g, noise, &profile, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_profile_create(n, u, g, noise, &profile, &heard), RB_EINVAL);
     assert_null(profile);
-    if (!strstr(why.text, text))
-        fail_msg("'%s' does not say '%s'", why.text, text);
+    if (!strstr(heard.text, text))
+        fail_msg("'%s' does not say '%s'", heard.text, text);
 }
 
 TEST(bad_tables_are_refused)
@@ -227,7 +224,6 @@ TEST(contact_beyond_the_table_is_no_result)
     rb_rolling_profile *profile = profile_of(n, x, gap, 0.0);
     for (int k = 0; k < 16; k++) {
         OWNED(rb_rolling_solution) s;
-        rb_message why = {""};
         rb_rolling_case rc = rail();
         rc.gap = RB_GAP_TABLE;
         rc.profile = profile;
@@ -244,9 +240,7 @@ TEST(contact_beyond_the_table_is_no_result)
             rc.mesh = RB_MESH_FITTED;
         if (k & 8)
             rc.a.support = RB_BEM_HUB;
-        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
-        if (!strstr(why.text, "from -5 to 5"))
-            fail_msg("case %d: '%s'", k, why.text);
+        CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "from -5 to 5");
     }
     rb_rolling_profile_free(profile);
 }

@@ -35,7 +35,7 @@ static double modulus(const rb_rolling_case *rc)
 static void check_laws(const rb_rolling_case *rc, const rb_rolling_model *model)
 {
     OWNED(rb_rolling_solution) s;
-    CHECK_STATUS(rb_rolling_model_solution(model, &s, NULL), RB_OK);
+    CHECK_OK(rb_rolling_model_solution(model, &s, NULL));
     const double length = rb_rolling_derive(rc).half_width * s.max_pressure / modulus(rc);
     for (int i = 0; i < s.n; i++) {
         const double g = s.x[i] * s.x[i] / (2.0 * 50.0) + s.un[i] - s.approach;
@@ -53,9 +53,7 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
                   rb_rolling_history *h)
 {
     OWNED(rb_rolling_model) model;
-    rb_message why = {""};
-    if (rb_rolling_history_run(rc, program, NULL, &model, h, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    CHECK_OK(rb_rolling_history_run(rc, program, NULL, &model, h, &heard));
     for (int k = 0; k < h->n; k++)
         CHECK_MAX(h->residual[k], 1e-9, "step %d", k);
     if (rc->elastic_b == 0)
@@ -331,7 +329,7 @@ TEST(bodies_may_change_places)
     rc.b.young = 3000.0;
     rc.b.poisson = 0.4;
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model[k], &h[k], NULL), RB_OK);
+        CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model[k], &h[k], NULL));
         const rb_rolling_body a = rc.a;
         rc.a = rc.b;
         rc.b = a;
@@ -379,10 +377,8 @@ TEST(rolling_becomes_steady)
             OWNED(rb_rolling_model) model;
             OWNED(rb_rolling_history) h;
             OWNED(rb_rolling_solution) s;
-            rb_message why = {""};
             *(control ? &rc.force_ratio : &rc.creep_ratio) = control ? -0.4 : 0.5;
-            if (rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why) != RB_OK)
-                fail_msg("%s", why.text);
+            CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
             for (int k = 0; k < h.n; k++)
                 CHECK_MAX(h.residual[k], 1e-9, "step %d", k);
             CHECK_REL(h.step, model.bodies.f.h[0], 1e-9, "a step is an element");
@@ -390,9 +386,8 @@ TEST(rolling_becomes_steady)
             CHECK_REL(h.time[h.n - 1], 25.0 * h.half_width / rc.speed, 1e-12, "time");
             rc.formulation = RB_STEADY;
             rc.contact_elements = model.mesh.n;
-            CHECK_STATUS(rb_rolling_solve_between(&rc, model.mesh.ends[0],
-                                                  model.mesh.ends[model.mesh.n], &s, &why),
-                         RB_OK);
+            CHECK_OK(rb_rolling_solve_between(&rc, model.mesh.ends[0],
+                                              model.mesh.ends[model.mesh.n], &s, &heard));
             const int last = h.n - 1;
             error[j] = fabs(h.moment[last] / s.resistance_moment - 1.0);
             CHECK_REL(h.tangential_load[last], s.tangential_load, 2e-3 / (1 << 2 * j), "n %d: Q",
@@ -492,7 +487,6 @@ TEST(bad_programs_are_refused)
             .n = 3, .time = bad[k].time, .distance = bad[k].distance, .load = load};
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) h;
-        rb_message why = {""};
         rc.formulation = bad[k].formulation;
         rc.speed = bad[k].formulation == RB_TRANSIENT ? 10.0 : 0.0;
         rc.steps = bad[k].steps;
@@ -504,9 +498,8 @@ TEST(bad_programs_are_refused)
         }
         if (bad[k].hub)
             rc.a.support = RB_BEM_HUB;
-        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why), RB_EINVAL);
-        if (!strstr(why.text, bad[k].word))
-            fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
+        CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL,
+                   bad[k].word);
     }
 }
 
@@ -516,14 +509,12 @@ TEST(one_static_solve_is_refused)
     rb_rolling_case rc = relaxing(24);
     rb_rolling_solution s;
     OWNED(rb_rolling_model) model;
-    rb_message why = {""};
     rc.load = 100.0;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "history"));
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &why), RB_EINVAL);
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "history");
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &heard), RB_EINVAL);
     rc.increments = 3;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
 }
 
 /* At rest and rolling; what there is is freed. */
@@ -551,7 +542,7 @@ TEST(every_failing_allocation_is_noticed)
             if (refused && s == RB_OK)
                 fail_msg("allocation %d failed unnoticed", count);
             if (!refused)
-                CHECK_STATUS(s, RB_OK);
+                CHECK_OK(s);
         }
     }
 }
@@ -607,16 +598,15 @@ TEST(a_step_that_relaxes_too_much_is_said)
         rc.time_step = 0.1;
         const double step = rolls ? 2.0 * rb_rolling_derive(&rc).half_width / 20.0 : 0.1;
         rc.a.memory = (rb_rolling_memory){1, {steps[k].tau * step}, {10.0}};
-        CHECK_STATUS(rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL),
-                     RB_OK);
-        CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
+        CHECK_OK(rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL));
+        CHECK_OK(rb_rolling_model_solution(&model, &s, NULL));
         const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
         const double left = h.normal_load[1] / h.normal_load[0];
-        int said = 0;
+        int noted = 0;
         for (int i = 0; i < list.n; i++)
-            said |= strncmp(list.text[i], "In one step (", 13) == 0 &&
-                    strstr(list.text[i], steps[k].remedy ? steps[k].remedy : "") != NULL;
-        if (said != (steps[k].remedy != NULL))
+            noted |= strncmp(list.text[i], "In one step (", 13) == 0 &&
+                     strstr(list.text[i], steps[k].remedy ? steps[k].remedy : "") != NULL;
+        if (noted != (steps[k].remedy != NULL))
             fail_msg("%d: %d notes: %s", (int)k, list.n, list.n ? list.text[0] : "");
         if (steps[k].remedy ? !(left < 1.0 / 11.0) : !(left > 1.0 / 11.0))
             fail_msg("%d: %g left", (int)k, left);

@@ -140,7 +140,7 @@ TEST(a_model_solves_the_next_case_as_the_first)
         next.contact_elements += k == 5 ? 2 : 0;
         if (k != 3)
             model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_model_reuse(&next, NULL, &model, NULL), RB_OK);
+        CHECK_OK(rb_rolling_model_reuse(&next, NULL, &model, NULL));
         OWNED(rb_rolling_model) fresh = solved_model(&next);
         assert_int_equal(model.state.n, fresh.state.n);
         for (int i = 0; i < fresh.state.n; i++) {
@@ -169,21 +169,20 @@ TEST(elements_may_stand_where_they_are_told)
 {
     rb_rolling_case rc = rolled_plane(RB_STATIC);
     rb_rolling_solution s;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &why), RB_OK);
+    CHECK_OK(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &heard));
     assert_int_equal(s.n, 24);
     CHECK_REL(s.h[3], 0.15, 1e-12, "3.6 mm");
     CHECK_REL(s.normal_load, 500.0, 1e-9, "load");
     rb_rolling_solution_free(&s);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -0.3, 0.3, &s, &why), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -0.3, 0.3, &s, &heard), RB_ZONE);
     CHECK_STATUS(s.status, RB_ZONE);
-    assert_non_null(strstr(why.text, "widen the zone"));
+    assert_non_null(strstr(heard.text, "widen the zone"));
     assert_int_equal(s.n, 24); /* what there is */
     rb_rolling_solution_free(&s);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, 0.3, 0.3, &s, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, 0.3, 0.3, &s, &heard), RB_EINVAL);
     assert_null(s.p);
     rc.mu = -1.0;
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 2.0, &s, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 2.0, &s, &heard), RB_EINVAL);
     assert_null(s.p);
 }
 

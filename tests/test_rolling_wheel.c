@@ -431,7 +431,7 @@ TEST(every_failed_allocation_is_reported)
         if (refused && status == RB_OK)
             fail_msg("allocation %d failed unnoticed", count);
         if (!refused)
-            CHECK_STATUS(status, RB_OK);
+            CHECK_OK(status);
     }
 }
 
@@ -446,7 +446,7 @@ TEST(many_outer_elements_fit_their_own_contact)
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 40;
     rc.outer_elements = 610;
-    CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, NULL));
     const double *ends = model.mesh.ends + (model.mesh.n - rc.contact_elements) / 2;
     const double h = ends[1] - ends[0];
     assert_true(s.boundary_elements > 610);

@@ -98,14 +98,13 @@ TEST(rolling_from_a_shift_is_met)
     OWNED(rb_rolling_mesh) mesh;
     OWNED(rb_rolling_bodies) bodies;
     OWNED(rb_contact_state) x;
-    rb_message why = {""};
     enum { N = 30 };
     double r[2 * N], w[2 * (N + 1)], w_T[N], yielded[N + 1] = {0}, own[N];
 
     rc.contact_elements = N;
-    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &why), RB_OK);
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &why), RB_OK);
-    CHECK_STATUS(rb_contact_state_alloc(N, &x), RB_OK);
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &heard));
+    CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard));
+    CHECK_OK(rb_contact_state_alloc(N, &x));
     for (int step = 0; step < 6; step++) {
         const rb_rolling_past past = {w_T, yielded, 0.08};
         OWNED(rb_contact_problem) p;
@@ -113,9 +112,8 @@ TEST(rolling_from_a_shift_is_met)
         rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
         rc.creep = step ? -0.0004 : NAN;
         rc.force_ratio = step ? NAN : 0.6;
-        CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &why),
-                     RB_OK);
-        CHECK_STATUS(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &why), RB_OK);
+        CHECK_OK(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &heard));
+        CHECK_OK(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &heard));
         double Q = 0.0;
         for (int i = 0; i < N; i++)
             Q += 0.08 * x.q[i];
@@ -269,7 +267,7 @@ TEST(law_holds_by_the_columns)
         const double of[] = {0.0, 0.01, 0.3, 10.0, 1000.0, -0.01, -0.05};
         rc.hardening = of[draw(&seed, 7)] * d.modulus / d.half_width;
         rc.contact.solver = RB_SOLVER_NEWTON;
-        rb_rolling_solution newton = valid(&rc), lemke;
+        OWNED(rb_rolling_solution) newton = valid(&rc), lemke;
         CHECK_MAX(law_violation(&rc, &newton), 1e-7, "case %d", k);
         yielding += newton.yielding > 0;
         for (int i = 1; i < newton.n - 2; i++)
@@ -283,7 +281,6 @@ TEST(law_holds_by_the_columns)
             assert_int_equal(lemke.yielding, newton.yielding);
             rb_rolling_solution_free(&lemke);
         }
-        rb_rolling_solution_free(&newton);
     }
     assert_true(yielding > 20 && both_bounds > 10);
 }
@@ -351,8 +348,7 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
         c->before = calloc((size_t)p->n, sizeof *c->before);
     }
     OWNED(rb_rolling_solution) s;
-    rb_message why;
-    CHECK_STATUS(rb_rolling_model_solution(m, &s, &why), RB_OK);
+    CHECK_OK(rb_rolling_model_solution(m, &s, &heard));
     for (int i = 0; i < p->n; i++) {
         const double tau = m->rc->yield_stress + m->rc->hardening * s.plastic[i];
         const double own = s.plastic[i] - c->before[i];
@@ -378,15 +374,13 @@ TEST(shift_to_and_fro_hardens)
     rb_rolling_program program = {.n = 8, .shift = shift};
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
-    rb_message why = {""};
     seen c = {0};
 
     rc.formulation = RB_STATIC;
     rc.creep = NAN;
     rc.contact_elements = 40;
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, &(rb_rolling_observer){see_step, &c}, &model,
-                                        &history, &why),
-                 RB_OK);
+    CHECK_OK(rb_rolling_history_run(&rc, &program, &(rb_rolling_observer){see_step, &c}, &model,
+                                    &history, &heard));
     assert_int_equal(c.steps, 8);
     assert_true(c.yields > 40);
     free(c.before);
@@ -439,10 +433,7 @@ TEST(forces_find_their_creepage)
 static void refused(rb_rolling_case rc, const char *words)
 {
     OWNED(rb_rolling_solution) s;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
-    if (!strstr(why.text, words))
-        fail_msg("'%s' does not say '%s'", why.text, words);
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, words);
 }
 
 TEST(bad_layers_are_refused)

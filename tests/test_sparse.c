@@ -34,7 +34,7 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
         rb_triplets_add(&t, t.row[k], t.col[k], 0.25);
         dense[t.row[k] + t.col[k] * rows] += 0.25;
     }
-    CHECK_STATUS(rb_sparse_from_triplets(&t, a), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&t, a));
 }
 
 TEST(products_agree_with_the_dense_matrix)
@@ -61,8 +61,8 @@ TEST(products_agree_with_the_dense_matrix)
     for (int j = 0; j < N; j++)
         CHECK_ABS(yt[j], want_t[j], 1e-12, "column %d", j);
 
-    CHECK_STATUS(rb_sparse_transpose(&a, &t), RB_OK);
-    CHECK_STATUS(rb_sparse_transpose(&t, &c), RB_OK);
+    CHECK_OK(rb_sparse_transpose(&a, &t));
+    CHECK_OK(rb_sparse_transpose(&t, &c));
     assert_memory_equal(a.p, c.p, (N + 1) * sizeof *a.p);
     assert_memory_equal(a.i, c.i, (size_t)a.p[N] * sizeof *a.i);
     assert_memory_equal(a.x, c.x, (size_t)a.p[N] * sizeof *a.x);
@@ -72,7 +72,7 @@ TEST(products_agree_with_the_dense_matrix)
     rb_sparse_free(&c);
     rb_sparse_free(&t);
 
-    CHECK_STATUS(rb_sparse_from_dense(M - 1, N, dense, M, &c), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(M - 1, N, dense, M, &c));
     memset(y, 0, sizeof y);
     rb_sparse_apply(1.0, &c, x, 0.0, y);
     rb_sparse_apply(1.0, &a, x, 0.0, want);
@@ -89,7 +89,7 @@ TEST(products_of_matrices_agree_with_dense_ones)
     rb_sparse a, b, c;
     random_pair(M, N, 0.2, &a, left);
     random_pair(N, L, 0.3, &b, right);
-    CHECK_STATUS(rb_sparse_multiply(&a, &b, &c), RB_OK);
+    CHECK_OK(rb_sparse_multiply(&a, &b, &c));
     assert_int_equal(c.rows, M);
     assert_int_equal(c.cols, L);
     for (int j = 0; j < L; j++)
@@ -149,7 +149,7 @@ static void chain(int n, int held, rb_sparse *k)
             rb_triplets_add(&t, i + 1, i, -1.0);
         }
     }
-    CHECK_STATUS(rb_sparse_from_triplets(&t, k), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&t, k));
 }
 
 TEST(ranks_are_seen)
@@ -157,11 +157,11 @@ TEST(ranks_are_seen)
     rb_sparse k;
     int rank;
     chain(60, 1, &k);
-    CHECK_STATUS(rb_sparse_rank(&k, &rank), RB_OK);
+    CHECK_OK(rb_sparse_rank(&k, &rank));
     assert_int_equal(rank, 60);
     rb_sparse_free(&k);
     chain(60, 0, &k);
-    CHECK_STATUS(rb_sparse_rank(&k, &rank), RB_OK);
+    CHECK_OK(rb_sparse_rank(&k, &rank));
     assert_int_equal(rank, 59);
     rb_sparse_free(&k);
 }
@@ -175,16 +175,16 @@ TEST(lu_solves_and_names_singular_matrices)
     random_pair(N, N, 0.2, &a, dense);
     for (int i = 0; i < N; i++)
         x[i] = 1.0 - 0.1 * i;
-    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    CHECK_OK(rb_sparse_lu_create(&a, &lu));
     CHECK_STATUS(rb_sparse_lu_solve(lu, x, y), RB_EINVAL);
     for (int twice = 0; twice < 2; twice++) {
         rb_sparse_apply(1.0, &a, x, 0.0, b);
-        CHECK_STATUS(rb_sparse_lu_factor(lu, &a, &flops), RB_OK);
-        CHECK_STATUS(rb_sparse_lu_solve(lu, b, y), RB_OK);
+        CHECK_OK(rb_sparse_lu_factor(lu, &a, &flops));
+        CHECK_OK(rb_sparse_lu_solve(lu, b, y));
         for (int i = 0; i < N; i++)
             CHECK_ABS(y[i], x[i], 1e-11, "x[%d]", i);
         rb_sparse_apply_transposed(1.0, &a, x, 0.0, b);
-        CHECK_STATUS(rb_sparse_lu_solve_transposed(lu, b, y), RB_OK);
+        CHECK_OK(rb_sparse_lu_solve_transposed(lu, b, y));
         for (int i = 0; i < N; i++)
             CHECK_ABS(y[i], x[i], 1e-11, "transposed, x[%d]", i);
         a.x[3] *= 1.5; /* another matrix of the same pattern */
@@ -193,7 +193,7 @@ TEST(lu_solves_and_names_singular_matrices)
     rb_sparse_lu_free(lu);
 
     chain(N, 0, &k);
-    CHECK_STATUS(rb_sparse_lu_create(&k, &lu), RB_OK);
+    CHECK_OK(rb_sparse_lu_create(&k, &lu));
     k.x[0] = k.x[1] = 0.0;
     CHECK_STATUS(rb_sparse_lu_factor(lu, &k, NULL), RB_SINGULAR);
     rb_sparse_lu_free(lu);
@@ -210,13 +210,13 @@ TEST(cholesky_solves_condenses_and_refuses)
     rb_sparse_cholesky *f;
     chain(N, 1, &k);
     random_pair(N, M, 0.4, &h, dense);
-    CHECK_STATUS(rb_sparse_cholesky_create(&k, &f), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_congruence(f, &h, &w), RB_OK);
+    CHECK_OK(rb_sparse_cholesky_create(&k, &f));
+    CHECK_OK(rb_sparse_cholesky_congruence(f, &h, &w));
     assert_true(rb_sparse_cholesky_flops(f) > 0.0);
     for (int j = 0; j < M; j++)
         x[j] = j - 2.0;
     rb_sparse_apply(1.0, &h, x, 0.0, b);
-    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, y), RB_OK);
+    CHECK_OK(rb_sparse_cholesky_solve(f, b, y));
     rb_sparse_apply(-1.0, &k, y, 1.0, b);
     CHECK_MAX(rb_norm_inf(N, b), 1e-12, "K y = b");
     rb_sparse_apply_transposed(1.0, &h, y, 0.0, want);
@@ -249,23 +249,22 @@ TEST(a_sparse_congruence_takes_little_memory)
     unsigned long pages = 0;
     rb_sparse one, w;
     rb_sparse_cholesky *f;
-    rb_triplets t = {.rows = N, .cols = N};
+    OWNED(rb_triplets) t = {.rows = N, .cols = N};
     FILE *statm = fopen("/proc/self/statm", "r");
     assert_non_null(statm);
     assert_int_equal(fscanf(statm, "%lu", &pages), 1);
     fclose(statm);
     for (int i = 0; i < N; i++)
         rb_triplets_add(&t, i, i, 1.0);
-    CHECK_STATUS(rb_sparse_from_triplets(&t, &one), RB_OK);
-    rb_triplets_free(&t);
-    CHECK_STATUS(rb_sparse_cholesky_create(&one, &f), RB_OK);
+    CHECK_OK(rb_sparse_from_triplets(&t, &one));
+    CHECK_OK(rb_sparse_cholesky_create(&one, &f));
     getrlimit(RLIMIT_AS, &before);
     tight = before;
     tight.rlim_cur = pages * (rlim_t)sysconf(_SC_PAGESIZE) + (200 << 20);
     setrlimit(RLIMIT_AS, &tight);
     const rb_status s = rb_sparse_cholesky_congruence(f, &one, &w);
     setrlimit(RLIMIT_AS, &before);
-    CHECK_STATUS(s, RB_OK);
+    CHECK_OK(s);
     assert_int_equal(w.p[N], N);
     CHECK_ABS(w.x[N - 1], 1.0, 1e-15, "identity");
     rb_sparse_free(&w);
@@ -343,9 +342,9 @@ TEST(suitesparse_without_memory_is_reported)
     rb_sparse_cholesky *f = NULL, *none = NULL;
     double b[] = {1.0, 2.0}, x[2], flops;
     int rank;
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
-    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, dense, 2, &a));
+    CHECK_OK(rb_sparse_cholesky_create(&a, &f));
+    CHECK_OK(rb_sparse_lu_create(&a, &lu));
     SuiteSparse_config.malloc_func = no_memory;
     SuiteSparse_config.calloc_func = no_zeroed_memory;
     SuiteSparse_config.realloc_func = no_more_memory;
@@ -358,7 +357,7 @@ TEST(suitesparse_without_memory_is_reported)
             fail_msg("call %zu: %s", k, rb_status_text(of[k]));
     assert_null(early);
     assert_null(none);
-    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_OK(rb_sparse_cholesky_solve(f, b, x));
     CHECK_REL(x[0], 0.2, 1e-15, "x_0");
     CHECK_REL(x[1], 0.6, 1e-15, "x_1");
     rb_sparse_lu_free(lu);
@@ -421,14 +420,14 @@ TEST(what_looks_diagonal_is_factored)
     rb_sparse a;
     rb_sparse_cholesky *f;
     for (int k = 0; k < 3; k++) {
-        CHECK_STATUS(rb_sparse_from_dense(2, 2, refused[k], 2, &a), RB_OK);
+        CHECK_OK(rb_sparse_from_dense(2, 2, refused[k], 2, &a));
         CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_SINGULAR);
         assert_null(f);
         rb_sparse_free(&a);
     }
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, right, 2, &a), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, right, 2, &a));
+    CHECK_OK(rb_sparse_cholesky_create(&a, &f));
+    CHECK_OK(rb_sparse_cholesky_solve(f, b, x));
     CHECK_REL(x[0], 0.25, 1e-15, "x_0");
     CHECK_REL(x[1], 0.5, 1e-15, "x_1");
     CHECK_REL(rb_sparse_cholesky_entries(f), 2.0, 0.0, "entries");
@@ -444,9 +443,9 @@ TEST(units_of_the_unknowns_do_not_matter)
     double x[2]; /* times the roots of the diagonal: [1 .5; .5 1] (2/3, 2/3) = (1, 1) */
     OWNED(rb_sparse) a;
     rb_sparse_cholesky *f;
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, k, 2, &a), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
-    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, k, 2, &a));
+    CHECK_OK(rb_sparse_cholesky_create(&a, &f));
+    CHECK_OK(rb_sparse_cholesky_solve(f, b, x));
     CHECK_REL(x[0], 2e6 / 3.0, 1e-14, "x_0");
     CHECK_REL(x[1], 2e-6 / 3.0, 1e-14, "x_1");
     rb_sparse_cholesky_free(f);
@@ -457,7 +456,7 @@ TEST(only_square_matrices_have_components)
     const double dense[] = {1.0, 2.0};
     rb_sparse wide, none;
     int count = 7, part[2];
-    CHECK_STATUS(rb_sparse_from_dense(1, 2, dense, 1, &wide), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(1, 2, dense, 1, &wide));
     CHECK_STATUS(rb_sparse_components(&wide, &count, part), RB_EINVAL);
     assert_int_equal(count, 0);
     CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.status = RB_ENOMEM}, &none), RB_ENOMEM);
@@ -472,19 +471,19 @@ TEST(a_factor_without_numbers_solves_nothing)
     double x[2];
     OWNED(rb_sparse) a, none;
     rb_sparse_lu *lu;
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
-    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, dense, 2, &a));
+    CHECK_OK(rb_sparse_lu_create(&a, &lu));
     CHECK_STATUS(rb_sparse_lu_solve(lu, b, x), RB_EINVAL);
     CHECK_STATUS(rb_sparse_lu_solve_once(lu, b, x), RB_EINVAL);
-    CHECK_STATUS(rb_sparse_lu_factor(lu, &a, NULL), RB_OK);
-    CHECK_STATUS(rb_sparse_lu_solve(lu, b, x), RB_OK);
+    CHECK_OK(rb_sparse_lu_factor(lu, &a, NULL));
+    CHECK_OK(rb_sparse_lu_solve(lu, b, x));
     for (int i = 0; i < 2; i++)
         CHECK_REL(x[i], 1.0, 1e-15, "x[%d]", i);
     for (int k = 0; k < a.p[2]; k++)
         a.x[k] = 0.0;
     CHECK_STATUS(rb_sparse_lu_factor(lu, &a, NULL), RB_SINGULAR);
     rb_sparse_lu_free(lu);
-    CHECK_STATUS(rb_sparse_from_dense(2, 2, zero, 2, &none), RB_OK);
+    CHECK_OK(rb_sparse_from_dense(2, 2, zero, 2, &none));
     assert_int_equal(none.p[2], 0);
 }
 

@@ -36,26 +36,24 @@ static const char *const words[CASES][16] = {
 
 static void solve(job *j)
 {
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) r = {0};
-    rb_message why = {""};
 
     rb_case_use_cone_solvers(c, rb_friction_cone_solver);
     j->status = RB_OK;
     for (const char *const *w = words[j->k]; *w && j->status == RB_OK; w += 2)
-        j->status = rb_case_set(c, w[0], w[1], 0, &why);
+        j->status = rb_case_set(c, w[0], w[1], 0, &heard);
     if (j->status == RB_OK)
-        j->status = rb_case_resolve(c, &why);
+        j->status = rb_case_resolve(c, &heard);
     if (j->status == RB_OK)
-        j->status = rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why);
+        j->status = rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard);
     if (j->status != RB_OK)
-        print_error("case %d: %s\n", j->k, why.text);
+        print_error("case %d: %s\n", j->k, heard.text);
     const rb_rolling_solution *s = &r.solution;
     const double number[NUMBERS] = {s->normal_load,  s->tangential_load,   s->max_pressure,
                                     s->half_width,   s->creepage,          s->approach,
                                     s->stick_length, (double)s->iterations};
     memcpy(j->number, number, sizeof number);
-    rb_case_free(c);
 }
 
 /* Transforms round as their buffers lie in memory, which no two calls share. */
@@ -94,7 +92,7 @@ TEST(threads_give_the_same_bytes)
     for (int t = 0; t < THREADS; t++)
         assert_int_equal(pthread_join(thread[t], NULL), 0);
     for (int k = 0; k < CASES; k++) {
-        CHECK_STATUS(alone.jobs[k].status, RB_OK);
+        CHECK_OK(alone.jobs[k].status);
         for (int t = 0; t < THREADS; t++)
             for (int i = 0; i < NUMBERS; i++)
                 CHECK_REL(together[t].jobs[k].number[i], alone.jobs[k].number[i], tolerance(k),

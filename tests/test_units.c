@@ -11,8 +11,7 @@ static double read_unit(const char *text, const char *unit)
 {
     double value = NAN;
     int plain = 1;
-    rb_message why;
-    assert_int_equal(rb_unit_read(text, unit, &value, &plain, &why), RB_OK);
+    assert_int_equal(rb_unit_read(text, unit, &value, &plain, &heard), RB_OK);
     assert_int_equal(plain, 0);
     return value;
 }
@@ -54,7 +53,7 @@ TEST(units_of_no_kind_are_their_own)
     CHECK_ABS(rb_unit_stored(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "stored");
     CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "shown");
     CHECK_ABS(rb_unit_of("furlong", "mm", 2.5), 2.5, 0.0, "of a name");
-    CHECK_STATUS(rb_unit_read("2.5 furlong", "furlong", &value, &plain, NULL), RB_OK);
+    CHECK_OK(rb_unit_read("2.5 furlong", "furlong", &value, &plain, NULL));
     CHECK_ABS(value, 2.5, 0.0, "read");
     assert_int_equal(plain, 0);
     /* seventeen digits stay */
@@ -101,9 +100,9 @@ static const char *unit_of(const char *column)
 static void compare_tables(const char *a_path, const char *b_path, rb_units system)
 {
     OWNED(rb_io_table) a, b;
-    rb_message why = {""};
-    if (rb_io_table_read(a_path, &a, &why) != RB_OK || rb_io_table_read(b_path, &b, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    if (rb_io_table_read(a_path, &a, &heard) != RB_OK ||
+        rb_io_table_read(b_path, &b, &heard) != RB_OK)
+        fail_msg("%s", heard.text);
     assert_int_equal(a.columns, b.columns);
     assert_int_equal(a.rows, b.rows);
     int converted = 0;
@@ -288,9 +287,10 @@ TEST(wear_speaks_every_system)
 {
     static const rb_units system[] = {RB_UNITS_SI, RB_UNITS_INCH};
     static const char *const name[] = {"si", "inch"};
-    json_t *mm = run_json("wear --similar --support halfplane --gap parabola --load "
-                          "200N/mm --slide 1e6mm --wear-coefficient 1e-10 --wear-steps 2 "
-                          "--contact-elements 40 --profile mm.txt");
+    HELD(json_t)
+    mm = run_json("wear --similar --support halfplane --gap parabola --load "
+                  "200N/mm --slide 1e6mm --wear-coefficient 1e-10 --wear-steps 2 "
+                  "--contact-elements 40 --profile mm.txt");
     for (int k = 0; k < 2; k++) {
         char line[600];
         snprintf(line, sizeof line,
@@ -299,7 +299,7 @@ TEST(wear_speaks_every_system)
                  "--contact-elements 40 --units %s --profile p%d.txt --snapshots s%d "
                  "--plot w%d.png",
                  name[k], k, k, k);
-        json_t *other = run_json(line);
+        HELD(json_t) other = run_json(line);
         const char *const column[][2] = {
             {"way", "mm"}, {"worn", "mm2"}, {"work", "N/mm"}, {"max_pressure", "MPa"}};
         /* to a unit in the last place: i386 rounds once more when it stores a number */
@@ -316,7 +316,6 @@ TEST(wear_speaks_every_system)
         CHECK_REL(number_in(inputs, "slide"), rb_unit_shown(system[k], "mm", 1e6), 1e-15, "slide");
         CHECK_REL(number_in(inputs, "wear-coefficient"), rb_unit_shown(system[k], "1/MPa", 1e-10),
                   1e-15, "K");
-        json_decref(other);
         /* the same scar from either file */
         snprintf(line, sizeof line,
                  "test -s w%d.png && head -1 s%d/step_000002.tsv | "
@@ -329,13 +328,11 @@ TEST(wear_speaks_every_system)
                      "--similar --support halfplane --gap parabola "
                      "--load 200 --contact-elements 40 --worn %s%c.txt",
                      m ? "p" : "m", m ? '0' + k : 'm');
-            json_t *worn = run_json(line);
+            HELD(json_t) worn = run_json(line);
             p0[m] = number_in(json_object_get(worn, "summary"), "max_pressure");
-            json_decref(worn);
         }
         CHECK_REL(p0[1], p0[0], 1e-9, "p0 under the scar, %s", name[k]);
     }
-    json_decref(mm);
 }
 
 TEST(ends_of_a_curve_may_have_units)
@@ -460,17 +457,16 @@ TEST(units_have_several_spellings)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         double value = 0.0;
         int plain = 1;
-        CHECK_STATUS(rb_unit_read(cases[k].text, cases[k].unit, &value, &plain, NULL), RB_OK);
+        CHECK_OK(rb_unit_read(cases[k].text, cases[k].unit, &value, &plain, NULL));
         CHECK_REL(value, cases[k].value, 1e-15, "%s", cases[k].text);
         assert_int_equal(plain, 0);
     }
     double value;
     int plain;
-    rb_message why;
-    CHECK_STATUS(rb_unit_read("1,5", "MPa", &value, &plain, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "a decimal point, 1.5;"));
-    CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &why), RB_EINVAL);
-    CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &why), RB_EINVAL);
+    CHECK_SAYS(rb_unit_read("1,5", "MPa", &value, &plain, &heard), RB_EINVAL,
+               "a decimal point, 1.5;");
+    CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &heard), RB_EINVAL);
 }
 
 RUN_TESTS(enter_folder, leave_folder)
