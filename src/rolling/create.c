@@ -68,10 +68,11 @@ static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage, rb_
     return s;
 }
 
-/* On the same equal elements without a matrix: starts on fewer of them. */
-static rb_status roll_freely_large(const rb_rolling_model *model, double *creepage, rb_message *why)
+/* On the same equal elements and with the same bodies, without a matrix unless it comes to
+ * ask for one: starts on fewer elements. */
+static rb_status roll_freely_large(rb_rolling_model *model, double *creepage, rb_message *why)
 {
-    const double *ends = model->mesh.ends;
+    const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
     const rb_rolling_case rc = rb_rolling_without_force(model->rc);
     rb_rolling_plan plan = model->plan;
     rb_rolling_model freely;
@@ -80,9 +81,21 @@ static rb_status roll_freely_large(const rb_rolling_model *model, double *creepa
     plan.elements = model->mesh.n;
     rb_status s = rb_rolling_model_begin(&rc, &plan, &freely, why);
     if (s == RB_OK)
-        s = rb_rolling_mesh_uniform(&rc, &plan, ends[0], ends[model->mesh.n], &mesh, why);
+        s = rb_rolling_mesh_uniform(&rc, &plan, from, to, &freely.mesh, why);
     if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(&rc, &plan, from, to, &mesh, why);
+    if (s == RB_OK) {
+        freely.same_bodies = 1;
+        freely.bodies = model->bodies;
         s = rb_rolling_model_build(&freely, &mesh, why);
+        model->bodies = freely.bodies;
+        freely.bodies = (rb_rolling_bodies){.F = NULL};
+        if (model->bodies.F) {
+            const rb_status t =
+                rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why);
+            s = t == RB_OK ? s : t;
+        }
+    }
     if (s == RB_OK)
         *creepage = freely.state.xi;
     rb_rolling_model_free(&freely);
