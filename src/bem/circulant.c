@@ -30,15 +30,16 @@ void rb_bem_circulant_free(rb_bem_circulant *c)
 }
 
 /* Transform of t_j = -int ln|s| ds over [j - 1/2, j + 1/2]:
- * sum over m of pi/|w| sin(w/2)/(w/2), w = theta + 2 pi m. */
+ * sum over m of pi/|w| sin(w/2)/(w/2), w = theta + 2 pi m; sin(w/2) is sin(theta/2) or
+ * minus that. */
 static double log_kernel(double theta)
 {
     double sum = 0.0;
     for (int m = -4; m <= 4; m++) {
         const double w = theta + 2.0 * M_PI * m;
-        sum += M_PI / fabs(w) * sin(0.5 * w) / (0.5 * w);
+        sum += (m % 2 ? -1.0 : 1.0) / (fabs(w) * w);
     }
-    return sum;
+    return 2.0 * M_PI * sin(0.5 * theta) * sum;
 }
 
 /* f's factor on t_j, from the displacements that differ most: whatever the body, near its
@@ -96,7 +97,7 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
 
     for (int k = 1; k <= size / 2; k++) {
         const double theta = 2.0 * M_PI * k / size, body = scale * log_kernel(theta);
-        const double complex e = cexp(I * theta);
+        const double complex e = cos(theta) + I * sin(theta);
         const double complex x =
             1.0 / ((body * symbol(stencil, e) + own[1] * symbol(local, e)) * size);
         c->inverse[k] = 1.0 / ((body + own[0]) * size);

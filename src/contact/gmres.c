@@ -132,9 +132,10 @@ static double rotate(least_squares *q, int j)
     return fabs(q->g[j + 1]);
 }
 
-/* One cycle from x; *residual: of x before it. */
-static rb_status cycle(const solver *s, const double *b, double tolerance, least_squares *q,
-                       double *x, double *residual)
+/* One cycle from x, none where the residual is `enough`; *residual: of x before it;
+ * *estimate: of x afterwards, but for rounding. */
+static rb_status cycle(const solver *s, const double *b, double tolerance, double enough,
+                       least_squares *q, double *x, double *residual, double *estimate)
 {
     double *v = basis_vector(s, 0);
     int count = 0;
@@ -150,15 +151,16 @@ static rb_status cycle(const solver *s, const double *b, double tolerance, least
     const double length = cblas_dnrm2(size, v, 1);
     if (length > 0.0)
         cblas_dscal(size, 1.0 / length, v, 1);
-    q->g[0] = *residual = length;
-    for (double rest = *residual; count < BASIS && rest > tolerance; count++) {
+    q->g[0] = *residual = *estimate = length;
+    const int iterates = length > enough;
+    for (; iterates && *estimate > tolerance && count < BASIS; count++) {
         double *next = basis_vector(s, count + 1);
         if (!next)
             return RB_ENOMEM;
         precondition(s, s->basis[count], s->work);
         s->l->multiply(s->l->of, s->work, next);
         const int goes_on = orthogonalise(s, count, q->H[count]);
-        rest = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
+        *estimate = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
     }
     if (count > 0) {
         /* x += P^-1 V y; the vector behind the basis is scratch. */
@@ -186,14 +188,18 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scr
     rb_status status = make_solver(linear, scratch, &s);
     const double rounding = 2.0 * DBL_EPSILON * cblas_dnrm2(s.size, b, 1);
     const double tolerance = fmax(TOLERANCE, rounding);
-    double before = INFINITY, residual = INFINITY;
+    /* what the rounding of products leaves, in a 2-norm */
+    const double floor = fmax(tolerance, DBL_EPSILON * s.size * sqrt(s.size));
+    double enough = tolerance, before = INFINITY, residual = INFINITY, estimate = INFINITY;
 
     if (!q)
         status = RB_ENOMEM;
     for (int k = 0; k < CYCLES && status == RB_OK; k++) {
-        status = cycle(&s, b, tolerance, q, x, &residual);
-        if (!(residual > tolerance) || residual > 0.1 * before)
+        status = cycle(&s, b, tolerance, enough, q, x, &residual, &estimate);
+        if (!(residual > enough) || residual > 0.1 * before)
             break;
+        /* more than the estimate is rounding, which no cycle lessens */
+        enough = estimate <= tolerance ? fmax(floor, 0.1 * residual) : tolerance;
         before = residual;
     }
     for (int k = 0; k < BORDERS; k++)

@@ -5,7 +5,7 @@
 enum {
     FIRST = 30,     /* elements at least that the first edges are found with */
     COARSEST = 400, /* elements at most on the first level */
-    LEVEL = 4,      /* binary digits fewer than on the next level: a sixteenth of it */
+    LEVEL = 2,      /* binary digits fewer than on the next level: a quarter of it */
     ROUNDS = 10,
     COARSE_ROUNDS = 3, /* to know an edge to a part of an element */
     BEYOND = 4         /* separated elements kept beyond either edge */
@@ -18,6 +18,8 @@ static const double DRIFT = 0.05;
 /* Elements by which a mesh may miss its own edge on the outer side of a jump: less
  * changes the force by less than a hundredth of its error. */
 static const double MISSED = 0.25;
+/* Elements to which a jump is bracketed before it is known to miss more on either side. */
+static const double BRACKETED = 0.1;
 
 /* The edges of the only patch.  RB_EINVAL: there are several; *known: 0 where it has too
  * few elements to tell. */
@@ -53,14 +55,27 @@ static rb_status solve_on(rb_rolling_model *model, int across, int beyond, doubl
 }
 
 /* One edge, in outward positions: where the next mesh has it; between which positions it
- * is, and by how much the contact was found to reach beyond either, in lengths. */
+ * is, and by how much the contact was found to reach beyond either, in lengths; and where
+ * the mesh before had it. */
 typedef struct {
     double at, inner, outer, beyond_inner, beyond_outer;
+    double before, beyond_before;
+    int is_lost; /* no mesh will have its own edge */
 } edge;
 
 static edge edge_at(double x)
 {
-    return (edge){x, -INFINITY, INFINITY, 0.0, 0.0};
+    return (edge){x, -INFINITY, INFINITY, 0.0, 0.0, NAN, NAN, 0};
+}
+
+/* By how much the edge is beyond that of the mesh, from the last two meshes: the edge
+ * found moves a little against that of the mesh.  Between few elements another round costs
+ * nothing. */
+static double by_secant(const edge *e, double beyond, int across)
+{
+    const double slope = (beyond - e->beyond_before) / (e->at - e->before);
+    const int pays = across >= RB_ROLLING_TRANSFORMS && slope > -1.2 && slope < -0.8;
+    return pays ? -beyond / slope : beyond;
 }
 
 /* Where the mesh should have its edge next.  The edge found hardly depends on that of the
@@ -68,12 +83,15 @@ static edge edge_at(double x)
  * an element between unlike bodies, and no mesh may find its own edge.  Such a jump is
  * bracketed, and the edge stays on its outer side.  Returns how far from rest it is, in
  * elements. */
-static double refine(edge *e, double found, double h)
+static double refine(edge *e, double found, double h, int across)
 {
-    const double beyond = found - e->at, moved = fabs(beyond) / h;
+    const double beyond = found - e->at, moved = fabs(beyond) / h,
+                 next = e->at + by_secant(e, beyond, across);
 
     if (moved < AT_REST)
         return moved;
+    e->before = e->at;
+    e->beyond_before = beyond;
     if (beyond > 0.0 && e->at > e->inner) {
         e->inner = e->at;
         e->beyond_inner = beyond;
@@ -92,7 +110,8 @@ static double refine(edge *e, double found, double h)
         e->at = e->outer;
         return rests ? 0.0 : moved;
     }
-    e->at = jumps || found < e->inner || found > e->outer ? 0.5 * (e->inner + e->outer) : found;
+    e->is_lost = jumps && width < BRACKETED * h && e->beyond_inner > NEAR_REST * h;
+    e->at = jumps || next < e->inner || next > e->outer ? 0.5 * (e->inner + e->outer) : next;
     return moved;
 }
 
@@ -120,8 +139,9 @@ static rb_status align(rb_rolling_model *model, int rounds, double *off, int *re
             left = edge_at(-from);
             right = edge_at(to);
         } else if (s == RB_OK) {
-            moved = fmax(refine(&left, -from, h), refine(&right, to, h));
-            drifts = moved <= NEAR_REST && fabs(moved - before) < DRIFT * before;
+            moved = fmax(refine(&left, -from, h, across), refine(&right, to, h, across));
+            drifts = (moved <= NEAR_REST && fabs(moved - before) < DRIFT * before) ||
+                     left.is_lost || right.is_lost;
             before = moved;
             *off = moved * h;
         }
