@@ -103,50 +103,6 @@ static int has_equal_elements(const json_t *table)
     return 1;
 }
 
-/* Bodies and contact problem on the elements of the table. */
-static rb_status rebuild_problem(rb_certificate *c, const rb_resolved_case *resolved, int n,
-                                 rb_message *why)
-{
-    rb_rolling_model *m = &c->model;
-    double *xh = rb_alloc((size_t)n, 2);
-    rb_status s = xh ? RB_OK : RB_ENOMEM;
-
-    m->equal_instead = c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
-                                  : has_equal_elements(c->table);
-    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, c->table, "h_mm", n, xh + n, why);
-    for (int i = 0; i < n && s == RB_OK; i++)
-        if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
-            s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);
-    if (s == RB_OK)
-        s = rb_rolling_model_of_result(&resolved->rc,
-                                       &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
-    free(xh);
-    return s;
-}
-
-/* Plastic slips from what has yielded, u, against the friction, or against the slip where
- * the interface has softened to nothing. */
-static rb_status read_plastic(rb_certificate *c, rb_message *why)
-{
-    const rb_contact_problem *p = &c->model.problem;
-    rb_contact_state *state = &c->model.state;
-    const rb_status s =
-        rb_certificate_column(c->name, c->table, "plastic_mm", p->n, state->plastic, why);
-    double *u = state->plastic;
-
-    for (int i = 0; i < p->n && s == RB_OK; i++) {
-        const double next = i + 1 < p->n ? u[i + 1] : 0.0, second = i + 2 < p->n ? u[i + 2] : 0.0;
-        const double own = (u[i] - p->recall[0] * next - p->recall[1] * second) / p->own;
-        const double with = state->q[i] != 0.0 ? -state->q[i] : state->lambda[i];
-        u[i] = with < 0.0 ? -own : own;
-    }
-    return s;
-}
-
 /* Gaps and shifts of the printed tractions at an approach and a motion: w, 2 n. */
 static void kinematics_at(const rb_certificate *c, double delta, double xi, double *w)
 {
@@ -220,8 +176,19 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
     }
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "shift_mm", n, m->state.lambda, why);
-    if (s == RB_OK && m->problem.yield)
-        s = read_plastic(c, why);
+    if (s == RB_OK && m->problem.yield) {
+        /* Plastic slips from what has yielded, u, against the friction, or against the slip where
+         * the interface has softened to nothing. */
+        const rb_contact_problem *p = &m->problem;
+        double *u = m->state.plastic;
+        s = rb_certificate_column(c->name, c->table, "plastic_mm", n, u, why);
+        for (int i = 0; i < n && s == RB_OK; i++) {
+            const double next = i + 1 < n ? u[i + 1] : 0.0, second = i + 2 < n ? u[i + 2] : 0.0;
+            const double own = (u[i] - p->recall[0] * next - p->recall[1] * second) / p->own;
+            const double with = m->state.q[i] != 0.0 ? -m->state.q[i] : m->state.lambda[i];
+            u[i] = with < 0.0 ? -own : own;
+        }
+    }
     if (s == RB_OK && !c->summary)
         return fit_motion(c, why);
     m->state.delta = rb_certificate_member(c->summary, "approach");
@@ -272,26 +239,6 @@ void rb_certificate_given(rb_certificate *c, double load)
     else
         rb_certificate_expect(c, "the given approach", 0, delta, p->delta,
                               CONTROLS * fabs(p->delta));
-}
-
-/* Load and force, and what was given of them. */
-static void check_forces(rb_certificate *c)
-{
-    const rb_contact_problem *p = &c->model.problem;
-    const rb_contact_state *x = &c->model.state;
-    const double P = weighted(p->n, p->load_N, x->p, p->load_T, x->q);
-    const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
-    const rb_rolling_derived d = rb_rolling_derive(c->model.rc);
-
-    if (c->summary) {
-        rb_certificate_expect(c, "normal_load", 0, rb_certificate_member(c->summary, "normal_load"),
-                              P, 1e-13 * fabs(P));
-        rb_certificate_expect(c, "tangential_load", 0,
-                              rb_certificate_member(c->summary, "tangential_load"), Q,
-                              1e-13 * fabs(P));
-    }
-    c->model.half_width = P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
-    rb_certificate_given(c, P);
 }
 
 /* ---- Laws, element by element ------------------------------------------------------ */
@@ -346,13 +293,6 @@ static void check_zone(rb_certificate *c, int i, double slack, double yield)
                                 i + 1, fabs(q) - yield, stress);
 }
 
-/* A share of the largest displacement: that of a wheel comes from solving the system of
- * its boundary again, on ends of elements that differ by a rounding. */
-static double rounding_of_displacements(const rb_certificate *c)
-{
-    return c->hierarchical ? 1e-10 : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13 : 2e-12;
-}
-
 /* Of the half-planes that thin layers would be without their bases: what these take away
  * is subtracted from it. */
 static double displacement_without_bases(const rb_certificate *c)
@@ -383,9 +323,14 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
     const double asked = fmax(c->model.rc->contact.tol, p->rounding);
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
-    c->displacement = rounding_of_displacements(c) *
-                      (largest(json_object_get(c->table, "un_mm")) +
-                       largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
+    /* A share of the largest displacement: that of a wheel comes from solving the system of
+     * its boundary again, on ends of elements that differ by a rounding. */
+    const double share = c->hierarchical                             ? 1e-10
+                         : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13
+                                                                     : 2e-12;
+    c->displacement =
+        share * (largest(json_object_get(c->table, "un_mm")) +
+                 largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
     c->tol = (c->hierarchical ? 100.0 : 10.0) * asked +
              c->displacement / fmin(p->gap_length, p->slip_length);
 }
@@ -473,32 +418,6 @@ static double rounding_of_column(const rb_certificate *c, const char *key, int i
     return strcmp(key, "slip") == 0 ? c->displacement / c->again.h[i] : 0.0;
 }
 
-static void compare_table(rb_certificate *c, const json_t *again)
-{
-    const char *key;
-    json_t *list;
-    json_object_foreach((json_t *)again, key, list)
-    {
-        const json_t *printed = json_object_get(c->table, key);
-        if (json_array_size(printed) != json_array_size(list))
-            rb_certificate_violated(c, "%s: %zu numbers, expected %zu", key,
-                                    json_array_size(printed), json_array_size(list));
-        if (strcmp(key, "gap_mm") == 0)
-            continue; /* the laws have it; p and q are those of the last step of a history
-                       */
-        const double most = largest(list);
-        for (size_t i = 0; i < json_array_size(list); i++) {
-            const double want = rb_certificate_number(json_array_get(list, i));
-            rb_certificate_expect(
-                c, key, (int)i + 1, rb_certificate_number(json_array_get(printed, i)), want,
-                1e-9 * fabs(want) + 1e-11 * most + rounding_of_column(c, key, (int)i));
-        }
-    }
-    if (json_object_size(c->table) != json_object_size(again))
-        rb_certificate_violated(c, "table: %zu columns, expected %zu", json_object_size(c->table),
-                                json_object_size(again));
-}
-
 /* How the answer was found, which nothing but solving again would tell. */
 static int is_of_the_way(const char *key)
 {
@@ -508,21 +427,6 @@ static int is_of_the_way(const char *key)
         if (strcmp(key, keys[k]) == 0)
             return 1;
     return 0;
-}
-
-/* A number, or null where there is none; name: its path, element: its place in a list. */
-static void compare_number(rb_certificate *c, const char *name, int element, const json_t *printed,
-                           const json_t *again, rb_certificate_slack *slack)
-{
-    const char *dot = strrchr(name, '.');
-    const double want = rb_certificate_number(again);
-    const int exact = json_is_null(again) || json_is_integer(again);
-
-    if (!printed || (json_is_null(again) && !json_is_null(printed)))
-        rb_certificate_violated(c, "%s is missing, or should be null", name);
-    else
-        rb_certificate_expect(c, name, element, rb_certificate_number(printed), want,
-                              exact ? 0.0 : slack(c, dot ? dot + 1 : name, want));
 }
 
 /* The members of an object, and that there are no others. */
@@ -546,15 +450,24 @@ static void compare_members(rb_certificate *c, const char *name, int element, co
     }
 }
 
+/* name: the path of the member, element: its place in a list. */
 void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
                             const json_t *again, rb_certificate_slack *slack)
 {
     const size_t n = json_array_size(again);
     if (json_is_object(again))
         compare_members(c, name, element, printed, again, slack);
-    else if (json_is_number(again) || json_is_null(again))
-        compare_number(c, name, element, printed, again, slack);
-    else if (json_is_array(again) && json_array_size(printed) == n)
+    else if (json_is_number(again) || json_is_null(again)) {
+        const char *dot = strrchr(name, '.');
+        const double want = rb_certificate_number(again);
+        const int exact = json_is_null(again) || json_is_integer(again);
+
+        if (!printed || (json_is_null(again) && !json_is_null(printed)))
+            rb_certificate_violated(c, "%s is missing, or should be null", name);
+        else
+            rb_certificate_expect(c, name, element, rb_certificate_number(printed), want,
+                                  exact ? 0.0 : slack(c, dot ? dot + 1 : name, want));
+    } else if (json_is_array(again) && json_array_size(printed) == n)
         for (size_t i = 0; i < n; i++)
             rb_certificate_compare(c, name, (int)i + 1, json_array_get(printed, i),
                                    json_array_get(again, i), slack);
@@ -565,35 +478,6 @@ void rb_certificate_compare(rb_certificate *c, const char *name, int element, co
 static double slack_of_summary(const rb_certificate *c, const char *key, double want)
 {
     return 1e-9 * fabs(want) + rounding_of(c, key);
-}
-
-/* Which one of several it was is not known, but what it may be, and what was asked for. */
-static void compare_solver(rb_certificate *c)
-{
-    const rb_contact_options *asked = &c->model.rc->contact;
-    const char *solver = rb_certificate_word(c->summary, "solver");
-    const char *form = rb_certificate_word(c->summary, "lcp_form");
-    const char *pivoted = rb_case_word("lcp-form", RB_LCP_PIVOTED),
-               *kwak = rb_case_word("lcp-form", RB_LCP_KWAK);
-    const int is_plain = strcmp(solver, rb_case_word("solver", RB_SOLVER_LEMKE)) == 0 ||
-                         strcmp(solver, rb_case_word("solver", RB_SOLVER_NEWTON)) == 0;
-
-    if (!is_plain &&
-        !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver.name) == 0))
-        rb_certificate_violated(c, "summary.solver is none that this case may have");
-    if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
-        rb_certificate_violated(c, "summary.lcp_form is none");
-}
-
-/* Elements that slip at the trailing edge, behind those that stick. */
-static int slipping_at_trailing_edge(const rb_rolling_solution *s)
-{
-    int first = 0, last;
-    while (first < s->n && !(s->p[first] > 0.0))
-        first++;
-    for (last = first; last < s->n && s->p[last] > 0.0 && s->zone[last] != RB_ZONE_STICK;)
-        last++;
-    return last - first;
 }
 
 /* The library's own formula against one that shares nothing with it.  What sticks up to
@@ -612,7 +496,14 @@ static rb_status check_hysteresis(rb_certificate *c)
     if (s != RB_OK)
         return s;
     if (printed > waves) {
-        const int slipping = slipping_at_trailing_edge(&c->again);
+        /* Elements that slip at the trailing edge, behind those that stick. */
+        int first = 0, last;
+        while (first < c->again.n && !(c->again.p[first] > 0.0))
+            first++;
+        for (last = first;
+             last < c->again.n && c->again.p[last] > 0.0 && c->again.zone[last] != RB_ZONE_STICK;)
+            last++;
+        const int slipping = last - first;
         if (slipping < UNRESOLVED)
             return RB_OK;
         allowed += 0.4 * (fabs(waves) + fabs(c->again.dissipation)) / slipping / slipping;
@@ -630,9 +521,43 @@ static rb_status compare_results(rb_certificate *c)
     if (s == RB_OK) {
         if (c->summary)
             rb_certificate_compare(c, "summary", 0, c->summary, summary, slack_of_summary);
-        compare_table(c, table);
-        if (c->summary)
-            compare_solver(c);
+        const char *key;
+        json_t *list;
+        json_object_foreach((json_t *)table, key, list)
+        {
+            const json_t *printed = json_object_get(c->table, key);
+            if (json_array_size(printed) != json_array_size(list))
+                rb_certificate_violated(c, "%s: %zu numbers, expected %zu", key,
+                                        json_array_size(printed), json_array_size(list));
+            if (strcmp(key, "gap_mm") == 0)
+                continue; /* the laws have it; p and q are those of the last step */
+            const double most = largest(list);
+            for (size_t i = 0; i < json_array_size(list); i++) {
+                const double want = rb_certificate_number(json_array_get(list, i));
+                rb_certificate_expect(
+                    c, key, (int)i + 1, rb_certificate_number(json_array_get(printed, i)), want,
+                    1e-9 * fabs(want) + 1e-11 * most + rounding_of_column(c, key, (int)i));
+            }
+        }
+        if (json_object_size(c->table) != json_object_size(table))
+            rb_certificate_violated(c, "table: %zu columns, expected %zu",
+                                    json_object_size(c->table), json_object_size(table));
+        if (c->summary) {
+            /* Which solver it was is not known, but which it may be and which was asked for. */
+            const rb_contact_options *asked = &c->model.rc->contact;
+            const char *solver = rb_certificate_word(c->summary, "solver");
+            const char *form = rb_certificate_word(c->summary, "lcp_form");
+            const char *pivoted = rb_case_word("lcp-form", RB_LCP_PIVOTED),
+                       *kwak = rb_case_word("lcp-form", RB_LCP_KWAK);
+            const int is_plain = strcmp(solver, rb_case_word("solver", RB_SOLVER_LEMKE)) == 0 ||
+                                 strcmp(solver, rb_case_word("solver", RB_SOLVER_NEWTON)) == 0;
+
+            if (!is_plain &&
+                !(asked->solver == RB_SOLVER_CONE && strcmp(solver, asked->cone_solver.name) == 0))
+                rb_certificate_violated(c, "summary.solver is none that this case may have");
+            if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
+                rb_certificate_violated(c, "summary.lcp_form is none");
+        }
         rb_certificate_motion(c);
         s = check_hysteresis(c);
     }
@@ -644,7 +569,24 @@ static rb_status compare_results(rb_certificate *c)
 rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved, int n,
                                  rb_message *why)
 {
-    rb_status s = rebuild_problem(c, resolved, n, why);
+    rb_rolling_model *m = &c->model;
+    double *xh = rb_alloc((size_t)n, 2);
+    rb_status s = xh ? RB_OK : RB_ENOMEM;
+
+    m->equal_instead = c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
+                                  : has_equal_elements(c->table);
+    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, c->table, "h_mm", n, xh + n, why);
+    for (int i = 0; i < n && s == RB_OK; i++)
+        if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
+            s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);
+    if (s == RB_OK)
+        s = rb_rolling_model_of_result(&resolved->rc,
+                                       &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
+    free(xh);
     if (s == RB_OK)
         s = read_state(c, why);
     return s == RB_OK ? rb_rolling_model_friction(&c->model, why) : s;
@@ -652,7 +594,23 @@ rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *reso
 
 rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *why)
 {
-    check_forces(c); /* and the half-width, which ratios of the creepage take */
+    /* Load and force, and what was given of them. */
+    const rb_contact_problem *p = &c->model.problem;
+    const rb_contact_state *x = &c->model.state;
+    const double P = weighted(p->n, p->load_N, x->p, p->load_T, x->q);
+    const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
+    const rb_rolling_derived d = rb_rolling_derive(c->model.rc);
+
+    if (c->summary) {
+        rb_certificate_expect(c, "normal_load", 0, rb_certificate_member(c->summary, "normal_load"),
+                              P, 1e-13 * fabs(P));
+        rb_certificate_expect(c, "tangential_load", 0,
+                              rb_certificate_member(c->summary, "tangential_load"), Q,
+                              1e-13 * fabs(P));
+    }
+    /* which ratios of the creepage take */
+    c->model.half_width = P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
+    rb_certificate_given(c, P);
     rb_status s = rb_rolling_model_solution(&c->model, &c->again, why);
     if (s != RB_OK)
         return s;

@@ -97,23 +97,6 @@ static json_t *split_inputs(assessment *j, rb_status *s, rb_message *why)
 
 /* ---- Contact ----------------------------------------------------------------------- */
 
-/* The case, and whether all inputs are those of the result. */
-static rb_status resolve(assessment *j, rb_case *words, const json_t *inputs, rb_message *why)
-{
-    rb_status s = rb_certificate_rebuild_case(j->c.name, inputs, words, why);
-    json_t *hash = s == RB_OK ? rb_report_json_crack_hash(words, &j->crack) : NULL;
-
-    if (s != RB_OK)
-        return s;
-    j->resolved = rb_case_resolved(words);
-    s = hash ? rb_case_crack_check(j->resolved, &j->crack, why) : RB_ENOMEM;
-    if (s == RB_OK && !json_equal(hash, json_object_get(j->root, "input_hash")))
-        rb_certificate_violated(&j->c, "inputs, or a file that they name, are not those "
-                                       "of the result (input_hash)");
-    json_decref(hash);
-    return s;
-}
-
 /* The contact as a result of its own. */
 static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
 {
@@ -226,19 +209,22 @@ static rb_status read_history(assessment *j, rb_message *why)
     double *zone = rb_alloc((size_t)steps, (size_t)n);
     rb_status s = zone ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK)
-        s = read_lists(j, faces, "opening_mm", steps, n, apart, h->D, why);
-    if (s == RB_OK)
-        s = read_lists(j, faces, "sliding_mm", steps, n, apart, h->D + n, why);
-    if (s == RB_OK)
-        s = read_lists(j, faces, "p_MPa", steps, n, apart, h->r, why);
-    if (s == RB_OK)
-        s = read_lists(j, faces, "q_MPa", steps, n, apart, h->r + n, why);
-    if (s == RB_OK && h->wheel)
-        s = read_lists(j, faces, "contact_p_MPa", steps, h->elements, (size_t)h->elements, h->wheel,
-                       why);
-    if (s == RB_OK)
-        s = read_lists(j, faces, "zone", steps, n, (size_t)n, zone, why);
+    const struct {
+        const char *key;
+        int n;
+        size_t apart;
+        double *to;
+    } lists[] = {{"opening_mm", n, apart, h->D},
+                 {"sliding_mm", n, apart, h->D + n},
+                 {"p_MPa", n, apart, h->r},
+                 {"q_MPa", n, apart, h->r + n},
+                 {"contact_p_MPa", h->elements, (size_t)h->elements, h->wheel},
+                 {"zone", n, (size_t)n, zone}};
+
+    for (size_t k = 0; k < sizeof lists / sizeof *lists && s == RB_OK; k++)
+        if (lists[k].to)
+            s = read_lists(j, faces, lists[k].key, steps, lists[k].n, lists[k].apart, lists[k].to,
+                           why);
     if (s == RB_OK)
         s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps, h->fluid_volume,
                                   why);
@@ -308,19 +294,6 @@ static void set_scales(assessment *j)
     j->exact = 10.0 * fmax(printed < 1e-10 ? printed : 1e-10, 1e-13);
 }
 
-/* The contact that feels the crack, on the elements of contact_table. */
-static rb_status build_wheel(assessment *j, rb_message *why)
-{
-    const rb_rolling_solution *of = &j->r.contact.solution;
-    j->gap = rb_alloc((size_t)of->n, 3);
-    if (!j->gap)
-        return RB_ENOMEM;
-    j->slip = j->gap + of->n;
-    j->none = j->slip + of->n;
-    return rb_rolling_model_of_result(
-        &j->resolved->rc, &(rb_rolling_elements){of->n, of->x, of->h, 1}, &j->wheel, why);
-}
-
 static rb_status rebuild(assessment *j, rb_message *why)
 {
     rb_status s = j->crack.unloaded ? RB_OK : read_contact(j, why);
@@ -345,8 +318,17 @@ static rb_status rebuild(assessment *j, rb_message *why)
     s = j->T ? rb_crack_history_alloc(j->body, steps, elements, &j->r.history) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_crack_history_alloc(j->body, steps, elements, &j->again);
-    if (s == RB_OK && elements > 0)
-        s = build_wheel(j, why);
+    if (s == RB_OK && elements > 0) {
+        /* The contact that feels the crack, on the elements of contact_table. */
+        const rb_rolling_solution *of = &j->r.contact.solution;
+        j->gap = rb_alloc((size_t)elements, 3);
+        if (!j->gap)
+            return RB_ENOMEM;
+        j->slip = j->gap + elements;
+        j->none = j->slip + elements;
+        s = rb_rolling_model_of_result(
+            &j->resolved->rc, &(rb_rolling_elements){elements, of->x, of->h, 1}, &j->wheel, why);
+    }
     if (s != RB_OK)
         return s;
     j->hat = j->T + 2 * n;
@@ -501,34 +483,27 @@ static void check_fluid(assessment *j, int k)
                                 p_f, volume, V);
 }
 
-static void set_row(assessment *j, int k)
-{
-    rb_crack_history *to = &j->again;
-    const rb_crack_history *h = &j->r.history;
-    const int n = h->nodes;
-    const double *D = to->D + (size_t)k * 2 * (size_t)n;
-
-    to->x[k] = j->track.x[k % j->track.n];
-    to->K_I[k] = j->per_D * D[n - 1];
-    to->K_II[k] = j->per_D * D[2 * n - 1];
-    if (to->K_I_upper) {
-        to->K_I_upper[k] = j->per_D * D[0];
-        to->K_II_upper[k] = j->per_D * D[n];
-    }
-    for (int i = 0; i < n; i++) {
-        const int zone = h->zone[(size_t)k * (size_t)n + (size_t)i];
-        to->open_length[k] += zone == RB_ZONE_SEPARATED ? j->hat[i] : 0.0;
-        to->stick_length[k] += zone == RB_ZONE_STICK ? j->hat[i] : 0.0;
-    }
-    to->fluid_pressure[k] = h->fluid_pressure[k];
-}
-
 /* Everything that is printed of step k against what was computed. */
 static void compare_step(assessment *j, int k)
 {
-    const rb_crack_history *h = &j->r.history, *again = &j->again;
+    const rb_crack_history *h = &j->r.history;
+    rb_crack_history *again = &j->again;
     const int n = h->nodes;
+    const double *D = again->D + (size_t)k * 2 * (size_t)n;
 
+    again->x[k] = j->track.x[k % j->track.n];
+    again->K_I[k] = j->per_D * D[n - 1];
+    again->K_II[k] = j->per_D * D[2 * n - 1];
+    if (again->K_I_upper) {
+        again->K_I_upper[k] = j->per_D * D[0];
+        again->K_II_upper[k] = j->per_D * D[n];
+    }
+    for (int i = 0; i < n; i++) {
+        const int zone = h->zone[(size_t)k * (size_t)n + (size_t)i];
+        again->open_length[k] += zone == RB_ZONE_SEPARATED ? j->hat[i] : 0.0;
+        again->stick_length[k] += zone == RB_ZONE_STICK ? j->hat[i] : 0.0;
+    }
+    again->fluid_pressure[k] = h->fluid_pressure[k];
     for (int i = 0; i < 2 * n; i++) {
         const size_t at = (size_t)k * 2 * (size_t)n + (size_t)i;
         rb_certificate_expect(&j->c, i < n ? "faces.opening_mm" : "faces.sliding_mm", i % n + 1,
@@ -627,8 +602,18 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
     rb_status s = check_kind(name, root, why);
     if (s == RB_OK)
         inputs = split_inputs(&j, &s, why);
-    if (s == RB_OK)
-        s = resolve(&j, words, inputs, why);
+    if (s == RB_OK) {
+        s = rb_certificate_rebuild_case(name, inputs, words, why);
+        j.resolved = rb_case_resolved(words);
+    }
+    if (s == RB_OK) {
+        json_t *hash = rb_report_json_crack_hash(words, &j.crack);
+        s = hash ? rb_case_crack_check(j.resolved, &j.crack, why) : RB_ENOMEM;
+        if (s == RB_OK && !json_equal(hash, json_object_get(root, "input_hash")))
+            rb_certificate_violated(&j.c, "inputs, or a file that they name, are not those "
+                                          "of the result (input_hash)");
+        json_decref(hash);
+    }
     if (s == RB_OK)
         s = rebuild(&j, &reason);
     if (s == RB_OK && !j.crack.unloaded)
@@ -642,7 +627,6 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
             check_node(&j, k, i);
         if (s == RB_OK) {
             check_fluid(&j, k);
-            set_row(&j, k);
             compare_step(&j, k);
         }
     }

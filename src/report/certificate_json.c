@@ -81,18 +81,6 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     return RB_OK;
 }
 
-/* What the case and its state say nothing of without solving again. */
-static void say_what_is_not_judged(const rb_certificate *c, const json_t *root)
-{
-    const json_t *steps = json_object_get(json_object_get(root, "history"), "derivatives");
-    const int slopes = steps || json_object_get(root, "derivatives"),
-              deviations = json_object_get(root, "tolerances") != NULL;
-
-    if (slopes || deviations)
-        fprintf(c->out, "%s: %s%s%s: not judged\n", c->name, slopes ? "derivatives" : "",
-                slopes && deviations ? " and " : "", deviations ? "tolerances" : "");
-}
-
 /* ---- The case again ---------------------------------------------------------------- */
 
 void rb_certificate_option_text(const json_t *value, char *text, size_t size)
@@ -188,19 +176,6 @@ rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb
     return s;
 }
 
-/* Also of what the answer does not depend on, and of the files that inputs name. */
-static rb_status compare_hash(rb_certificate *c, const json_t *printed, const rb_case *words)
-{
-    json_t *now = rb_report_json_input_hash(words);
-    if (!now)
-        return RB_ENOMEM;
-    if (!json_equal(now, printed))
-        rb_certificate_violated(c, "inputs, or a file that they name, are not those of the "
-                                   "result (input_hash)");
-    json_decref(now);
-    return RB_OK;
-}
-
 /* Two texts in which numbers may differ by one in their second digit: they are rounded. */
 static int is_same_note(const char *a, const char *b)
 {
@@ -264,8 +239,15 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
         s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
-    if (s == RB_OK)
-        s = compare_hash(&c, json_object_get(root, "input_hash"), words);
+    if (s == RB_OK) {
+        /* Also of what the answer does not depend on, and of the files that inputs name. */
+        json_t *now = rb_report_json_input_hash(words);
+        s = now ? RB_OK : RB_ENOMEM;
+        if (now && !json_equal(now, json_object_get(root, "input_hash")))
+            rb_certificate_violated(&c, "inputs, or a file that they name, are not those of the "
+                                        "result (input_hash)");
+        json_decref(now);
+    }
     if (s == RB_OK && history)
         s = rb_certificate_follow(&c, history, rb_case_resolved(words), n, &again, why);
     else if (s == RB_OK)
@@ -278,8 +260,16 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         s = rb_certificate_compare_history(&c, history, &again);
     if (s == RB_OK && json_object_get(root, "maxima"))
         s = rb_certificate_stress(&c, root, why);
-    if (s == RB_OK)
-        say_what_is_not_judged(&c, root);
+    if (s == RB_OK) {
+        /* What the case and its state say nothing of without solving again. */
+        const json_t *steps = json_object_get(json_object_get(root, "history"), "derivatives");
+        const int slopes = steps || json_object_get(root, "derivatives"),
+                  deviations = json_object_get(root, "tolerances") != NULL;
+
+        if (slopes || deviations)
+            fprintf(c.out, "%s: %s%s%s: not judged\n", c.name, slopes ? "derivatives" : "",
+                    slopes && deviations ? " and " : "", deviations ? "tolerances" : "");
+    }
     rb_rolling_history_free(&again);
     return rb_certificate_end(&c, s, why);
 }

@@ -31,29 +31,6 @@ static double difference(const json_t *one, const json_t *other)
     return largest > 0.0 ? most / largest : 0.0;
 }
 
-/* Each must be another one, and the result itself one of them. */
-static void compare_solutions(FILE *out, const char *name, const json_t *root,
-                              rb_report_certificate *found)
-{
-    const json_t *all = json_object_get(root, "solutions");
-    int listed = 0;
-
-    for (size_t k = 0; k < json_array_size(all); k++) {
-        const json_t *one = json_array_get(all, k);
-        listed |= difference(root, one) < SAME;
-        for (size_t j = 0; j < k; j++)
-            if (difference(one, json_array_get(all, j)) < SAME) {
-                fprintf(out, "%s: violated: solutions %zu and %zu are the same\n", name, j + 1,
-                        k + 1);
-                found->violations++;
-            }
-    }
-    if (!listed) {
-        fprintf(out, "%s: violated: the result is none of its solutions\n", name);
-        found->violations++;
-    }
-}
-
 /* The result with the summary and the table of `from`, and without a list. */
 static json_t *result_with(const json_t *root, const json_t *from)
 {
@@ -109,7 +86,24 @@ rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t 
                 : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: expected a summary and a table",
                           label);
     }
-    if (s == RB_OK)
-        compare_solutions(out, name, root, found);
+    if (s == RB_OK) {
+        /* Each must be another one, and the result itself one of them. */
+        int listed = 0;
+
+        for (size_t k = 0; k < json_array_size(all); k++) {
+            const json_t *one = json_array_get(all, k);
+            listed |= difference(root, one) < SAME;
+            for (size_t j = 0; j < k; j++)
+                if (difference(one, json_array_get(all, j)) < SAME) {
+                    fprintf(out, "%s: violated: solutions %zu and %zu are the same\n", name, j + 1,
+                            k + 1);
+                    found->violations++;
+                }
+        }
+        if (!listed) {
+            fprintf(out, "%s: violated: the result is none of its solutions\n", name);
+            found->violations++;
+        }
+    }
     return s;
 }

@@ -100,39 +100,6 @@ static double largest(int n, const double *x)
     return most;
 }
 
-/* How far apart rising and falling creepage are. */
-static void print_hysteresis(FILE *out, const rb_rolling_curve *c)
-{
-    int most = 0;
-    double widest = 0.0;
-    for (int i = 0; i < c->rising && c->n == 2 * c->rising; i++) {
-        const double width = fabs(c->force_ratio[i] - c->force_ratio[c->n - 1 - i]);
-        if (width > widest) {
-            widest = width;
-            most = i;
-        }
-    }
-    if (c->n == 2 * c->rising)
-        fprintf(out,
-                "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
-                "%.3g\n",
-                widest, c->creepage[most], largest(c->n, c->kappa));
-}
-
-static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
-{
-    int points = 0, least = 0;
-    for (int i = 0; i < c->n; i++) {
-        points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);
-        if (c->dissipation[i] < c->dissipation[least])
-            least = i;
-    }
-    if (points > 0)
-        fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n", points,
-                points > 1 ? "s" : "", c->dissipation[least], rb_unit_name(c->units, "N/mm"),
-                c->creepage[least], rb_rolling_below_zero);
-}
-
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
     void *before = rb_locale_begin();
@@ -152,8 +119,23 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     most = i;
             fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
                     c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
-        } else if (c->branch)
-            print_hysteresis(out, c);
+        } else if (c->branch) {
+            /* How far apart rising and falling creepage are. */
+            int most = 0;
+            double widest = 0.0;
+            for (int i = 0; i < c->rising && c->n == 2 * c->rising; i++) {
+                const double width = fabs(c->force_ratio[i] - c->force_ratio[c->n - 1 - i]);
+                if (width > widest) {
+                    widest = width;
+                    most = i;
+                }
+            }
+            if (c->n == 2 * c->rising)
+                fprintf(out,
+                        "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
+                        "%.3g\n",
+                        widest, c->creepage[most], largest(c->n, c->kappa));
+        }
         if (curves->has_errors && speeds)
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
                     largest(c->n, curves->error[k].resistance_ratio));
@@ -163,7 +145,16 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     "coarser meshes)\n",
                     largest(c->n, curves->error[k].force_ratio),
                     largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
-        print_power_below_zero(out, c);
+        int points = 0, least = 0;
+        for (int i = 0; i < c->n; i++) {
+            points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);
+            if (c->dissipation[i] < c->dissipation[least])
+                least = i;
+        }
+        if (points > 0)
+            fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
+                    points, points > 1 ? "s" : "", c->dissipation[least],
+                    rb_unit_name(c->units, "N/mm"), c->creepage[least], rb_rolling_below_zero);
         if (sliding > 0 && curves->mu[k] > 0.0)
             fprintf(out,
                     "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
@@ -220,24 +211,6 @@ enum { FEW = 16 }; /* points: markers show where the curve was computed */
 static int draws_carter(const view *v)
 {
     return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
-}
-
-/* Carter's law as markers; ratio and creepage are proportional. */
-static void write_carter(FILE *out, const view *v)
-{
-    enum { POINTS = 24 };
-    for (int k = 0; k < v->curves->n; k++) {
-        const rb_rolling_curve *c = &v->curves->curve[k];
-        const int last = c->n - 1;
-        fprintf(out, "$carter%d << EOD\n", k);
-        for (int i = 0; i <= POINTS; i++) {
-            const double t = (double)i / POINTS;
-            const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
-            fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
-                    -rb_closed_carter_force_ratio(s) * (v->over_load ? v->curves->mu[k] : 1.0));
-        }
-        fputs("EOD\n", out);
-    }
 }
 
 /* The key stands right below, left above if the curves leave it no room there. */
@@ -362,8 +335,22 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                     has_heat(v) ? c->max_temperature[i] : 0.0);
         fputs("EOD\n", out);
     }
-    if (draws_carter(v))
-        write_carter(out, v);
+    if (draws_carter(v)) {
+        /* Carter's law as markers; ratio and creepage are proportional. */
+        enum { POINTS = 24 };
+        for (int k = 0; k < v->curves->n; k++) {
+            const rb_rolling_curve *c = &v->curves->curve[k];
+            const int last = c->n - 1;
+            fprintf(out, "$carter%d << EOD\n", k);
+            for (int i = 0; i <= POINTS; i++) {
+                const double t = (double)i / POINTS;
+                const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
+                fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
+                        -rb_closed_carter_force_ratio(s) * (v->over_load ? v->curves->mu[k] : 1.0));
+            }
+            fputs("EOD\n", out);
+        }
+    }
     fprintf(out,
             "set lmargin at screen %g\nset rmargin at screen 0.965\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID

@@ -87,34 +87,30 @@ static const char *elements_of(const rb_report_derivatives *d)
     return text[d->all->elements];
 }
 
-static json_t *by_inputs(const rb_report_derivatives *d, int k)
-{
-    json_t *object = json_object();
-
-    for (int i = 0; i < d->all->n; i++) {
-        const rb_case_derivative *of = &d->all->of[i];
-        if (of->status != RB_OK)
-            continue;
-        json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
-        if (of->d.sides == 2) {
-            json_t *both = json_array();
-            rb_report_json_append(&both, value);
-            rb_report_json_append(&both, one_side(d->result[k], d->is_column[k], of, 1));
-            value = both;
-        }
-        rb_report_json_set(&object, of->name, value);
-    }
-    return object;
-}
-
 void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
 {
     json_t *results = json_object(), *without = json_object(), *over_x = json_object();
     char text[160];
 
     for (int k = 0; k < d->n; k++)
-        if (has_result(d, k))
-            rb_report_json_set(&results, d->result[k]->name, by_inputs(d, k));
+        if (has_result(d, k)) {
+            json_t *object = json_object();
+
+            for (int i = 0; i < d->all->n; i++) {
+                const rb_case_derivative *of = &d->all->of[i];
+                if (of->status != RB_OK)
+                    continue;
+                json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
+                if (of->d.sides == 2) {
+                    json_t *both = json_array();
+                    rb_report_json_append(&both, value);
+                    rb_report_json_append(&both, one_side(d->result[k], d->is_column[k], of, 1));
+                    value = both;
+                }
+                rb_report_json_set(&object, of->name, value);
+            }
+            rb_report_json_set(&results, d->result[k]->name, object);
+        }
     rb_report_json_set(root, "derivatives", results);
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)

@@ -20,8 +20,11 @@ static void write_node(FILE *out, const bar_view *v, int i, int j)
     fputs("\n", out);
 }
 
-static void write_mesh(FILE *out, const bar_view *v)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
+    const bar_view *v = view;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double *end = v->step->u + 2 * (v->model->mesh.nodes - 1);
     fputs("$mesh << EOD\n", out);
     for (int j = 0; j <= v->ny; j++, fputs("\n", out))
         for (int i = 0; i <= v->nx; i++)
@@ -39,14 +42,6 @@ static void write_mesh(FILE *out, const bar_view *v)
     for (int j = v->ny; j >= 0; j--)
         write_node(out, v, 0, j);
     fputs("EOD\n", out);
-}
-
-static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
-{
-    const bar_view *v = view;
-    const rb_report_place place = rb_report_place_of(canvas);
-    const double *end = v->step->u + 2 * (v->model->mesh.nodes - 1);
-    write_mesh(out, v);
     /* Reactions per length: a node at an end carries half an element. */
     const double *r = v->step->r, h = v->length / v->nx;
     fputs("$reaction << EOD\n", out);

@@ -32,33 +32,6 @@ static const char *unit_name(const rb_report_fit *f, const char *unit)
 
 /* ---- JSON ---------------------------------------------------------------------------- */
 
-/* A number that the data do not tell is null. */
-static json_t *json_of(const rb_report_fit *f, int j)
-{
-    const rb_case_parameter *p = &f->fit->parameter[j];
-    json_t *object = json_object(), *interval = json_array(), *correlation = json_object();
-
-    rb_report_json_set(&object, "value",
-                       rb_report_json_number(p->identified ? in_units(f, p->unit, p->value) : NAN));
-    for (int k = 0; k < 2; k++)
-        rb_report_json_append(
-            &interval,
-            rb_report_json_number(p->identified ? in_units(f, p->unit, p->interval[k]) : NAN));
-    rb_report_json_set(&object, "interval", interval);
-    for (int i = 0; i < f->fit->n; i++)
-        if (i != j)
-            rb_report_json_set(&correlation, f->fit->parameter[i].name,
-                               rb_report_json_number(p->correlation[i]));
-    rb_report_json_set(&object, "correlation", correlation);
-    rb_report_json_set(
-        &object, "deviation",
-        rb_report_json_number(p->identified ? in_units(f, p->unit, p->deviation) : NAN));
-    rb_report_json_set(&object, "unit", json_string(unit_name(f, p->unit)));
-    rb_report_json_set(&object, "identified", json_boolean(p->identified));
-    rb_report_json_set(&object, "at_bound", json_boolean(p->at_bound));
-    return object;
-}
-
 static json_t *column(const rb_report_fit *f, const double *x, const double *less, const char *unit)
 {
     json_t *list = json_array();
@@ -88,8 +61,32 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
     const char *unit = force_unit(f);
     json_t *parameters = json_object(), *curve = json_object();
 
-    for (int j = 0; j < fit->n; j++)
-        rb_report_json_set(&parameters, fit->parameter[j].name, json_of(f, j));
+    for (int j = 0; j < fit->n; j++) {
+        /* A number that the data do not tell is null. */
+        const rb_case_parameter *p = &f->fit->parameter[j];
+        json_t *object = json_object(), *interval = json_array(), *correlation = json_object();
+
+        rb_report_json_set(
+            &object, "value",
+            rb_report_json_number(p->identified ? in_units(f, p->unit, p->value) : NAN));
+        for (int k = 0; k < 2; k++)
+            rb_report_json_append(
+                &interval,
+                rb_report_json_number(p->identified ? in_units(f, p->unit, p->interval[k]) : NAN));
+        rb_report_json_set(&object, "interval", interval);
+        for (int i = 0; i < f->fit->n; i++)
+            if (i != j)
+                rb_report_json_set(&correlation, f->fit->parameter[i].name,
+                                   rb_report_json_number(p->correlation[i]));
+        rb_report_json_set(&object, "correlation", correlation);
+        rb_report_json_set(
+            &object, "deviation",
+            rb_report_json_number(p->identified ? in_units(f, p->unit, p->deviation) : NAN));
+        rb_report_json_set(&object, "unit", json_string(unit_name(f, p->unit)));
+        rb_report_json_set(&object, "identified", json_boolean(p->identified));
+        rb_report_json_set(&object, "at_bound", json_boolean(p->at_bound));
+        rb_report_json_set(&parameters, fit->parameter[j].name, object);
+    }
     rb_report_json_set(root, "parameters", parameters);
     rb_report_json_set(root, "sentences", sentences(fit));
     rb_report_json_set(root, "level", json_real(fit->level));

@@ -86,27 +86,6 @@ static json_t *columns(const rb_rolling_results *table, int headed, const char *
     return schema;
 }
 
-static json_t *inputs(void)
-{
-    int n;
-    const rb_option *o = rb_case_describe(&n);
-    json_t *properties = json_object();
-    for (int i = 0; i < n; i++) {
-        const int numeric = o[i].kind == RB_OPTION_NUMBER;
-        if (o[i].kind == RB_OPTION_GROUP)
-            continue;
-        json_t *schema = typed(o[i].kind == RB_OPTION_FLAG      ? "boolean"
-                               : o[i].kind == RB_OPTION_INTEGER ? "integer"
-                                                                : "string",
-                               o[i].help);
-        if (numeric)
-            rb_report_json_set(&schema, "type",
-                               json_pack("[s, s, s, s]", "number", "null", "string", "array"));
-        rb_report_json_set(&properties, o[i].name, schema);
-    }
-    return object_of(properties, "every value used, defaults included");
-}
-
 static json_t *summary(void)
 {
     static const char *const words[] = {"status", "formulation", "solver", "lcp_form"};
@@ -149,7 +128,23 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
     rb_report_json_set(&of, "input_hash",
                        typed("string", "of all inputs and the contents of the files they name"));
-    rb_report_json_set(&of, "inputs", inputs());
+    int n;
+    const rb_option *o = rb_case_describe(&n);
+    json_t *properties = json_object();
+    for (int i = 0; i < n; i++) {
+        const int numeric = o[i].kind == RB_OPTION_NUMBER;
+        if (o[i].kind == RB_OPTION_GROUP)
+            continue;
+        json_t *schema = typed(o[i].kind == RB_OPTION_FLAG      ? "boolean"
+                               : o[i].kind == RB_OPTION_INTEGER ? "integer"
+                                                                : "string",
+                               o[i].help);
+        if (numeric)
+            rb_report_json_set(&schema, "type",
+                               json_pack("[s, s, s, s]", "number", "null", "string", "array"));
+        rb_report_json_set(&properties, o[i].name, schema);
+    }
+    rb_report_json_set(&of, "inputs", object_of(properties, "every value used, defaults included"));
     rb_report_json_set(&of, "summary", summary());
     rb_report_json_set(&of, "table",
                        columns(&rb_rolling_solution_columns, 1, "an entry per contact element"));
